@@ -1,0 +1,45 @@
+"""What all parts of the checker share: problems met, trap sites, near matches."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from difflib import get_close_matches
+
+from scanbench.check.program import TrapKind, TrapSite
+from scanbench.problems import Problem, Severity, Span
+
+
+class Rejected(Exception):
+    """A construct was reported as wrong; whoever checks the next one catches it."""
+
+
+@dataclass(slots=True)
+class Report:
+    """Collects problems and trap sites of one check."""
+
+    problems: list[Problem] = field(default_factory=list)
+    traps: list[TrapSite] = field(default_factory=list)
+
+    def error(self, code: str, message: str, span: Span) -> None:
+        problem = Problem(code, message, span)
+        if problem not in self.problems:
+            self.problems.append(problem)
+
+    def warn(self, code: str, message: str, span: Span) -> None:
+        self.problems.append(Problem(code, message, span, Severity.WARNING))
+
+    def reject(self, code: str, message: str, span: Span) -> Rejected:
+        """Reports, and gives what to raise."""
+        self.error(code, message, span)
+        return Rejected()
+
+    def trap(self, kind: TrapKind, span: Span, pou: str, message: str) -> int:
+        """The number of a new trap site: its index plus one."""
+        self.traps.append(TrapSite(kind, span, pou, message))
+        return len(self.traps)
+
+
+def did_you_mean(name: str, known: Iterable[str]) -> str:
+    """` Did you mean ...?` or nothing."""
+    by_upper = {item.upper(): item for item in known}
+    near = get_close_matches(name.upper(), by_upper, n=2, cutoff=0.6)
+    return f" Did you mean {' or '.join(f'`{by_upper[item]}`' for item in near)}?" if near else ""

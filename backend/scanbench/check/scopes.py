@@ -1,0 +1,81 @@
+"""What a name means inside a POU."""
+
+import struct
+from dataclasses import dataclass, field
+
+from scanbench.check.program import Base, Const, Place, Pou
+from scanbench.check.types import SLOT_BYTES, ULINT, Elementary, Kind, Member, Record, Section, StringType, Type
+
+
+@dataclass(slots=True)
+class Scope:
+    """Names visible in one POU, the nearest first: temporaries, instance variables, externals, globals."""
+
+    pou: str
+    globals: Record
+    instance: Record | None = None
+    frame: Record | None = None
+    externals: dict[str, Member] = field(default_factory=dict)
+    constants: tuple[Record, ...] = ()
+    """Records under declaration, for constant expressions."""
+
+    def find(self, name: str) -> tuple[Member, Base, Record] | None:
+        """The member, what its offset counts from, and who owns it."""
+        key = name.upper()
+        for owner in self.constants:
+            if key in owner.members:
+                return owner.members[key], Base.SELF, owner
+        if self.frame is not None and key in self.frame.members:
+            return self.frame.members[key], Base.FRAME, self.frame
+        if self.instance is not None and key in self.instance.members:
+            return self.instance.members[key], Base.SELF, self.instance
+        if key in self.externals:
+            return self.externals[key], Base.IMAGE, self.globals
+        if key in self.globals.members:
+            return self.globals.members[key], Base.IMAGE, self.globals
+        return None
+
+    def names(self) -> list[str]:
+        """Everything that `find` would find, for near matches."""
+        owners = [owner for owner in (self.frame, self.instance, self.globals) if owner is not None]
+        return [member.name for owner in owners for member in owner.members.values()]
+
+
+def place_of(member: Member, base: Base, owner: Record, null_trap: int) -> Place:
+    """Where a variable lives; an in-out lives where its slot refers to."""
+    if member.located:
+        return Place(member.type, Base.IMAGE, member.offset, bit=member.bit, variable="@")
+    prefix = "frame " if base is Base.FRAME else ""
+    variable = f"{prefix}{owner.name}.{member.name}".upper()
+    if member.section is Section.IN_OUT:
+        slot = Place(ULINT, base, member.offset, variable=variable)
+        assert ULINT.size == SLOT_BYTES
+        return Place(member.type, base, 0, slot=slot, null_trap=null_trap)
+    return Place(member.type, base, member.offset, variable=variable)
+
+
+def decode(type: Type, data: bytes) -> Const | None:
+    """A constant from its bytes in the image; None for arrays and structures."""
+    if isinstance(type, StringType):
+        length = int.from_bytes(data[:2], "little")
+        return Const(type, data[2 : 2 + length])
+    if not isinstance(type, Elementary):
+        return None
+    if type.kind is Kind.REAL:
+        return Const(type, struct.unpack("<f" if type.size == 4 else "<d", data)[0])
+    return Const(type, int.from_bytes(data, "little", signed=type.signed))
+
+
+@dataclass(slots=True)
+class Pous:
+    """The POUs that can be called, by upper-case name, and who calls whom."""
+
+    blocks: dict[str, Pou] = field(default_factory=dict)
+    functions: dict[str, Pou] = field(default_factory=dict)
+    uses: dict[Pou, list[Pou]] = field(default_factory=dict)
+
+    def use(self, caller: Pou | None, callee: Pou) -> None:
+        if caller is not None:
+            called = self.uses.setdefault(caller, [])
+            if callee not in called:
+                called.append(callee)

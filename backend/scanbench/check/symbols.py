@@ -1,0 +1,234 @@
+"""Variables by instance path, for tools: `Main.fb1.level`, `Main.a[3]`, and raw addresses: `D100`, `A402.12`, `%MW3`."""
+
+import re
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+from difflib import get_close_matches
+
+from scanbench.check.layout import Layout
+from scanbench.check.program import Program
+from scanbench.check.types import BOOL, ELEMENTARY, ArrayType, Kind, Member, Record, Section, Type
+from scanbench.plcmodel.model import Access
+
+PART = re.compile(r"\s*\.?\s*([^\W\d]\w*)|\s*\[\s*([-\d\s,]+)\]")
+RAW_TYPES = {1: BOOL, 8: ELEMENTARY["BYTE"], 16: ELEMENTARY["WORD"], 32: ELEMENTARY["DWORD"], 64: ELEMENTARY["LWORD"]}
+MAX_MEMBERS = 10_000
+
+
+class UnknownPath(Exception):
+    """Nothing has this path; `near` lists what was perhaps meant."""
+
+    def __init__(self, message: str, near: tuple[str, ...] = ()) -> None:
+        super().__init__(message)
+        self.message = message
+        self.near = near
+
+
+@dataclass(frozen=True, slots=True)
+class Symbol:
+    """A variable and where it lives."""
+
+    path: str
+    name: str
+    type: Type
+    section: str
+    offset: int
+    """In the image; behind the last of `slots`, relative to where that refers to."""
+    bit: int | None = None
+    slots: tuple[int, ...] = ()
+    """Offsets of the in-out slots on the way: the first in the image, each further one relative to its forerunner."""
+    address: str | None = None
+    tool: Access = "write"
+    constant: bool = False
+
+    @property
+    def writable(self) -> bool:
+        return self.tool == "write" and not self.constant and not self.expandable
+
+    @property
+    def expandable(self) -> bool:
+        return isinstance(self.type, ArrayType | Record)
+
+    def locate(self, memory: memoryview | bytes | bytearray) -> tuple[int, int | None] | None:
+        """Byte offset and bit of the value now; None while an in-out on the way is bound to nothing."""
+        base = 0
+        bit = self.bit
+        for slot in self.slots:
+            reference = int.from_bytes(memory[base + slot : base + slot + 8], "little")
+            if reference == 0:
+                return None
+            base = reference & 0xFFFF_FFFF
+            if self.type == BOOL and slot is self.slots[-1] and self.offset == 0:
+                bit = reference >> 32 & 7
+        return base + self.offset, bit
+
+
+def resolve(program: Program, path: str) -> Symbol:
+    """The variable or address of this path; case does not matter."""
+    text = path.strip()
+    first = PART.match(text)
+    root = _root(program, first.group(1)) if first and first.group(1) else None
+    if root is None or first is None:
+        return _raw(program, text)
+    symbol, at = root, first.end()
+    while at < len(text):
+        part = PART.match(text, at)
+        if part is None:
+            raise UnknownPath(f"`{text[at:]}` cannot be read in `{path}`; write a path like Main.fb.a[3].")
+        symbol = _step(program, symbol, part.group(1), part.group(2))
+        at = part.end()
+    return _checked(program, symbol)
+
+
+def members(program: Program, path: str) -> list[Symbol]:
+    """What stands below a path, in order of declaration; below '': program instances and globals."""
+    if not path.strip():
+        return list(_roots(program))
+    symbol = resolve(program, path)
+    return [_checked(program, each) for each in _children(program, symbol)]
+
+
+def complete(program: Program, text: str, limit: int) -> list[Symbol]:
+    """Symbols whose path goes on from `text`."""
+    text = text.strip()
+    cut = max(text.rfind("."), text.rfind("[")) + 1
+    owner, start = text[:cut].rstrip(".["), text.upper()
+    found: list[Symbol] = []
+    try:
+        for symbol in members(program, owner) if owner else _roots(program):
+            if symbol.path.upper().startswith(start):
+                found.append(symbol)
+                if len(found) >= limit:
+                    break
+    except UnknownPath:
+        pass
+    if len(found) < limit and text:
+        try:
+            raw = _raw(program, text)
+            found.append(raw)
+        except UnknownPath:
+            pass
+    return found
+
+
+def _roots(program: Program) -> Iterator[Symbol]:
+    for task in program.tasks:
+        for instance in task.programs:
+            yield Symbol(instance.name, instance.name, instance.pou.instance, "PROGRAM", instance.offset)
+    owner = program.layout.globals
+    for member in owner.members.values() if owner else ():
+        yield _checked(program, _member(Symbol("", "", BOOL, "", 0), member, member.name))
+
+
+def _root(program: Program, name: str) -> Symbol | None:
+    upper = name.upper()
+    return next((symbol for symbol in _roots(program) if symbol.name.upper() == upper), None)
+
+
+def _member(owner: Symbol, member: Member, path: str) -> Symbol:
+    """The member of an instance, structure or the globals."""
+    made = Symbol(
+        path, member.name, member.type, member.section.value, member.offset, member.bit, (),
+        member.address or None, constant=member.constant or owner.constant,
+    )  # fmt: skip
+    if member.located:
+        return made
+    if member.section is Section.IN_OUT:
+        return replace(made, offset=0, slots=(*owner.slots, owner.offset + member.offset))
+    return replace(made, offset=owner.offset + member.offset, slots=owner.slots)
+
+
+def _step(program: Program, symbol: Symbol, name: str | None, index: str | None) -> Symbol:
+    if index is not None:
+        return _element(symbol, index)
+    record = symbol.type
+    if not isinstance(record, Record) or name is None:
+        raise UnknownPath(f"`{symbol.path}` is {symbol.type} and has no member `{name}`.")
+    member = record.members.get(name.upper())
+    if member is None:
+        names = {each.name.upper(): each.name for each in record.members.values()}
+        near = tuple(f"{symbol.path}.{names[each]}" for each in get_close_matches(name.upper(), names, 3, 0.5))
+        raise UnknownPath(f"`{symbol.path}` has no member `{name}`.", near)
+    return _member(symbol, member, f"{symbol.path}.{member.name}")
+
+
+def _element(symbol: Symbol, index: str) -> Symbol:
+    array = symbol.type
+    if not isinstance(array, ArrayType):
+        raise UnknownPath(f"`{symbol.path}` is {symbol.type}, not an array.")
+    try:
+        numbers = [int(part) for part in index.split(",")]
+    except ValueError:
+        raise UnknownPath(f"`[{index}]` is not an index; write a number.") from None
+    if len(numbers) != len(array.bounds):
+        raise UnknownPath(f"`{symbol.path}` has {len(array.bounds)} dimensions, not {len(numbers)}.")
+    offset = symbol.offset
+    for dimension, (number, (low, high)) in enumerate(zip(numbers, array.bounds, strict=True)):
+        if not low <= number <= high:
+            raise UnknownPath(f"Index {number} of `{symbol.path}` is outside of {low}..{high}.")
+        offset += (number - low) * array.stride(dimension)
+    shown = ",".join(map(str, numbers))
+    return replace(
+        symbol, path=f"{symbol.path}[{shown}]", name=f"[{shown}]", type=array.element, offset=offset, section="member",
+        address=None,
+    )  # fmt: skip
+
+
+def _children(program: Program, symbol: Symbol) -> list[Symbol]:
+    type = symbol.type
+    if isinstance(type, Record):
+        return [_member(symbol, member, f"{symbol.path}.{member.name}") for member in type.members.values()]
+    if isinstance(type, ArrayType):
+        found = [""]
+        for low, high in type.bounds:
+            found = [f"{head},{number}" for head in found for number in range(low, high + 1)][:MAX_MEMBERS]
+        return [_element(symbol, each.lstrip(",")) for each in found]
+    return []
+
+
+def _raw(program: Program, text: str) -> Symbol:
+    """An address of the model."""
+    model = program.layout.model
+    location = model.locate(text)
+    if location is None:
+        raise UnknownPath(
+            f"There is no variable and no address `{text}`.{_reason(program, text)}", _near(program, text)
+        )
+    offset = program.layout.areas[location.area.name] + location.byte
+    name = model.format(location.area, location.byte, location.bit, location.bits)
+    made = Symbol(name, name, RAW_TYPES[location.bits], "address", offset, location.bit, (), name)
+    return _checked(program, made)
+
+
+def _reason(program: Program, text: str) -> str:
+    return "" if re.fullmatch(r"[^\W\d]\w*", text) and not any(c.isdigit() for c in text) else (
+        f" {program.layout.model.why_not(text)}"
+    )  # fmt: skip
+
+
+def _near(program: Program, text: str) -> tuple[str, ...]:
+    """Near matches among the roots, and among the members of programs for a bare name."""
+    paths = {symbol.path.upper(): symbol.path for symbol in _roots(program)}
+    for task in program.tasks:
+        for instance in task.programs:
+            for member in instance.pou.instance.members.values():
+                paths[member.name.upper()] = f"{instance.name}.{member.name}"
+    return tuple(paths[each] for each in get_close_matches(text.upper(), paths, 3, 0.5))
+
+
+def _checked(program: Program, symbol: Symbol) -> Symbol:
+    """Adds the model's word on who may write there, and the address, for what lives in an area."""
+    layout: Layout = program.layout
+    if symbol.slots:
+        return symbol
+    found = layout.area_at(symbol.offset)
+    if found is None:
+        return symbol
+    area, byte = found
+    bits = 1 if symbol.bit is not None else 8 * min(symbol.type.size, 2)
+    address = symbol.address or layout.model.format(area, byte, symbol.bit, bits)
+    return replace(symbol, address=address, tool=area.access(byte // 2, "tool"))
+
+
+def is_scalar(type: Type) -> bool:
+    return type.kind not in (Kind.ARRAY, Kind.STRUCT, Kind.BLOCK)

@@ -1,0 +1,78 @@
+"""Literals before they have a type: `7` becomes INT, REAL or WORD by what stands beside it."""
+
+from scanbench.check.program import Const, Expr
+from scanbench.check.types import (
+    DINT,
+    ELEMENTARY,
+    LINT,
+    LREAL,
+    ULINT,
+    Elementary,
+    Kind,
+    StringType,
+    Type,
+)
+
+ANY_INT = Elementary("integer literal", Kind.INT, 0)
+ANY_REAL = Elementary("real literal", Kind.REAL, 0)
+
+
+def is_untyped(expr: Expr) -> bool:
+    return isinstance(expr, Const) and expr.type in (ANY_INT, ANY_REAL)
+
+
+def bounds(type: Elementary) -> tuple[int, int]:
+    """Smallest and largest integer of a type."""
+    if type.kind is Kind.BOOL:
+        return 0, 1
+    if type.signed:
+        return -(1 << (type.bits - 1)), (1 << (type.bits - 1)) - 1
+    return 0, (1 << type.bits) - 1
+
+
+def wrap(value: int, type: Elementary) -> int:
+    """The value an integer has after overflow at the width of its type."""
+    low, high = bounds(type)
+    return value if low <= value <= high else (value - low) % (high - low + 1) + low
+
+
+def settle(expr: Expr) -> Expr:
+    """Gives an untyped literal the type it has where nothing asks for another: DINT (LINT, ULINT), LREAL."""
+    if isinstance(expr, Const) and expr.type == ANY_INT:
+        value = int(expr.value)
+        for type in (DINT, LINT, ULINT):
+            low, high = bounds(type)
+            if low <= value <= high:
+                return Const(type, value)
+        return Const(ULINT, wrap(value, ULINT))
+    if isinstance(expr, Const) and expr.type == ANY_REAL:
+        return Const(LREAL, expr.value)
+    return expr
+
+
+def widens(source: Type, target: Type) -> bool:
+    """Whether a value of `source` can stand where `target` is asked for, without loss (IEC 61131-3, figure 11)."""
+    if source == target:
+        return True
+    if isinstance(source, StringType) and isinstance(target, StringType):
+        return True
+    if not isinstance(source, Elementary) or not isinstance(target, Elementary):
+        return False
+    match source.kind, target.kind:
+        case (Kind.INT, Kind.INT) | (Kind.UINT, Kind.UINT) | (Kind.BITS, Kind.BITS) | (Kind.REAL, Kind.REAL):
+            return source.size < target.size
+        case (Kind.UINT, Kind.INT):
+            return source.size < target.size
+        case (Kind.INT | Kind.UINT, Kind.REAL):
+            return source.size < target.size
+        case (Kind.BOOL, Kind.BITS):
+            return True
+    return False
+
+
+def common(left: Elementary, right: Elementary) -> Elementary | None:
+    """The smallest type that both widen to."""
+    for type in sorted(ELEMENTARY.values(), key=lambda type: type.size):
+        if widens(left, type) and widens(right, type):
+            return type
+    return None

@@ -1,0 +1,76 @@
+"""The contract of the engines: run scans of a checked program on an image they are given.
+
+One scan, in the order of the design:
+
+1. common processing: `Layout.CLOCK` := `Layout.SCAN` * interval; `Layout.BUDGET` := `Layout.BUDGET_LIMIT`
+2. input refresh (inputs are changed in the image from outside, in the seam), then the force table is applied
+3. the user program: every due task in order, every program instance of it in order
+4. the force table is applied again; output refresh
+and, when all went well, `Layout.SCAN` += 1.
+
+The force table (`Layout.FORCES`): a u32 count at `Layout.FORCE_COUNT`, then entries of 8 bytes: u32 offset, u8 mask,
+u8 value, u16 0; applying is `byte = byte & ~mask | value & mask`.
+"""
+
+from abc import ABC, abstractmethod
+from dataclasses import dataclass
+from enum import StrEnum
+
+from scanbench.check.program import Program
+
+
+class Reason(StrEnum):
+    DONE = "done"
+    """The scans asked for are run."""
+    KNOCKED = "knocked"
+    """Somebody called `knock`: the engine stands between two scans."""
+    TRAP = "trap"
+    """The program trapped; the scan is not counted, phase 4 did not run."""
+
+
+@dataclass(frozen=True, slots=True)
+class Stop:
+    """Why `run` came back. `trap` is an index into `Program.traps` plus one, or 0."""
+
+    reason: Reason
+    trap: int = 0
+
+
+@dataclass(slots=True)
+class Pace:
+    """Real time for scans: scan k of this run starts at `deadline_ns` + k * `period_ns` of CLOCK_MONOTONIC.
+
+    `run` moves `deadline_ns` on by the scans it ran, and counts what it measured. A deadline more than ten periods
+    (and at least 100 ms) in the past is moved to now: lost time is not made up for at full speed.
+    """
+
+    period_ns: int
+    deadline_ns: int
+    late_ns: int = 0
+    """Sum of the lateness of scan starts."""
+    worst_ns: int = 0
+    busy_ns: int = 0
+    """Sum of the time spent inside scans."""
+    scans: int = 0
+
+
+class Engine(ABC):
+    """Runs one program on one image. Not thread-safe, except for `knock`."""
+
+    name: str
+
+    @abstractmethod
+    def __init__(self, program: Program, memory: bytearray) -> None:
+        """`memory` has `program.layout.size` bytes, stays the same object, and is owned by the caller."""
+
+    @abstractmethod
+    def run(self, scans: int, pace: Pace | None = None) -> Stop:
+        """Runs up to `scans` scans, as fast as possible or at a pace; returns at once after a knock or a trap.
+
+        A knock that came before the call makes it return without running a scan; returning clears the knock.
+        While waiting for a deadline it looks for a knock at least every 2 ms.
+        """
+
+    @abstractmethod
+    def knock(self) -> None:
+        """Asks `run`, from any thread, to come back after the current scan."""

@@ -1,0 +1,160 @@
+"""Standard functions that ST cannot say; their rules are stated in `check/standard/__init__.py`."""
+
+import math
+import re
+import struct
+from collections.abc import Callable
+from typing import cast
+
+from scanbench.check.program import Intrinsic
+from scanbench.check.types import Elementary, Kind, StringType
+from scanbench.engines.interpreter.arithmetic import rounder, truncate, wrapper
+from scanbench.engines.interpreter.places import FORMATS, Value
+
+Function = Callable[..., Value]
+
+NUMBER = re.compile(rb"[ \t]*([+-]?[0-9]+)")
+REAL = re.compile(rb"[ \t]*([+-]?(?:[0-9]+(?:\.[0-9]*)?|\.[0-9]+)(?:[eE][+-]?[0-9]+)?)")
+
+
+def intrinsic(node: Intrinsic) -> Function:
+    """The function of the argument values, for all but CLOCK."""
+    made = STRINGS.get(node.name) or _number(node)
+    if not isinstance(node.type, StringType):
+        return made
+    capacity = node.type.capacity
+    return lambda *args: cast(bytes, made(*args))[:capacity]
+
+
+def _number(node: Intrinsic) -> Function:
+    type = node.type
+    assert isinstance(type, Elementary)
+    name = node.name
+    match name:
+        case "ABS":
+            return abs if type.kind is Kind.REAL else lambda a: wrapper(type)(abs(a))
+        case "MIN":
+            return lambda a, b: min(b, a)
+        case "MAX":
+            return lambda a, b: max(b, a)
+        case "SEL":
+            return lambda gate, a, b: b if gate else a
+        case "TRUNC":
+            return lambda a: truncate(a, type)
+        case "SHL" | "SHR" | "ROL" | "ROR":
+            return _shift(name, type.bits)
+        case "BITCAST":
+            source = node.args[0].type
+            assert isinstance(source, Elementary)
+            pack, unpack = (
+                struct.Struct(FORMATS[source.kind, source.size]),
+                struct.Struct(FORMATS[type.kind, type.size]),
+            )
+            return lambda a: cast(Value, unpack.unpack(pack.pack(a))[0])
+    return _real(name, type)
+
+
+def _shift(name: str, width: int) -> Function:
+    mask = (1 << width) - 1
+
+    def shift_left(value: int, count: int) -> int:
+        return value << count & mask if 0 <= count < width else 0
+
+    def shift_right(value: int, count: int) -> int:
+        return value >> count if 0 <= count < width else 0
+
+    def rotate(value: int, count: int) -> int:
+        count %= width
+        return (value << count | value >> width - count) & mask
+
+    if name in ("ROL", "ROR"):
+        return rotate if name == "ROL" else lambda value, count: rotate(value, -count)
+    return shift_left if name == "SHL" else shift_right
+
+
+def _log(function: Callable[[float], float]) -> Callable[[float], float]:
+    def log(a: float) -> float:
+        return -math.inf if a == 0 else function(a)
+
+    return log
+
+
+def power(a: float, b: float) -> float:
+    """C's pow, where Python raises."""
+    odd = b == math.floor(b) and math.fmod(b, 2) != 0 if math.isfinite(b) else False
+    try:
+        return math.pow(a, b)
+    except OverflowError:
+        return -math.inf if a < 0 and odd else math.inf
+    except ValueError:
+        if a == 0:
+            return math.copysign(math.inf, a) if odd else math.inf
+        return math.nan
+
+
+REALS: dict[str, Callable[..., float]] = {
+    "SQRT": math.sqrt, "LN": _log(math.log), "LOG": _log(math.log10), "EXP": math.exp, "SIN": math.sin,
+    "COS": math.cos, "TAN": math.tan, "ASIN": math.asin, "ACOS": math.acos, "ATAN": math.atan, "EXPT": power,
+}  # fmt: skip
+
+
+def _real(name: str, type: Elementary) -> Function:
+    function, to_type = REALS[name], rounder(type)
+
+    def compute(*args: float) -> float:
+        try:
+            return to_type(function(*args))
+        except ValueError:
+            return math.nan
+        except OverflowError:
+            return math.inf
+
+    return compute
+
+
+def _mid(text: bytes, count: int, start: int) -> bytes:
+    return text[start - 1 : start - 1 + max(count, 0)] if 1 <= start <= len(text) else b""
+
+
+def _insert(text: bytes, other: bytes, at: int) -> bytes:
+    at = min(max(at, 0), len(text))
+    return text[:at] + other + text[at:]
+
+
+def _delete(text: bytes, count: int, start: int) -> bytes:
+    if not 1 <= start <= len(text) or count <= 0:
+        return text
+    return text[: start - 1] + text[start - 1 + count :]
+
+
+def _replace(text: bytes, other: bytes, count: int, start: int) -> bytes:
+    start = min(max(start, 1), len(text) + 1)
+    return text[: start - 1] + other + text[start - 1 + max(count, 0) :]
+
+
+def _to_int(text: bytes) -> int:
+    match = NUMBER.match(text)
+    return min(max(int(match.group(1)), -(1 << 63)), (1 << 63) - 1) if match else 0
+
+
+def _to_real(text: bytes) -> float:
+    match = REAL.match(text)
+    return float(match.group(1)) if match else 0.0
+
+
+STRINGS: dict[str, Function] = {
+    "LEN": len,
+    "LEFT": lambda text, count: text[: max(count, 0)],
+    "RIGHT": lambda text, count: text[max(len(text) - max(count, 0), 0) :],
+    "MID": _mid,
+    "CONCAT": lambda a, b: a + b,
+    "INSERT": _insert,
+    "DELETE": _delete,
+    "REPLACE": _replace,
+    "FIND": lambda text, other: text.find(other) + 1 if other else 0,
+    "INT_TO_STR": lambda a: str(a).encode(),
+    "UINT_TO_STR": lambda a: str(a).encode(),
+    "REAL_TO_STR": lambda a, digits: b"%.*g" % (digits, a),
+    "STR_TO_INT": _to_int,
+    "STR_TO_REAL": _to_real,
+}
