@@ -1,0 +1,153 @@
+# Scanbench. Two commands are all one needs: `make run` and `make test`.
+#
+# What has been set up leaves a stamp file behind that is newer than the lock file it came from, so a second start takes seconds.
+
+SHELL := bash
+.SHELLFLAGS := -euo pipefail -c
+.DELETE_ON_ERROR:
+MAKEFLAGS += --no-print-directory
+.DEFAULT_GOAL := help
+
+PYTHON ?= python3
+VENV := .venv
+BIN := $(abspath $(VENV))/bin
+PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check --no-input
+NPM := npm --loglevel=error --no-fund --no-audit --no-update-notifier
+
+# Arguments for the server: make run ARGS="--port 9000"
+ARGS ?=
+
+SOURCES = $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts -type f 2>/dev/null)
+NODE_ROOTS := $(patsubst %/package-lock.json,%,$(wildcard frontend/package-lock.json frontend/tools/package-lock.json e2e/package-lock.json))
+
+.PHONY: help setup setup-test run test check bench shots lock clean
+.PHONY: lint types layers unit frontend-check frontend-unit frontend-build e2e
+.PHONY: tools-python tools-node system-chromium system-postgresql
+
+help:
+	@echo "make run     set up what is missing, start the bench, print its address (ARGS=\"--port 9000\")"
+	@echo "make test    everything: lint, types, layers, unit and case tests, frontend, browser stories"
+	@echo "make check   lint, types and layers only"
+	@echo "make bench   time the native engine beside C"
+	@echo "make shots   take the README's screenshots again"
+	@echo "make lock    resolve the dependencies again and write the lock files"
+	@echo "make clean   remove everything that make has made"
+
+# ------------------------------------------------------------------------------------------------ run and test
+setup: $(VENV)/.stamp-runtime frontend/dist/.stamp
+
+setup-test: setup $(VENV)/.stamp-dev $(NODE_ROOTS:%=%/node_modules/.stamp) system-chromium system-postgresql
+
+run: setup
+	@exec $(BIN)/scanbench serve $(ARGS)
+
+test: setup-test
+	@.ci/steps lint types layers unit frontend-check frontend-unit frontend-build e2e
+
+check: $(VENV)/.stamp-runtime $(VENV)/.stamp-dev $(NODE_ROOTS:%=%/node_modules/.stamp)
+	@.ci/steps lint types layers frontend-check
+
+bench: $(VENV)/.stamp-runtime
+	@$(BIN)/scanbench bench $(ARGS)
+
+shots: setup-test
+	@cd e2e && $(NPM) run shots
+
+# ------------------------------------------------------------------------------------------------ the steps of a test
+lint:
+	@cd backend && $(BIN)/ruff check --quiet . && $(BIN)/ruff format --quiet --check .
+
+types:
+	@cd backend && $(BIN)/mypy
+
+layers:
+	@cd backend && $(BIN)/lint-imports --no-logo
+
+unit:
+	@cd backend && $(BIN)/python -m pytest --quiet
+
+frontend-check:
+	@cd frontend && $(NPM) run --silent check
+	@cd e2e && $(NPM) run --silent check
+
+frontend-unit:
+	@cd frontend && $(NPM) run --silent test
+
+frontend-build: frontend/dist/.stamp
+
+e2e: frontend/dist/.stamp
+	@cd e2e && $(NPM) run --silent test
+
+# ------------------------------------------------------------------------------------------------ Python
+tools-python:
+	@command -v $(PYTHON) >/dev/null || { echo "Python is missing: install Python 3.11 or newer (apt install python3 python3-venv), or name one: make PYTHON=/path/to/python" >&2; exit 1; }
+	@$(PYTHON) -c 'import sys; sys.exit(sys.version_info < (3, 11))' || { echo "$$($(PYTHON) --version) is too old: Scanbench needs Python 3.11 or newer. Name another one: make PYTHON=/path/to/python" >&2; exit 1; }
+	@$(PYTHON) -c 'import venv, ensurepip' 2>/dev/null || { echo "This Python cannot make virtual environments: install its venv module (apt install python3-venv)" >&2; exit 1; }
+
+$(VENV)/.stamp-venv: | tools-python
+	@echo "setting up: virtual environment in $(VENV)"
+	@$(PYTHON) -m venv $(VENV)
+	@touch $@
+
+# The package itself comes last, without the network: its build backend is among the locked dependencies.
+$(VENV)/.stamp-runtime: backend/requirements.lock backend/pyproject.toml $(VENV)/.stamp-venv
+	@echo "setting up: Python dependencies"
+	@$(PIP) install --require-hashes -r backend/requirements.lock
+	@$(PIP) install --no-deps --no-build-isolation -e backend
+	@touch $@
+
+$(VENV)/.stamp-dev: backend/requirements-dev.lock $(VENV)/.stamp-runtime
+	@echo "setting up: Python tools for the tests"
+	@$(PIP) install --require-hashes -r backend/requirements-dev.lock
+	@touch $@
+
+# ------------------------------------------------------------------------------------------------ Node
+tools-node:
+	@command -v node >/dev/null && command -v npm >/dev/null || { echo "Node is missing: install Node 20 or newer with npm" >&2; exit 1; }
+	@node -e 'process.exit(parseInt(process.versions.node) < 20 ? 1 : 0)' || { echo "Node $$(node --version) is too old: Scanbench needs Node 20 or newer" >&2; exit 1; }
+
+%/node_modules/.stamp: %/package-lock.json %/package.json | tools-node
+	@echo "setting up: $* packages"
+	@cd $* && $(NPM) ci >/dev/null
+	@touch $@
+
+frontend/dist/.stamp: frontend/node_modules/.stamp $(SOURCES)
+	@echo "setting up: frontend build"
+	@cd frontend && $(NPM) run --silent build -- --logLevel error
+	@touch $@
+
+# ------------------------------------------------------------------------------------------------ what the tests need from the system
+# apt_install NAME,PACKAGES: with apt and as root it is installed, otherwise the message says what to do.
+define apt_install
+if [ "$$(id -u)" = 0 ] && command -v apt-get >/dev/null; then \
+  echo "setting up: $(1) (apt)"; \
+  log=$$(mktemp); \
+  { apt-get update -qq && DEBIAN_FRONTEND=noninteractive apt-get install -y -qq --no-install-recommends $(2); } >"$$log" 2>&1 \
+    || { cat "$$log" >&2; echo "$(1) could not be installed; try: apt-get install $(2)" >&2; exit 1; }; \
+  rm -f "$$log"; \
+else \
+  echo "$(1) is missing, and the tests need it. Install it: sudo apt-get install $(2)" >&2; exit 1; \
+fi
+endef
+
+system-chromium:
+	@[ -x "$${CHROMIUM:-}" ] || command -v chromium >/dev/null || { $(call apt_install,Chromium,chromium fonts-dejavu-core fonts-noto-core); }
+
+system-postgresql:
+	@compgen -G '/usr/lib/postgresql/*/bin/initdb' >/dev/null || command -v initdb >/dev/null || { $(call apt_install,PostgreSQL,postgresql); }
+
+# ------------------------------------------------------------------------------------------------ upkeep
+COMPILE = ../.lock-venv/bin/pip-compile --quiet --upgrade --generate-hashes --strip-extras --allow-unsafe \
+  --no-header --no-emit-index-url --no-emit-trusted-host --no-emit-find-links
+
+lock: | tools-python tools-node
+	@$(PYTHON) -m venv .lock-venv
+	@.lock-venv/bin/python -m pip --quiet --disable-pip-version-check install pip-tools
+	@cd backend && $(COMPILE) -o requirements.lock requirements.in
+	@cd backend && $(COMPILE) -o requirements-dev.lock requirements-dev.in
+	@for root in $(NODE_ROOTS); do (cd $$root && $(NPM) install --package-lock-only); done
+	@echo "lock files written; now: make test"
+
+clean:
+	@rm -rf $(VENV) .lock-venv frontend/dist $(NODE_ROOTS:%=%/node_modules) e2e/test-results e2e/playwright-report
+	@find backend -type d \( -name __pycache__ -o -name '.*_cache' -o -name .hypothesis \) -prune -exec rm -rf {} +

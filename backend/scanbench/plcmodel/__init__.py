@@ -1,0 +1,1 @@
+"""PLC models: memory areas, addresses and error catalogues, read from model files."""

@@ -1,0 +1,107 @@
+"""The errors that a model knows: codes, flags, details."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+from typing import Literal
+
+from scanbench.plcmodel.areas import Location
+
+Severity = Literal["fatal", "nonfatal"]
+Control = Literal["List", "Spin", "Edit"]
+Kind = Literal["Bit", "Word", "Byte", "BCD", "Nibble", "BitArray"]
+
+
+@dataclass(frozen=True, slots=True)
+class Wording:
+    """Name and description in another language than English; empty where the model file has none."""
+
+    language: str
+    name: str
+    description: str
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorAddress:
+    """One place that a detail writes: a bit, or a field of `width` bits from bit `shift` on of the word at `location`.
+
+    `Bit` switches `location` on. `BitArray` switches on bit n%16 of the word n/16 after `location`; n is the value.
+    The others write the value (BCD: its decimal digits) into the field.
+    """
+
+    id: str
+    """What names this choice of a List; empty otherwise."""
+    description: str
+    location: Location | None
+    """None where the number goes into the error code only."""
+    text: str
+    """The address as the model file writes it."""
+    kind: Kind
+    shift: int
+    width: int
+    value: int | None
+    minimum: int | None
+    maximum: int | None
+    base: Literal[10, 16]
+    default: int | None
+    add_to_code: bool
+    """The value is added to the error code."""
+    wordings: tuple[Wording, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorDetail:
+    """One thing to say about an error. A List has one address for each choice; a Spin and an Edit have exactly one."""
+
+    name: str
+    control: Control
+    description: str
+    addresses: tuple[ErrorAddress, ...]
+    default: str | None = None
+    """The id of the choice that a List starts with."""
+    wordings: tuple[Wording, ...] = ()
+
+    def choice(self, id: str) -> ErrorAddress | None:
+        """The choice of a List with this id."""
+        return next((address for address in self.addresses if address.id == id), None)
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorEntry:
+    """One error of the catalogue."""
+
+    id: str
+    name: str
+    description: str
+    code: int
+    flag: Location
+    flag_text: str
+    severity: Severity
+    priority: int
+    """1 is the most serious: it decides which error the code word shows."""
+    details: tuple[ErrorDetail, ...]
+    source: str
+    verified: bool
+    """False: from knowledge, not checked against a source. Shown as such."""
+    keeps_memory: bool = False
+    """A fatal error that leaves the memory as it is (outputs go off all the same)."""
+    wordings: tuple[Wording, ...] = ()
+
+    def detail(self, name: str) -> ErrorDetail | None:
+        """The detail of this name."""
+        return next((detail for detail in self.details if detail.name == name), None)
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorGroup:
+    """A branch of the tree."""
+
+    name: str
+    groups: tuple["ErrorGroup", ...]
+    errors: tuple[ErrorEntry, ...]
+    wordings: tuple[Wording, ...] = ()
+
+    def walk(self) -> Iterator[ErrorEntry]:
+        """Every error of this branch, in the order of the tree."""
+        yield from self.errors
+        for group in self.groups:
+            yield from group.walk()

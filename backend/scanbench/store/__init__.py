@@ -1,0 +1,1 @@
+"""The database: projects, files, accepted builds, instances, error history, log."""

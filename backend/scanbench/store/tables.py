@@ -1,0 +1,131 @@
+"""The tables. Whoever changes one writes a migration too; a test compares the two."""
+
+from datetime import UTC, datetime
+
+from sqlalchemy import JSON, BigInteger, DateTime, Dialect, ForeignKey, Index, MetaData, String, Text, UniqueConstraint
+from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column
+from sqlalchemy.types import TypeDecorator
+
+NAME, PATH, AUTHOR, ID = 100, 255, 100, 64
+"""Longest names, in characters."""
+
+
+class Moment(TypeDecorator[datetime]):
+    """A moment in UTC. SQLite knows no time zones, so they are taken off on the way in and put on again on the way out."""
+
+    impl = DateTime(timezone=True)
+    cache_ok = True
+
+    def process_bind_param(self, value: datetime | None, dialect: Dialect) -> datetime | None:
+        """To the database."""
+        if value is None:
+            return None
+        if value.tzinfo is None:
+            raise ValueError(f"{value} has no time zone")
+        moment = value.astimezone(UTC)
+        return moment.replace(tzinfo=None) if dialect.name == "sqlite" else moment
+
+    def process_result_value(self, value: datetime | None, dialect: Dialect) -> datetime | None:
+        """From the database."""
+        if value is None:
+            return None
+        return value.replace(tzinfo=UTC) if value.tzinfo is None else value.astimezone(UTC)
+
+
+class Base(DeclarativeBase):
+    """Constraints have names, so that a migration can change them."""
+
+    metadata = MetaData(
+        naming_convention={
+            "ix": "ix_%(table_name)s_%(column_0_N_name)s",
+            "uq": "uq_%(table_name)s_%(column_0_N_name)s",
+            "fk": "fk_%(table_name)s_%(column_0_N_name)s",
+            "pk": "pk_%(table_name)s",
+        }
+    )
+
+
+class Project(Base):
+    """A project; `version` is the number of its last accepted build."""
+
+    __tablename__ = "project"
+    __table_args__ = (UniqueConstraint("name"),)
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    name: Mapped[str] = mapped_column(String(NAME))
+    model: Mapped[str] = mapped_column(String(ID))
+    version: Mapped[int]
+    created: Mapped[datetime] = mapped_column(Moment)
+
+
+class File(Base):
+    """A file of a project; a save must know the version it started from."""
+
+    __tablename__ = "file"
+
+    project_id: Mapped[int] = mapped_column(ForeignKey("project.id", ondelete="CASCADE"), primary_key=True)
+    path: Mapped[str] = mapped_column(String(PATH), primary_key=True)
+    text: Mapped[str] = mapped_column(Text)
+    version: Mapped[int]
+    author: Mapped[str] = mapped_column(String(AUTHOR))
+    saved: Mapped[datetime] = mapped_column(Moment)
+
+
+class ProgramVersion(Base):
+    """An accepted build and its sources, so that a restart runs what ran."""
+
+    __tablename__ = "program_version"
+
+    project_id: Mapped[int] = mapped_column(ForeignKey("project.id", ondelete="CASCADE"), primary_key=True)
+    version: Mapped[int] = mapped_column(primary_key=True, autoincrement=False)
+    sources: Mapped[dict[str, str]] = mapped_column(JSON)
+    hash: Mapped[str] = mapped_column(String(64))
+    author: Mapped[str] = mapped_column(String(AUTHOR))
+    at: Mapped[datetime] = mapped_column(Moment)
+
+
+class Instance(Base):
+    """A virtual PLC that runs a project."""
+
+    __tablename__ = "instance"
+    __table_args__ = (UniqueConstraint("name"), Index(None, "project_id"))
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    project_id: Mapped[int] = mapped_column(ForeignKey("project.id", ondelete="CASCADE"))
+    name: Mapped[str] = mapped_column(String(NAME))
+    created: Mapped[datetime] = mapped_column(Moment)
+
+
+class ErrorHistory(Base):
+    """One row for an instance and an error of its model's catalogue that was raised at least once."""
+
+    __tablename__ = "error_history"
+
+    instance_id: Mapped[int] = mapped_column(ForeignKey("instance.id", ondelete="CASCADE"), primary_key=True)
+    error: Mapped[str] = mapped_column(String(ID), primary_key=True)
+    program_version: Mapped[int]
+    status: Mapped[str] = mapped_column(String(16))
+    code: Mapped[str] = mapped_column(String(16))
+    details: Mapped[str] = mapped_column(Text)
+    generated_at: Mapped[datetime] = mapped_column(Moment)
+    recovered_at: Mapped[datetime | None] = mapped_column(Moment)
+    generated_scan: Mapped[int] = mapped_column(BigInteger)
+    recovered_scan: Mapped[int | None] = mapped_column(BigInteger)
+    by: Mapped[str] = mapped_column(String(AUTHOR))
+    origin: Mapped[str] = mapped_column(String(16))
+    count: Mapped[int]
+
+
+class Log(Base):
+    """What was done to an instance, in order."""
+
+    __tablename__ = "log"
+    __table_args__ = (Index(None, "instance_id", "id"),)
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    instance_id: Mapped[int] = mapped_column(ForeignKey("instance.id", ondelete="CASCADE"))
+    at: Mapped[datetime] = mapped_column(Moment)
+    scan: Mapped[int] = mapped_column(BigInteger)
+    author: Mapped[str] = mapped_column(String(AUTHOR))
+    kind: Mapped[str] = mapped_column(String(16))
+    text: Mapped[str] = mapped_column(Text)

@@ -1,0 +1,204 @@
+"""What the store promises, on SQLite and on PostgreSQL alike."""
+
+from datetime import UTC, datetime, timedelta, timezone
+
+import pytest
+
+from scanbench.store.records import Conflict, HistoryRow, NameTaken, NotFound, NotStorable
+from scanbench.store.store import Store
+
+NOON = datetime(2026, 11, 21, 12, 0, 0, 123456, tzinfo=UTC)
+
+
+def test_projects(store: Store) -> None:
+    assert store.projects() == []
+    made = store.create_project("conveyor", "CJ1M-CPU63")
+    assert (made.name, made.model, made.version) == ("conveyor", "CJ1M-CPU63", 0)
+    assert made.created.tzinfo is UTC
+    other = store.create_project("a mixer", "GENERIC-IEC")
+    assert store.projects() == [other, made]
+    assert store.project(made.id) == made
+    with pytest.raises(NameTaken, match="'conveyor' already"):
+        store.create_project("conveyor", "GENERIC-IEC")
+    store.delete_project(other.id)
+    assert store.projects() == [made]
+    with pytest.raises(NotFound, match=f"no project {other.id}"):
+        store.delete_project(other.id)
+
+
+def test_what_is_saved_is_read_again(store: Store) -> None:
+    project = store.create_project("conveyor", "CJ1M-CPU63").id
+    text = "(* コンベヤ µ × 🏭 *)\r\nPROGRAM Main\n\tEND_PROGRAM\n" * 5000
+    saved = store.save_file(project, "src/main.st", text, 0, "ada")
+    assert (saved.version, saved.author, saved.text) == (1, "ada", text)
+    assert store.file(project, "src/main.st") == saved
+    again = store.save_file(project, "src/main.st", "", 1, "bob")
+    assert (again.version, again.author, again.text) == (2, "bob", "")
+    store.save_file(project, "a.st", "A", 0, "ada")
+    assert [(file.path, file.version, file.author) for file in store.files(project)] == [
+        ("a.st", 1, "ada"),
+        ("src/main.st", 2, "bob"),
+    ]
+    assert store.sources(project) == {"a.st": "A", "src/main.st": ""}
+
+
+def test_who_saves_second_gets_the_other_text_and_writes_nothing(store: Store) -> None:
+    project = store.create_project("conveyor", "CJ1M-CPU63").id
+    first = store.save_file(project, "main.st", "first", 0, "ada")
+    theirs = store.save_file(project, "main.st", "ada's", first.version, "ada")
+    for version in (first.version, 0, 17):
+        with pytest.raises(Conflict, match=r"saved by ada in the meantime; nothing was written") as conflict:
+            store.save_file(project, "main.st", "bob's", version, "bob")
+        assert conflict.value.theirs == theirs
+    assert store.file(project, "main.st") == theirs
+
+
+def test_saving_what_was_deleted_is_a_conflict_too(store: Store) -> None:
+    project = store.create_project("conveyor", "CJ1M-CPU63").id
+    saved = store.save_file(project, "main.st", "text", 0, "ada")
+    with pytest.raises(Conflict):
+        store.delete_file(project, "main.st", 7)
+    store.delete_file(project, "main.st", saved.version)
+    with pytest.raises(Conflict, match="was deleted in the meantime") as conflict:
+        store.save_file(project, "main.st", "more", saved.version, "bob")
+    assert conflict.value.theirs is None
+    with pytest.raises(NotFound, match=r"no file 'main\.st'"):
+        store.delete_file(project, "main.st")
+    assert store.save_file(project, "main.st", "again", 0, "bob").version == 1
+
+
+def test_accepted_builds_keep_their_sources(store: Store) -> None:
+    project = store.create_project("conveyor", "CJ1M-CPU63").id
+    assert store.last_build(project) is None
+    assert store.accept_build(project, {"main.st": "one"}, "ada") == 1
+    assert store.accept_build(project, {"main.st": "two", "b.st": "ä"}, "bob") == 2
+    assert store.last_build(project) == {"main.st": "two", "b.st": "ä"}
+    first, second = store.build(project, 1), store.build(project)
+    assert first is not None
+    assert second is not None
+    assert (first.sources, first.author, second.version) == ({"main.st": "one"}, "ada", 2)
+    assert first.hash != second.hash
+    assert store.build(project, 3) is None
+    assert store.project(project).version == 2
+    assert store.accept_build(project, {"main.st": "one"}, "ada") == 3
+    third = store.build(project)
+    assert third is not None
+    assert third.hash == first.hash
+
+
+def test_instances(store: Store) -> None:
+    project = store.create_project("conveyor", "CJ1M-CPU63").id
+    made = store.create_instance(project, "line 1")
+    assert (made.project, made.name) == (project, "line 1")
+    assert store.instances() == [made]
+    with pytest.raises(NameTaken, match="'line 1' already"):
+        store.create_instance(project, "line 1")
+    with pytest.raises(NotFound, match="no project 99"):
+        store.create_instance(99, "line 2")
+    store.delete_instance(made.id)
+    assert store.instances() == []
+    with pytest.raises(NotFound):
+        store.delete_instance(made.id)
+
+
+def generate(store: Store, instance: int, error: str, **changes: object) -> HistoryRow:
+    told: dict[str, object] = {
+        "program_version": 3,
+        "code": "80F4",
+        "details": "location=io-table-checksum",
+        "at": NOON,
+        "scan": 4711,
+        "by": "ada",
+        "origin": "simulator",
+    }
+    return store.record_generated(instance, error, **{**told, **changes})  # type: ignore[arg-type]
+
+
+def test_one_row_for_an_error_counts(store: Store) -> None:
+    instance = store.create_instance(store.create_project("p", "CJ1M-CPU63").id, "i").id
+    assert store.history(instance) == []
+    assert store.record_cleared(instance, "memory-error", at=NOON, scan=1) is None
+    row = generate(store, instance, "memory-error")
+    assert row == HistoryRow(
+        error="memory-error",
+        program_version=3,
+        status="generated",
+        code="80F4",
+        details="location=io-table-checksum",
+        generated_at=NOON,
+        recovered_at=None,
+        generated_scan=4711,
+        recovered_scan=None,
+        by="ada",
+        origin="simulator",
+        count=1,
+    )
+    later = NOON + timedelta(minutes=1)
+    cleared = store.record_cleared(instance, "memory-error", at=later, scan=5000)
+    assert cleared is not None
+    assert (cleared.status, cleared.recovered_at, cleared.recovered_scan, cleared.count) == ("cleared", later, 5000, 1)
+    again = generate(store, instance, "memory-error", scan=2**40, by="bob", origin="program")
+    assert (again.status, again.recovered_at, again.generated_scan, again.count) == ("generated", None, 2**40, 2)
+    generate(store, instance, "battery-error")
+    assert [row.error for row in store.history(instance)] == ["battery-error", "memory-error"]
+    assert store.history(instance)[1] == again
+
+
+def test_moments_are_utc_whatever_they_came_as(store: Store) -> None:
+    instance = store.create_instance(store.create_project("p", "CJ1M-CPU63").id, "i").id
+    tokyo = NOON.astimezone(timezone(timedelta(hours=9)))
+    generate(store, instance, "battery-error", at=tokyo)
+    assert store.history(instance)[0].generated_at == NOON
+    assert store.history(instance)[0].generated_at.utcoffset() == timedelta(0)
+    with pytest.raises(Exception, match="has no time zone"):
+        generate(store, instance, "battery-error", at=NOON.replace(tzinfo=None))
+
+
+def test_the_log_gives_the_last_lines(store: Store) -> None:
+    project = store.create_project("p", "CJ1M-CPU63").id
+    instance, other = store.create_instance(project, "i").id, store.create_instance(project, "j").id
+    for number in range(10):
+        store.add_log(instance, NOON + timedelta(seconds=number), number, "ada", "write", f"line {number}")
+        store.add_log(other, NOON, number, "bob", "mode", "RUN")
+    assert [line.text for line in store.log(instance, 3)] == ["line 7", "line 8", "line 9"]
+    assert len(store.log(instance, 100)) == 10
+    assert store.log(instance, 1)[0].at == NOON + timedelta(seconds=9)
+    assert {line.author for line in store.log(other, 100)} == {"bob"}
+
+
+def test_deleting_a_project_takes_everything_with_it(store: Store) -> None:
+    project = store.create_project("p", "CJ1M-CPU63").id
+    store.save_file(project, "main.st", "text", 0, "ada")
+    store.accept_build(project, {"main.st": "text"}, "ada")
+    instance = store.create_instance(project, "i").id
+    generate(store, instance, "battery-error")
+    store.add_log(instance, NOON, 1, "ada", "write", "x")
+    store.delete_project(project)
+    assert store.instances() == []
+    again = store.create_project("p", "CJ1M-CPU63").id
+    assert store.files(again) == []
+    for ask in (store.files, store.last_build, store.history, lambda id: store.log(id, 1)):
+        with pytest.raises(NotFound):
+            ask(4711)
+
+
+def test_what_no_database_keeps_is_refused_with_words(store: Store) -> None:
+    project = store.create_project("p", "CJ1M-CPU63").id
+    with pytest.raises(NotStorable, match=r"main\.st contains a NUL character"):
+        store.save_file(project, "main.st", "a\x00b", 0, "ada")
+    with pytest.raises(NotStorable, match="the path has 256 characters, 1 to 255"):
+        store.save_file(project, "x" * 256, "", 0, "ada")
+    with pytest.raises(NotStorable, match="the name has 0 characters"):
+        store.create_project("", "CJ1M-CPU63")
+    with pytest.raises(NotStorable, match="the name has 101 characters"):
+        store.create_instance(project, "x" * 101)
+    assert store.save_file(project, "a.st", "", 0, "x" * 300).author == "x" * 100
+    assert store.create_project("日" * 100, "CJ1M-CPU63").name == "日" * 100
+
+
+def test_names_are_data_not_sql(store: Store) -> None:
+    name = "'; DROP TABLE project; --"
+    made = store.create_project(name, "CJ1M-CPU63")
+    store.save_file(made.id, "../%_'\".st", name, 0, name)
+    assert store.file(made.id, "../%_'\".st").text == name
+    assert [project.name for project in store.projects()] == [name]
