@@ -11,9 +11,9 @@ from functools import cache
 from importlib.resources import files
 
 from scanbench.check.assemble import assemble, place_areas, place_globals
+from scanbench.check.calls import CallChecker
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare import Declarations
-from scanbench.check.expressions import ExpressionChecker
 from scanbench.check.program import Const, Pou, Program
 from scanbench.check.scopes import Pous, Scope
 from scanbench.check.statements import StatementChecker
@@ -27,6 +27,7 @@ from scanbench.syntax.source import Source
 LIBRARY = ("timers", "counters", "bistable", "strings")
 RECURSION_LIMIT = 20_000
 """Python frames for a deep expression: the parser bounds depth, the checks walk it with a few frames a level."""
+sys.setrecursionlimit(max(sys.getrecursionlimit(), RECURSION_LIMIT))
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,7 +52,6 @@ class Checked:
 
 def check_sources(sources: Mapping[str, str], model: Model, interval_ns: int = 10_000_000) -> Checked:
     """Checks all files of a project together. `interval_ns` is the task's, where no CONFIGURATION says another."""
-    sys.setrecursionlimit(max(sys.getrecursionlimit(), RECURSION_LIMIT))
     report = Report()
     parsed = []
     for name, text in sources.items():
@@ -155,7 +155,7 @@ class Checker:
         """A constant expression among the declarations."""
         owners = tuple(reversed(self.declarations.owners))
         scope = Scope("", self.globals, constants=owners)
-        return ExpressionChecker(self.report, self.declarations, self.pous, scope, None).constant(node, type)
+        return CallChecker(self.report, self.declarations, self.pous, scope, None).constant(node, type)
 
     def _declare_globals(self) -> None:
         """Constants first, as they may stand in the bounds of the others."""

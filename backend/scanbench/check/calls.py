@@ -22,7 +22,7 @@ from scanbench.check.types import (
     StringType,
     Type,
 )
-from scanbench.check.untyped import common, is_untyped, settle
+from scanbench.check.untyped import ANY_REAL, common, is_untyped, settle
 from scanbench.problems import Span
 from scanbench.syntax import tree
 
@@ -30,7 +30,7 @@ from scanbench.syntax import tree
 class CallChecker(ExpressionChecker):
     # ---- functions --------------------------------------------------------------------------------------
 
-    def call(self, node: tree.Call) -> Expr:
+    def call(self, node: tree.Call, wanted: Type | None = None) -> Expr:
         if not isinstance(node.callee, tree.Name):
             raise self.report.reject(
                 "T010", "Only functions and instances of function blocks can be called.", node.span
@@ -46,7 +46,7 @@ class CallChecker(ExpressionChecker):
         if key in self.pous.functions:
             return self._function(node, self.pous.functions[key])
         if key in FUNCTIONS or key in SPECIAL:
-            return self._standard(node, key)
+            return self._standard(node, key, wanted)
         conversion = conversions.parse_name(key)
         if conversion is not None:
             return self._convert(node, key, *conversion)
@@ -66,14 +66,12 @@ class CallChecker(ExpressionChecker):
     def _given(self, node: tree.Call, formals: list[Member], callee: str) -> dict[str, tree.Argument]:
         """Arguments by upper-case formal name; positional ones go to inputs and in-outs in order."""
         given: dict[str, tree.Argument] = {}
-        named = any(argument.name is not None for argument in node.arguments)
+        named = False
         positions = [member for member in formals if member.section in (Section.INPUT, Section.IN_OUT)]
         for index, argument in enumerate(node.arguments):
             if argument.name is None:
                 if named:
-                    raise self.report.reject(
-                        "T004", "Arguments are given all by name or all by position.", argument.span
-                    )
+                    raise self.report.reject("T004", "Arguments by position come before those by name.", argument.span)
                 if index >= len(positions):
                     raise self.report.reject(
                         "T004",
@@ -82,6 +80,7 @@ class CallChecker(ExpressionChecker):
                     )
                 given[positions[index].name.upper()] = argument
                 continue
+            named = True
             key = argument.name.upper()
             member = next((each for each in formals if each.name.upper() == key), None)
             if member is None:
@@ -185,12 +184,12 @@ class CallChecker(ExpressionChecker):
             )
         return values
 
-    def _standard(self, node: tree.Call, name: str) -> Expr:
+    def _standard(self, node: tree.Call, name: str, wanted: Type | None) -> Expr:
         if name in SPECIAL:
-            return self._special(node, name)
+            return self._special(node, name, wanted)
         match FUNCTIONS[name]:
             case Same() as same:
-                return self._same_function(node, name, same)
+                return self._same_function(node, name, same, wanted)
             case Shift(intrinsic):
                 bits, count = self._values(node, ("IN", "N"), name)
                 bits = settle(bits)
@@ -206,8 +205,8 @@ class CallChecker(ExpressionChecker):
                     result = self.operate(op, result, value, node.span)
                 return result
 
-    def _same_function(self, node: tree.Call, name: str, same: Same) -> Expr:
-        values = self._unify(self._values(node, same.formals, name, same.variadic), node.span, name)
+    def _same_function(self, node: tree.Call, name: str, same: Same, wanted: Type | None) -> Expr:
+        values = self._unify(self._values(node, same.formals, name, same.variadic), node.span, name, wanted)
         type = values[0].type
         if not isinstance(type, Elementary) or type.kind not in same.kinds:
             raise self.report.reject(
@@ -220,8 +219,12 @@ class CallChecker(ExpressionChecker):
             result = Intrinsic(same.intrinsic, type, (result, value))
         return result
 
-    def _unify(self, values: list[Expr], span: Span, name: str) -> list[Expr]:
-        """All in one common type."""
+    def _unify(self, values: list[Expr], span: Span, name: str, wanted: Type | None = None) -> list[Expr]:
+        """All in one common type; literals alone take the one that is wanted."""
+        if isinstance(wanted, Elementary) and all(is_untyped(value) for value in values):
+            real = any(value.type == ANY_REAL for value in values)
+            if wanted.kind is Kind.REAL or (not real and wanted.kind in (Kind.INT, Kind.UINT, Kind.BITS)):
+                return [self.coerce(value, wanted, span, f"Each argument of `{name}`") for value in values]
         typed = [value for value in values if not is_untyped(value)] or [settle(value) for value in values]
         type = typed[0].type
         for value in typed[1:]:
@@ -260,7 +263,7 @@ class CallChecker(ExpressionChecker):
         strings = [arg for arg in args if isinstance(arg.type, StringType)]
         return Intrinsic(function.intrinsic, _capacity(*strings), tuple(args))
 
-    def _special(self, node: tree.Call, name: str) -> Expr:
+    def _special(self, node: tree.Call, name: str, wanted: Type | None) -> Expr:
         match name:
             case "TIME":
                 self._values(node, (), name)
@@ -269,25 +272,27 @@ class CallChecker(ExpressionChecker):
                 return self._values(node, ("IN",), name)[0]
             case "SEL":
                 gate, *rest = self._values(node, ("G", "IN0", "IN1"), name)
-                first, second = self._unify(rest, node.span, name)
+                first, second = self._unify(rest, node.span, name, wanted)
                 if not isinstance(first.type, Elementary):
                     raise self.report.reject("T002", f"`SEL` cannot choose between values of {first.type}.", node.span)
                 gate = self.coerce(gate, BOOL, node.span, "`G`")
                 return Intrinsic("SEL", first.type, (gate, first, second))
             case "LIMIT":
-                low, value, high = self._unify(self._values(node, ("MN", "IN", "MX"), name), node.span, name)
+                low, value, high = self._unify(
+                    self._values(node, ("MN", "IN", "MX"), name), node.span, name, wanted
+                )
                 if not isinstance(value.type, Elementary):
                     raise self.report.reject("T002", f"`LIMIT` cannot work on {value.type}.", node.span)
                 lower = Intrinsic("MAX", value.type, (value, low))
                 return Intrinsic("MIN", value.type, (lower, high))
             case "MUX":
-                return self._mux(node)
+                return self._mux(node, wanted)
         return self._trunc(node)
 
-    def _mux(self, node: tree.Call) -> Expr:
+    def _mux(self, node: tree.Call, wanted: Type | None) -> Expr:
         values = self._values(node, ("K", "IN0"), "MUX", variadic=True)
         selector = self._integer(values[0], node.span, "MUX")
-        choices = self._unify(values[1:], node.span, "MUX")
+        choices = self._unify(values[1:], node.span, "MUX", wanted)
         type = choices[0].type
         if not isinstance(type, Elementary):
             raise self.report.reject("T002", f"`MUX` cannot choose between values of {type}.", node.span)

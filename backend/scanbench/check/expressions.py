@@ -1,5 +1,7 @@
 """Expressions -> checked expressions: names to places, operators to typed operations, conversions written out."""
 
+from abc import ABC, abstractmethod
+
 from scanbench.check import fold
 from scanbench.check.context import Report, did_you_mean
 from scanbench.check.declare import Declarations
@@ -48,7 +50,7 @@ WIDTHS = {
 }
 
 
-class ExpressionChecker:
+class ExpressionChecker(ABC):
     """Checks the expressions of one POU. Every method reports and raises `Rejected` where it cannot go on."""
 
     def __init__(self, report: Report, declarations: Declarations, pous: Pous, scope: Scope, pou: Pou | None) -> None:
@@ -117,12 +119,13 @@ class ExpressionChecker:
             case tree.BinaryOp():
                 return self._binary(node, wanted)
             case tree.Call():
-                return self.call(node)
+                return self.call(node, wanted)
             case _:
                 return self._read(node)
 
-    def call(self, node: tree.Call) -> Expr:
-        raise NotImplementedError
+    @abstractmethod
+    def call(self, node: tree.Call, wanted: Type | None = None) -> Expr:
+        """A call for its value; see `CallChecker`."""
 
     def _literal(self, node: tree.Literal) -> Const:
         if node.type_name is not None:
@@ -182,16 +185,16 @@ class ExpressionChecker:
         if node.op in ("eq", "ne", *ORDER):
             wanted = None
         left, right = self.expr(node.left, wanted), self.expr(node.right, wanted)
-        return self.operate(node.op, left, right, node.span)
+        return self.operate(node.op, left, right, node.span, wanted)
 
-    def operate(self, op: str, left: Expr, right: Expr, span: Span) -> Expr:
+    def operate(self, op: str, left: Expr, right: Expr, span: Span, wanted: Type | None = None) -> Expr:
         """`left op right`, both brought to one type."""
         if isinstance(left.type, StringType) and isinstance(right.type, StringType) and op in ("eq", "ne", *ORDER):
             return fold.compare(op, BOOL, left, right)
         if TIME in (left.type, right.type) and op not in ("eq", "ne", *ORDER):
             return self._time(op, left, right, span)
         if op == "pow":
-            return self._power(left, right, span)
+            return self._power(left, right, span, wanted)
         left, right, type = self._same(op, left, right, span)
         if op in ("eq", "ne", *ORDER):
             return fold.compare(op, BOOL, left, right)
@@ -261,7 +264,12 @@ class ExpressionChecker:
             "T002", f"`{SIGNS[op]}` cannot join {both}; a TIME can be added to a TIME, or scaled by a number.", span
         )
 
-    def _power(self, left: Expr, right: Expr, span: Span) -> Expr:
+    def _literal_as_real(self, literal: Expr, type: Elementary) -> Expr:
+        return Const(type, fold.round_real(float(_plain(literal)), type))
+
+    def _power(self, left: Expr, right: Expr, span: Span, wanted: Type | None) -> Expr:
+        if is_untyped(left) and isinstance(wanted, Elementary) and wanted.kind is Kind.REAL:
+            left = self._literal_as_real(left, wanted)
         left, right = settle(left), settle(right)
         types = (left.type, right.type)
         if not all(isinstance(type, Elementary) and type.kind in NUMERIC for type in types):

@@ -232,3 +232,35 @@ def _checked(program: Program, symbol: Symbol) -> Symbol:
 
 def is_scalar(type: Type) -> bool:
     return type.kind not in (Kind.ARRAY, Kind.STRUCT, Kind.BLOCK)
+
+
+def at_offset(program: Program, offset: int) -> str:
+    """The path of what lives at a byte of the image, for people: `Main.fb.count`, `D100`, `header+24`."""
+    if offset < Layout.HEADER_SIZE:
+        return f"header+{offset}"
+    found = program.layout.area_at(offset)
+    if found is not None:
+        area, byte = found
+        return program.layout.model.format(area, byte - byte % 2, None, 16)
+    for symbol in _roots(program):
+        if not symbol.slots and symbol.offset <= offset < symbol.offset + symbol.type.size:
+            return _descend(program, symbol, offset)
+    return f"image+{offset}"
+
+
+def _descend(program: Program, symbol: Symbol, offset: int) -> str:
+    """Into the member or element that holds the byte."""
+    if isinstance(symbol.type, ArrayType):
+        array, rest, numbers = symbol.type, offset - symbol.offset, []
+        for dimension, (low, _) in enumerate(array.bounds):
+            number, rest = divmod(rest, array.stride(dimension))
+            numbers.append(str(low + number))
+        return _descend(program, _element(symbol, ",".join(numbers)), offset)
+    if isinstance(symbol.type, Record):
+        for member in symbol.type.members.values():
+            start = symbol.offset + member.offset
+            if not member.located and start <= offset < start + member.storage:
+                if member.section is Section.IN_OUT:
+                    return f"{symbol.path}.{member.name} (in-out)"
+                return _descend(program, _member(symbol, member, f"{symbol.path}.{member.name}"), offset)
+    return symbol.path

@@ -100,9 +100,18 @@ def format_value(type: Type, data: bytes) -> str:
         if type.kind is Kind.TIME:
             return format_time(value)
         return f"16#{value:0{2 * type.size}X}" if type.kind is Kind.BITS else str(value)
-    if isinstance(value, float) and type.size == 4:
-        return f"{value:.7g}"
+    if isinstance(value, float) and isinstance(type, Elementary) and type.size == 4:
+        return _shortest(value, type)
     return str(value)
+
+
+def _shortest(value: float, type: Elementary) -> str:
+    """The fewest digits that give this single-precision number back."""
+    for digits in range(1, 9):
+        text = f"{value:.{digits}g}"
+        if round_real(float(text), type) == value:
+            return repr(float(text)).removesuffix(".0")
+    return f"{value:.9g}"
 
 
 def format_time(ns: int) -> str:

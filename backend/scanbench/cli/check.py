@@ -1,0 +1,40 @@
+"""`scanbench check`: every problem of a program, without running it."""
+
+import json
+from enum import StrEnum
+from pathlib import Path
+
+import typer
+
+from scanbench.check.build import check_sources
+from scanbench.cli.inputs import find_model, problem_json, read_sources
+from scanbench.problems import Severity
+
+
+class Format(StrEnum):
+    """How problems are printed."""
+
+    TEXT = "text"
+    JSON = "json"
+
+
+def check(
+    paths: list[Path] = typer.Argument(metavar="FILE|DIR...", help="ST files; a folder gives all .st files below it."),
+    format: Format = typer.Option(Format.TEXT, help="text: `file:line:column: code message`, one a line."),
+    model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else project.json's, else GENERIC-IEC."),
+) -> None:
+    """Check programs. Exit 0 without errors, 1 with, 2 for wrong usage. All files given are one program."""
+    sources = read_sources(paths)
+    checked = check_sources(sources.texts, find_model(model, sources))
+    errors = sum(problem.severity is Severity.ERROR for problem in checked.problems)
+    if format is Format.JSON:
+        shown = {"problems": [problem_json(problem) for problem in checked.problems], "errors": errors}
+        typer.echo(json.dumps(shown, ensure_ascii=False))
+    else:
+        for problem in checked.problems:
+            severity = "" if problem.severity is Severity.ERROR else f"{problem.severity.value}: "
+            typer.echo(f"{problem.span}: {problem.code} {severity}{problem.message}")
+        others = len(checked.problems) - errors
+        note = f" ({others} warning{'s' * (others != 1)})" if others else ""
+        typer.echo(f"{errors} error{'s' * (errors != 1)}{note} in {len(sources.texts)} file(s)", err=True)
+    raise typer.Exit(1 if errors else 0)

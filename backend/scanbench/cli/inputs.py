@@ -1,0 +1,98 @@
+"""Programs from files and folders, models by name; every complaint says what to do and exits with 2."""
+
+import json
+from dataclasses import dataclass
+from difflib import get_close_matches
+from pathlib import Path
+from typing import NoReturn
+
+import typer
+
+from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.plcmodel.model import Model
+from scanbench.problems import Problem
+from scanbench.syntax.source import decode
+
+ENDINGS = (".st", ".iecst")
+DEFAULT_MODEL = "GENERIC-IEC"
+PROJECT_FILE = "project.json"
+
+
+@dataclass(frozen=True, slots=True)
+class Sources:
+    """Texts by file name as it was given, and the model that a project file names."""
+
+    texts: dict[str, str]
+    model: str | None
+
+
+def usage(message: str) -> NoReturn:
+    """Prints what is wrong with the call, and ends with exit code 2."""
+    typer.echo(f"scanbench: {message}", err=True)
+    raise typer.Exit(2)
+
+
+def read_sources(paths: list[Path]) -> Sources:
+    """A file is taken whatever its ending; a folder gives every .st file in it and below."""
+    texts: dict[str, str] = {}
+    model = None
+    for path in paths:
+        if path.is_dir():
+            found = sorted(each for each in path.rglob("*") if each.suffix.lower() in ENDINGS and each.is_file())
+            if not found:
+                usage(f"there is no .st file in {path}")
+            model = model or _project_model(path / PROJECT_FILE)
+        elif path.exists():
+            found = [path]
+        else:
+            usage(f"{path} does not exist")
+        for each in found:
+            texts[str(each)] = _read(each)
+    return Sources(texts, model)
+
+
+def _read(path: Path) -> str:
+    try:
+        return decode(path.read_bytes())
+    except OSError as error:
+        usage(f"{path} cannot be read: {error.strerror}")
+
+
+def _project_model(path: Path) -> str | None:
+    if not path.is_file():
+        return None
+    try:
+        content = json.loads(path.read_text("utf-8"))
+    except (OSError, ValueError) as error:
+        usage(f"{path} cannot be read: {error}")
+    model = content.get("model") if isinstance(content, dict) else None
+    return model if isinstance(model, str) else None
+
+
+def find_model(name: str | None, sources: Sources) -> Model:
+    """The model asked for, else the project's, else the plain one."""
+    wanted = name or sources.model or DEFAULT_MODEL
+    models, problems = load_all(model_directory())
+    for problem in problems:
+        typer.echo(str(problem), err=True)
+    by_name = {model.name.upper(): model for model in models}
+    if wanted.upper() in by_name:
+        return by_name[wanted.upper()]
+    near = get_close_matches(wanted.upper(), by_name, n=1)
+    hint = f"did you mean {by_name[near[0]].name}?" if near else f"there are {', '.join(m.name for m in models)}"
+    usage(f"there is no model {wanted}; {hint}")
+
+
+def problem_json(problem: Problem) -> dict[str, str | int]:
+    """A problem as `--json` prints it."""
+    span = problem.span
+    return {
+        "file": span.file,
+        "line": span.line,
+        "column": span.column,
+        "end_line": span.end_line,
+        "end_column": span.end_column,
+        "code": problem.code,
+        "severity": problem.severity.value,
+        "message": problem.message,
+    }

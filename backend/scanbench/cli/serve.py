@@ -1,0 +1,24 @@
+"""`scanbench serve`: the server with the browser IDE."""
+
+from pathlib import Path
+
+import typer
+
+from scanbench.cli.inputs import usage
+
+
+def serve(
+    host: str = typer.Option("127.0.0.1", help="Address to listen on; the default is reachable from this machine only."),
+    port: int | None = typer.Option(None, help="Port; default 8700, or a free one if that is taken. 0: any free one."),
+    data: Path = typer.Option(Path("data"), metavar="DIR", help="Folder for the database; made when it is missing."),
+) -> None:
+    """Start the server; the address to open, with its token, is printed when it is ready."""
+    from scanbench.web.serve import CannotServe
+    from scanbench.web.serve import serve as serve_web
+
+    try:
+        serve_web(host, port, data, lambda line: typer.echo(line))
+    except CannotServe as error:
+        usage(str(error))
+    except OSError as error:
+        usage(f"{data} cannot be used: {error.strerror or error}")

@@ -1,0 +1,45 @@
+"""What a POU may write, itself or through what it calls; so which variables stay as they are during a loop."""
+
+from collections.abc import Iterable
+
+from scanbench.check.program import Place, Pou, Stmt
+from scanbench.engines.native import walk
+from scanbench.engines.native.emit_types import has_members
+
+ANY = ""
+"""Stands for every variable: written through a reference, or as a whole structure."""
+
+
+class Effects:
+    """Summaries of the POUs of one program, made once each."""
+
+    def __init__(self) -> None:
+        self._written: dict[Pou, frozenset[str]] = {}
+
+    def written_by(self, pou: Pou) -> frozenset[str]:
+        """Names of the variables that a run of the POU may write."""
+        known = self._written.get(pou)
+        if known is None:
+            known = self._written[pou] = self.written(pou.body)
+        return known
+
+    def written(self, statements: Iterable[Stmt]) -> frozenset[str]:
+        """Names of the variables that these statements may write."""
+        names: set[str] = set()
+        for seen in walk.of_statements(statements):
+            if isinstance(seen, Pou):
+                names |= self.written_by(seen)
+            elif seen[1] in (walk.Use.WRITE, walk.Use.REFERENCE):
+                names.add(_name(seen[0]))
+        return frozenset(names)
+
+
+def _name(place: Place) -> str:
+    return ANY if has_members(place.type) else place.variable
+
+
+def keeps(written: frozenset[str], place: Place) -> bool:
+    """Whether a plain variable is certainly untouched by code that writes these."""
+    name = place.variable
+    plain = place.slot is None and not place.indices and place.bit is None
+    return plain and name != ANY and not name.startswith("@") and name not in written and ANY not in written

@@ -1,0 +1,138 @@
+"""The text of one LLVM function: names, blocks, traps, temporaries. Knows nothing of the language."""
+
+from dataclasses import dataclass, field
+
+UNLIKELY = ", !prof !0"
+LIKELY = ", !prof !1"
+
+
+@dataclass(slots=True)
+class Value:
+    """A scalar in a register, with what is known of it."""
+
+    ssa: str
+    low: int = 0
+    high: int = 0
+    """Integer-like types: the number is certainly in low..high."""
+    wide: str = ""
+    """The same number as an i64, when it is at hand."""
+    clean: bool = False
+    """REAL, LREAL: certainly not a NaN, or the canonical one."""
+
+    @property
+    def range(self) -> tuple[int, int]:
+        return self.low, self.high
+
+
+@dataclass(slots=True)
+class Temporaries:
+    """Buffers on the stack, used again by the next statement."""
+
+    free: list[tuple[int, str]] = field(default_factory=list)
+    used: list[tuple[int, str]] = field(default_factory=list)
+
+    def release(self) -> None:
+        """All buffers are free again: no value lives from one statement to the next."""
+        self.free.extend(self.used)
+        self.used.clear()
+
+
+class FunctionText:
+    """Builds the text of a function that returns a status: 0, or the number of a trap."""
+
+    def __init__(self, header: str) -> None:
+        self.header = header
+        self.entry: list[str] = []
+        self.lines: list[str] = []
+        self.block = "start"
+        self._count = 0
+        self._failures: dict[str, str] = {}
+        self._temporaries = Temporaries()
+
+    # ---- instructions and blocks -----------------------------------------------------------------------
+
+    def name(self, hint: str = "v") -> str:
+        """A new name, without its sigil."""
+        self._count += 1
+        return f"{hint}{self._count}"
+
+    def op(self, text: str) -> str:
+        """Appends an instruction; gives the name of its result."""
+        self._count += 1
+        result = f"%v{self._count}"
+        self.lines.append(f"  {result} = {text}")
+        return result
+
+    def do(self, text: str) -> None:
+        """Appends an instruction without a result."""
+        self.lines.append(f"  {text}")
+
+    def begin(self, label: str) -> None:
+        """Starts a block."""
+        self.lines.append(f"{label}:")
+        self.block = label
+
+    def go(self, label: str) -> None:
+        """Ends the block."""
+        self.lines.append(f"  br label %{label}")
+
+    def choose(self, condition: str, yes: str, no: str, weights: str = "") -> None:
+        """Ends the block with a conditional branch."""
+        self.lines.append(f"  br i1 {condition}, label %{yes}, label %{no}{weights}")
+
+    # ---- traps ------------------------------------------------------------------------------------------
+
+    def fail(self, status: str) -> str:
+        """The block that leaves the function with this status."""
+        label = self._failures.get(status)
+        if label is None:
+            label = self._failures[status] = self.name("fail")
+        return label
+
+    def trap_if(self, condition: str, trap: int) -> None:
+        """Leaves with the trap where the condition holds."""
+        on = self.name("on")
+        self.choose(condition, self.fail(str(trap)), on, UNLIKELY)
+        self.begin(on)
+
+    def check_status(self, status: str) -> None:
+        """Passes on the trap of a callee."""
+        self.trap_status(self.op(f"icmp ne i32 {status}, 0"), status)
+
+    def trap_status(self, condition: str, status: str) -> None:
+        """Leaves with a computed status where the condition holds."""
+        on = self.name("on")
+        self.choose(condition, self.fail(status), on, UNLIKELY)
+        self.begin(on)
+
+    # ---- memory on the stack ------------------------------------------------------------------------------
+
+    def alloca(self, type: str, align: int = 8) -> str:
+        """A variable on the stack, for the whole call."""
+        name = f"%{self.name('a')}"
+        self.entry.append(f"  {name} = alloca {type}, align {align}")
+        return name
+
+    def buffer(self, size: int) -> str:
+        """Bytes on the stack, until the statement ends."""
+        pool = self._temporaries
+        for position, (room, name) in enumerate(pool.free):
+            if size <= room <= 4 * size + 64:
+                pool.used.append(pool.free.pop(position))
+                return name
+        room = max(32, 1 << (size - 1).bit_length())
+        name = self.alloca(f"[{room} x i8]", 16)
+        pool.used.append((room, name))
+        return name
+
+    def end_statement(self) -> None:
+        """Gives the buffers back."""
+        self._temporaries.release()
+
+    # ---- the whole ----------------------------------------------------------------------------------------
+
+    def text(self) -> str:
+        """The function, ready to be parsed."""
+        failures = [line for status, label in self._failures.items() for line in (f"{label}:", f"  ret i32 {status}")]
+        parts = [f"{self.header} {{", "entry:", *self.entry, "  br label %start", "start:", *self.lines, *failures, "}"]
+        return "\n".join(parts)

@@ -1,0 +1,212 @@
+"""Loops, and the budget that ends those that never would."""
+
+from collections.abc import Callable, Iterator
+from contextlib import contextmanager
+
+from scanbench.check.layout import Layout
+from scanbench.check.program import Const, For, Repeat, Stmt, While
+from scanbench.check.types import Elementary
+from scanbench.engines.native.effects import keeps
+from scanbench.engines.native.emit_body import Body
+from scanbench.engines.native.emit_function import Value
+from scanbench.engines.native.emit_places import address, store, widened
+from scanbench.engines.native.emit_strings import pick
+from scanbench.engines.native.emit_types import bounds, elementary, value_type
+from scanbench.engines.native.ranges import within
+
+Run = Callable[[Body, tuple[Stmt, ...]], None]
+I64 = (-(1 << 63), (1 << 63) - 1)
+
+
+# ---- budget ---------------------------------------------------------------------------------------------------
+
+
+def take(body: Body, rounds: str, trap: int) -> None:
+    """Takes rounds from the scan's budget; traps where it falls below zero."""
+    text, tag = body.text, body.module.tag("#budget")
+    where = text.op(f"getelementptr inbounds nuw i8, ptr {body.image}, i64 {Layout.BUDGET}")
+    before = text.op(f"load i64, ptr {where}, align 8{tag}")
+    left = pick(body, "ssub.sat", before, rounds)
+    text.do(f"store i64 {left}, ptr {where}, align 8{tag}")
+    text.trap_if(text.op(f"icmp slt i64 {left}, 0"), trap)
+
+
+def take_all(body: Body, runs: str, further: str, trap: int) -> None:
+    """Takes one round and `further` ones (unsigned), if the loop runs at all: up to 2 to the 64th, so it saturates."""
+    text, tag = body.text, body.module.tag("#budget")
+    where = text.op(f"getelementptr inbounds nuw i8, ptr {body.image}, i64 {Layout.BUDGET}")
+    before = text.op(f"load i64, ptr {where}, align 8{tag}")
+    enough = text.op(f"icmp ult i64 {further}, {text.op(f'xor i64 {before}, {I64[0]}')}")
+    after = text.op(f"sub i64 {text.op(f'sub i64 {before}, {further}')}, 1")
+    saturated = text.op(f"select i1 {enough}, i64 {after}, i64 {I64[0]}")
+    left = text.op(f"select i1 {runs}, i64 {saturated}, i64 {before}")
+    text.do(f"store i64 {left}, ptr {where}, align 8{tag}")
+    text.trap_if(text.op(f"icmp slt i64 {left}, 0"), trap)
+
+
+# ---- WHILE, REPEAT ----------------------------------------------------------------------------------------------
+
+
+@contextmanager
+def _exit_to(body: Body, label: str) -> Iterator[None]:
+    body.exits.append(label)
+    yield
+    body.exits.pop()
+
+
+def while_loop(body: Body, loop: While, run: Run) -> None:
+    """WHILE: condition, budget, body."""
+    text = body.text
+    head, inside, after = text.name("while"), text.name("do"), text.name("after")
+    text.go(head)
+    text.begin(head)
+    text.choose(body.scalar(loop.condition).ssa, inside, after)
+    text.begin(inside)
+    take(body, "1", loop.trap)
+    with _exit_to(body, after):
+        run(body, loop.body)
+    text.go(head)
+    text.begin(after)
+
+
+def repeat_loop(body: Body, loop: Repeat, run: Run) -> None:
+    """REPEAT: budget, body, condition."""
+    text = body.text
+    head, after = text.name("repeat"), text.name("after")
+    text.go(head)
+    text.begin(head)
+    take(body, "1", loop.trap)
+    with _exit_to(body, after):
+        run(body, loop.body)
+    text.choose(body.scalar(loop.until).ssa, after, head)
+    text.begin(after)
+
+
+# ---- FOR --------------------------------------------------------------------------------------------------------
+
+
+def for_loop(body: Body, loop: For, run: Run) -> None:
+    """FOR: counts in 64 bits, so that narrower counters need no care at the ends of their range."""
+    type = elementary(loop.variable.type)
+    start, end = body.scalar(loop.start), body.scalar(loop.end)
+    step = body.scalar(loop.step)
+    by = int(loop.step.value) if isinstance(loop.step, Const) and not isinstance(loop.step.value, bytes) else 0
+    low, high = min(start.low, end.low), max(start.high, end.high)
+    if by and within((low + min(by, 0), high + max(by, 0)), I64):
+        _counted(body, loop, run, (start, end, by))
+    else:
+        _general(body, loop, run, (start, end, step), type)
+
+
+def _counted(body: Body, loop: For, run: Run, parts: tuple[Value, Value, int]) -> None:
+    """The step is constant and the counter cannot leave 64 bits."""
+    text, type = body.text, elementary(loop.variable.type)
+    start, end, step = parts
+    first, last = widened(body, start, type), widened(body, end, type)
+    if not loop.exits:
+        _take_counted(body, (first, last), parts, loop.trap)
+    before, head, inside, latch = text.block, text.name("for"), text.name("do"), text.name("next")
+    done, after, next_value = text.name("done"), text.name("after"), f"%{text.name('n')}"
+    text.go(head)
+    text.begin(head)
+    counter = text.op(f"phi i64 [ {first}, %{before} ], [ {next_value}, %{latch} ]")
+    text.choose(text.op(f"icmp {'sle' if step > 0 else 'sge'} i64 {counter}, {last}"), inside, done)
+    text.begin(inside)
+    inner = (start.low, end.high) if step > 0 else (end.low, start.high)
+    _round(body, loop, run, counter, inner, after)
+    text.go(latch)
+    text.begin(latch)
+    text.do(f"{next_value} = add nsw i64 {counter}, {step}")
+    text.go(head)
+    text.begin(done)
+    _store_counter(body, loop, counter, type)
+    text.go(after)
+    text.begin(after)
+
+
+def _take_counted(body: Body, ends: tuple[str, str], parts: tuple[Value, Value, int], trap: int) -> None:
+    start, end, step = parts
+    if start.low == start.high and end.low == end.high:
+        distance = (end.low - start.low) if step > 0 else (start.low - end.low)
+        if distance // abs(step) < I64[1]:
+            take(body, str(distance // abs(step) + 1 if distance >= 0 else 0), trap)
+            return
+    text = body.text
+    a, b = ends if step > 0 else (ends[1], ends[0])
+    distance_name = text.op(f"sub i64 {b}, {a}")
+    runs = text.op(f"icmp sle i64 {a}, {b}")
+    further = text.op(f"udiv i64 {distance_name}, {abs(step)}") if abs(step) > 1 else distance_name
+    take_all(body, runs, further, trap)
+
+
+def _round(body: Body, loop: For, run: Run, counter: str, inner: tuple[int, int], after: str) -> None:
+    """Stores the counter and runs the body, which may know the variable's value."""
+    type, place = elementary(loop.variable.type), loop.variable
+    low, high = max(inner[0], bounds(type)[0]), min(inner[1], bounds(type)[1])
+    # a loop without rounds has no range; any will do then
+    value = _narrow(body, counter, type, "nsw " if type.signed else "nuw ", (min(low, high), max(low, high)))
+    if loop.exits:
+        take(body, "1", loop.trap)
+    store(body, address(body, place), type, value)
+    outer = body.counters
+    written = body.unit.effects.written(loop.body)
+    body.counters = {key: known for key, known in outer.items() if key != (place.base, place.offset)}
+    if keeps(written, place):
+        body.counters[place.base, place.offset] = value
+    with _exit_to(body, after):
+        run(body, loop.body)
+    body.counters = outer
+
+
+def _narrow(body: Body, counter: str, type: Elementary, flag: str, known: tuple[int, int]) -> Value:
+    if type.bits == 64:
+        return Value(counter, *known)
+    ssa = body.text.op(f"trunc {flag}i64 {counter} to {value_type(type)}")
+    return Value(ssa, *known, wide=counter)
+
+
+def _store_counter(body: Body, loop: For, counter: str, type: Elementary) -> None:
+    store(body, address(body, loop.variable), type, _narrow(body, counter, type, "", bounds(type)))
+
+
+def _general(body: Body, loop: For, run: Run, parts: tuple[Value, Value, Value], type: Elementary) -> None:
+    """Any step, any width: the rounds are counted beforehand, so the counter may wrap."""
+    text = body.text
+    first, last, step = (widened(body, each, type) for each in parts)
+    sign = "s" if type.signed else "u"
+    up = text.op(f"icmp {sign}gt i64 {step}, 0")
+    down = text.op(f"icmp slt i64 {step}, 0") if type.signed else "false"
+    reachable_up = text.op(f"and i1 {up}, {text.op(f'icmp {sign}le i64 {first}, {last}')}")
+    reachable_down = text.op(f"and i1 {down}, {text.op(f'icmp {sign}ge i64 {first}, {last}')}")
+    runs = text.op(f"or i1 {reachable_up}, {reachable_down}")
+    distance = text.op(f"select i1 {up}, i64 {text.op(f'sub i64 {last}, {first}')}, "
+                       f"i64 {text.op(f'sub i64 {first}, {last}')}")  # fmt: skip
+    size = text.op(f"select i1 {up}, i64 {step}, i64 {text.op(f'sub i64 0, {step}')}")
+    divisor = pick(body, "umax", size, "1")
+    further = text.op(f"udiv i64 {distance}, {divisor}")
+    if not loop.exits:
+        take_all(body, runs, further, loop.trap)
+    _count_down(body, loop, run, (first, step, further, runs))
+
+
+def _count_down(body: Body, loop: For, run: Run, parts: tuple[str, str, str, str]) -> None:
+    text, type = body.text, elementary(loop.variable.type)
+    first, step, further, runs = parts
+    before, head, latch = text.block, text.name("for"), text.name("next")
+    done, after = text.name("done"), text.name("after")
+    next_value, next_left = f"%{text.name('n')}", f"%{text.name('n')}"
+    text.choose(runs, head, done)
+    text.begin(head)
+    counter = text.op(f"phi i64 [ {first}, %{before} ], [ {next_value}, %{latch} ]")
+    left = text.op(f"phi i64 [ {further}, %{before} ], [ {next_left}, %{latch} ]")
+    _round(body, loop, run, counter, bounds(type), after)
+    text.go(latch)
+    text.begin(latch)
+    text.do(f"{next_value} = add i64 {counter}, {step}")
+    text.do(f"{next_left} = sub i64 {left}, 1")
+    text.choose(text.op(f"icmp eq i64 {left}, 0"), done, head)
+    text.begin(done)
+    final = text.op(f"phi i64 [ {first}, %{before} ], [ {next_value}, %{latch} ]")
+    _store_counter(body, loop, final, type)
+    text.go(after)
+    text.begin(after)

@@ -1,0 +1,162 @@
+"""Statements."""
+
+from scanbench.check.program import (
+    Assign,
+    CallBlock,
+    Case,
+    Evaluate,
+    Exit,
+    For,
+    If,
+    Place,
+    Repeat,
+    Return,
+    SetBytes,
+    Stmt,
+    While,
+)
+from scanbench.check.types import Elementary, StringType
+from scanbench.engines.native import emit_calls, emit_loops
+from scanbench.engines.native.emit_body import Body
+from scanbench.engines.native.emit_places import address, canonical, load_at, move, put, store
+from scanbench.engines.native.emit_strings import assign as assign_string
+from scanbench.engines.native.emit_types import elementary, integer, is_real, value_type
+from scanbench.engines.native.speculate import to_selects
+
+WIDEST_RANGE = 64
+"""Labels of a CASE that are listed one by one; wider ranges are compared."""
+
+
+def run(body: Body, statements: tuple[Stmt, ...]) -> None:
+    """Emits the statements in order."""
+    for statement in statements:
+        one(body, statement)
+        body.text.end_statement()
+
+
+def one(body: Body, statement: Stmt) -> None:
+    """Emits a statement."""
+    match statement:
+        case Assign():
+            assign(body, statement)
+        case SetBytes(target, data):
+            move(body, address(body, target).pointer, body.module.constant(data), len(data))
+        case CallBlock():
+            emit_calls.block(body, statement)
+        case Evaluate(call):
+            emit_calls.run(body, call)
+        case If():
+            selects(body, statement) if to_selects(body, statement) else branches(body, statement)
+        case Case():
+            case(body, statement)
+        case For():
+            emit_loops.for_loop(body, statement, run)
+        case While():
+            emit_loops.while_loop(body, statement, run)
+        case Repeat():
+            emit_loops.repeat_loop(body, statement, run)
+        case Exit():
+            _jump(body, body.exits[-1])
+        case Return():
+            _jump(body, body.leave)
+
+
+def _jump(body: Body, label: str) -> None:
+    body.text.go(label)
+    body.text.begin(body.text.name("dead"))
+
+
+def assign(body: Body, statement: Assign) -> None:
+    """Evaluates the value, then the target's address, then stores."""
+    target, value = statement.target, statement.value
+    if isinstance(target.type, StringType):
+        assign_string(body, target, body.pieces(value))
+    elif isinstance(target.type, Elementary):
+        number = body.scalar(value)
+        store(body, address(body, target), target.type, number)
+    else:
+        source = emit_calls.aggregate(body, value)
+        move(body, address(body, target).pointer, source, target.type.size)
+
+
+# ---- IF -------------------------------------------------------------------------------------------------------
+
+
+def branches(body: Body, statement: If) -> None:
+    """IF with jumps."""
+    text = body.text
+    after = text.name("endif")
+    for condition, inside in statement.branches:
+        then, otherwise = text.name("then"), text.name("else")
+        text.choose(body.scalar(condition).ssa, then, otherwise)
+        text.begin(then)
+        run(body, inside)
+        text.go(after)
+        text.begin(otherwise)
+    run(body, statement.orelse)
+    text.go(after)
+    text.begin(after)
+
+
+def selects(body: Body, statement: If) -> None:
+    """IF without jumps: every target is stored, with its own value where the condition is false."""
+    text, still = body.text, "true"
+    for condition, inside in statement.branches:
+        holds = body.scalar(condition).ssa
+        _guarded(body, text.op(f"and i1 {still}, {holds}"), inside)
+        still = text.op(f"and i1 {still}, {text.op(f'xor i1 {holds}, true')}")
+    _guarded(body, still, statement.orelse)
+
+
+def _guarded(body: Body, guard: str, statements: tuple[Stmt, ...]) -> None:
+    for statement in statements:
+        assert isinstance(statement, Assign)
+        _store_if(body, guard, statement.target, statement)
+
+
+def _store_if(body: Body, guard: str, target: Place, statement: Assign) -> None:
+    type = elementary(target.type)
+    value = body.scalar(statement.value)
+    ssa = canonical(body, type, value) if is_real(type) else value.ssa
+    where = address(body, target)
+    old = load_at(body, where, type)
+    name = value_type(type)
+    put(body, where, type, body.text.op(f"select i1 {guard}, {name} {ssa}, {name} {old.ssa}"))
+
+
+# ---- CASE -----------------------------------------------------------------------------------------------------
+
+
+def case(body: Body, statement: Case) -> None:
+    """CASE: a switch, after comparisons for wide ranges."""
+    text, type = body.text, elementary(statement.selector.type)
+    value, name = body.scalar(statement.selector), value_type(type)
+    after, otherwise = text.name("endcase"), text.name("else")
+    targets = [text.name("case") for _ in statement.branches]
+    single: list[str] = []
+    for (labels, _), target in zip(statement.branches, targets, strict=True):
+        for low, high in labels:
+            if high - low < WIDEST_RANGE:
+                single += [f"{name} {integer(each, type)}, label %{target}" for each in range(low, high + 1)]
+            else:
+                _wide_label(body, type, value.ssa, (low, high), target)
+    text.do(f"switch {name} {value.ssa}, label %{otherwise} [ {' '.join(single)} ]")
+    for (_, inside), target in zip(statement.branches, targets, strict=True):
+        text.begin(target)
+        run(body, inside)
+        text.go(after)
+    text.begin(otherwise)
+    run(body, statement.orelse)
+    text.go(after)
+    text.begin(after)
+
+
+def _wide_label(body: Body, type: Elementary, ssa: str, label: tuple[int, int], target: str) -> None:
+    text, name, sign = body.text, value_type(type), "s" if type.signed else "u"
+    above = text.op(f"icmp {sign}ge {name} {ssa}, {integer(label[0], type)}")
+    below = text.op(f"icmp {sign}le {name} {ssa}, {integer(label[1], type)}")
+    on = text.name("on")
+    text.choose(text.op(f"and i1 {above}, {below}"), target, on)
+    text.begin(on)
+
+

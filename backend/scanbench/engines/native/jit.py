@@ -1,0 +1,138 @@
+"""Text of LLVM IR -> machine code in this process. The only module that knows llvmlite."""
+
+import ctypes
+import ctypes.util
+import hashlib
+import os
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from time import perf_counter_ns
+
+import llvmlite
+import llvmlite.binding as llvm
+
+from scanbench.engines.native.emit_intrinsics import LIBM, LIBM_PREFIX
+
+_ready = False
+
+
+@dataclass(slots=True)
+class Timings:
+    """Milliseconds that the steps of a build took; 0 for what the cache made unnecessary."""
+
+    emit: float = 0.0
+    parse: float = 0.0
+    optimise: float = 0.0
+    codegen: float = 0.0
+    link: float = 0.0
+
+
+class Code:
+    """Machine code in memory; freed by `close`, or with the last reference to it."""
+
+    def __init__(self, engine: "llvm.ExecutionEngine") -> None:
+        self._engine = engine
+
+    def function(self, name: str) -> int:
+        """Address of an exported function."""
+        return int(self._engine.get_function_address(name))
+
+    def close(self) -> None:
+        """Frees the code; nobody may run it any more."""
+        self._engine.close()
+
+
+def _prepare() -> None:
+    global _ready
+    if _ready:
+        return
+    llvm.initialize_native_target()
+    llvm.initialize_native_asmprinter()
+    # under names of ours: LLVM would replace a `pow` or `sin` that it knows by something that rounds differently
+    libm = ctypes.CDLL(ctypes.util.find_library("m") or None)
+    for name in LIBM.values():
+        llvm.add_symbol(LIBM_PREFIX + name, ctypes.cast(getattr(libm, name), ctypes.c_void_p).value)
+    _ready = True
+
+
+def _machine(opt_level: int) -> "llvm.TargetMachine":
+    """A new one each time: an execution engine takes it over."""
+    target = llvm.Target.from_default_triple()
+    return target.create_target_machine(
+        cpu=llvm.get_host_cpu_name(), features=llvm.get_host_cpu_features().flatten(), opt=opt_level, jit=True
+    )
+
+
+def _optimised(ir: str, machine: "llvm.TargetMachine", opt_level: int, timings: Timings) -> "llvm.ModuleRef":
+    start = perf_counter_ns()
+    module = llvm.parse_assembly(ir)
+    module.triple = llvm.get_process_triple()
+    module.data_layout = str(machine.target_data)
+    module.verify()
+    timings.parse = (perf_counter_ns() - start) / 1e6
+    start = perf_counter_ns()
+    if opt_level > 0:
+        options = llvm.create_pipeline_tuning_options(speed_level=opt_level)
+        options.loop_vectorization = options.slp_vectorization = options.loop_unrolling = True
+        builder = llvm.create_pass_builder(machine, options)
+        builder.getModulePassManager().run(module, builder)
+    timings.optimise = (perf_counter_ns() - start) / 1e6
+    return module
+
+
+def optimised_text(ir: str, opt_level: int = 2) -> str:
+    """The module after LLVM's passes, to be looked at."""
+    _prepare()
+    return str(_optimised(ir, _machine(opt_level), opt_level, Timings()))
+
+
+def assembly(ir: str, opt_level: int = 2) -> str:
+    """The machine code as assembly, to be looked at."""
+    _prepare()
+    machine = _machine(opt_level)
+    return str(machine.emit_assembly(_optimised(ir, machine, opt_level, Timings())))
+
+
+def compile_object(ir: str, opt_level: int, timings: Timings, cache: Path | None = None) -> bytes:
+    """Object code of a module; from the cache directory, when it was compiled before on such a machine."""
+    _prepare()
+    path = cache / f"{_key(ir, opt_level)}.o" if cache else None
+    if path and path.is_file():
+        return path.read_bytes()
+    machine = _machine(opt_level)
+    module = _optimised(ir, machine, opt_level, timings)
+    start = perf_counter_ns()
+    code = bytes(machine.emit_object(module))
+    timings.codegen = (perf_counter_ns() - start) / 1e6
+    if path:
+        _write(path, code)
+    return code
+
+
+def _key(ir: str, opt_level: int) -> str:
+    version = f"{llvmlite.__version__} {llvm.llvm_version_info}"
+    host = f"{llvm.get_host_cpu_name()} {llvm.get_host_cpu_features().flatten()}"
+    return hashlib.sha256(f"{version} {host} {opt_level}\n{ir}".encode()).hexdigest()
+
+
+def _write(path: Path, code: bytes) -> None:
+    """Whole or not at all, as other processes read the directory."""
+    path.parent.mkdir(parents=True, exist_ok=True)
+    handle, name = tempfile.mkstemp(dir=path.parent)
+    with os.fdopen(handle, "wb") as file:
+        file.write(code)
+    os.replace(name, path)
+
+
+def link(code: bytes, timings: Timings) -> Code:
+    """Loads object code into the process."""
+    _prepare()
+    start = perf_counter_ns()
+    empty = llvm.parse_assembly("")
+    empty.triple = llvm.get_process_triple()
+    engine = llvm.create_mcjit_compiler(empty, _machine(0))
+    engine.add_object_file(llvm.ObjectFileRef.from_data(code))
+    engine.finalize_object()
+    timings.link = (perf_counter_ns() - start) / 1e6
+    return Code(engine)

@@ -1,0 +1,386 @@
+"""Helpers of the emitted code for strings, in IR: copying, comparing, searching, numbers.
+
+Characters are given as a pointer and an i64 count; the length before them is the callers' business.
+"""
+
+COPY = """\
+declare ptr @memmove(ptr, ptr, i64)
+define internal void @s.copy(ptr %to, ptr %from, i64 %n) alwaysinline #0 {
+; all loads come before the stores, so that the two may overlap
+  %small = icmp ule i64 %n, 16
+  br i1 %small, label %upto16, label %over16
+upto16:
+  %is8 = icmp uge i64 %n, 8
+  br i1 %is8, label %from8, label %upto7
+from8:
+  %o8 = add i64 %n, -8
+  %f8 = getelementptr i8, ptr %from, i64 %o8
+  %t8 = getelementptr i8, ptr %to, i64 %o8
+  %a8 = load i64, ptr %from, align 1
+  %b8 = load i64, ptr %f8, align 1
+  store i64 %a8, ptr %to, align 1
+  store i64 %b8, ptr %t8, align 1
+  ret void
+upto7:
+  %is4 = icmp uge i64 %n, 4
+  br i1 %is4, label %from4, label %upto3
+from4:
+  %o4 = add i64 %n, -4
+  %f4 = getelementptr i8, ptr %from, i64 %o4
+  %t4 = getelementptr i8, ptr %to, i64 %o4
+  %a4 = load i32, ptr %from, align 1
+  %b4 = load i32, ptr %f4, align 1
+  store i32 %a4, ptr %to, align 1
+  store i32 %b4, ptr %t4, align 1
+  ret void
+upto3:
+  %is1 = icmp ne i64 %n, 0
+  br i1 %is1, label %from1, label %done
+from1:
+  %half = lshr i64 %n, 1
+  %last = add i64 %n, -1
+  %f1 = getelementptr i8, ptr %from, i64 %half
+  %f2 = getelementptr i8, ptr %from, i64 %last
+  %t1 = getelementptr i8, ptr %to, i64 %half
+  %t2 = getelementptr i8, ptr %to, i64 %last
+  %a1 = load i8, ptr %from, align 1
+  %b1 = load i8, ptr %f1, align 1
+  %c1 = load i8, ptr %f2, align 1
+  store i8 %a1, ptr %to, align 1
+  store i8 %b1, ptr %t1, align 1
+  store i8 %c1, ptr %t2, align 1
+  ret void
+over16:
+  %is32 = icmp ule i64 %n, 32
+  br i1 %is32, label %from16, label %large
+from16:
+  %o16 = add i64 %n, -16
+  %f16 = getelementptr i8, ptr %from, i64 %o16
+  %t16 = getelementptr i8, ptr %to, i64 %o16
+  %a16 = load <16 x i8>, ptr %from, align 1
+  %b16 = load <16 x i8>, ptr %f16, align 1
+  store <16 x i8> %a16, ptr %to, align 1
+  store <16 x i8> %b16, ptr %t16, align 1
+  ret void
+large:
+  call void @s.copylarge(ptr %to, ptr %from, i64 %n)
+  ret void
+done:
+  ret void
+}
+define internal void @s.copylarge(ptr %to, ptr %from, i64 %n) noinline cold #0 {
+  call ptr @memmove(ptr %to, ptr %from, i64 %n)
+  ret void
+}"""
+
+ORDER = """\
+declare i32 @memcmp(ptr, ptr, i64)
+define internal i64 @s.order(ptr %a, i64 %n, ptr %b, i64 %m) #0 {
+; below, equal to or above 0 as the first stands before, equals, or stands behind the second
+  %shorter = icmp ult i64 %n, %m
+  %common = select i1 %shorter, i64 %n, i64 %m
+  %found = call i32 @memcmp(ptr %a, ptr %b, i64 %common)
+  %same = icmp eq i32 %found, 0
+  %rest = sub i64 %n, %m
+  %wide = sext i32 %found to i64
+  %result = select i1 %same, i64 %rest, i64 %wide
+  ret i64 %result
+}"""
+
+EQUAL = """\
+define internal i1 @s.equal(ptr %a, i64 %n, ptr %b, i64 %m) #0 {
+  %sized = icmp eq i64 %n, %m
+  br i1 %sized, label %compare, label %no
+compare:
+  %small = icmp ult i64 %n, 8
+  br i1 %small, label %bytes, label %words
+words:
+  %i = phi i64 [ 0, %compare ], [ %next, %more ]
+  %left = sub i64 %n, %i
+  %tail = icmp ult i64 %left, 8
+  %atend = add i64 %n, -8
+  %at = select i1 %tail, i64 %atend, i64 %i
+  %ap = getelementptr i8, ptr %a, i64 %at
+  %bp = getelementptr i8, ptr %b, i64 %at
+  %av = load i64, ptr %ap, align 1
+  %bv = load i64, ptr %bp, align 1
+  %alike = icmp eq i64 %av, %bv
+  br i1 %alike, label %more, label %no
+more:
+  %next = add i64 %i, 8
+  %go = icmp ult i64 %next, %n
+  br i1 %go, label %words, label %yes
+bytes:
+  %j = phi i64 [ 0, %compare ], [ %after, %step ]
+  %end = icmp eq i64 %j, %n
+  br i1 %end, label %yes, label %one
+one:
+  %cp = getelementptr i8, ptr %a, i64 %j
+  %dp = getelementptr i8, ptr %b, i64 %j
+  %cv = load i8, ptr %cp, align 1
+  %dv = load i8, ptr %dp, align 1
+  %both = icmp eq i8 %cv, %dv
+  br i1 %both, label %step, label %no
+step:
+  %after = add i64 %j, 1
+  br label %bytes
+yes:
+  ret i1 true
+no:
+  ret i1 false
+}"""
+
+FIND = """\
+declare ptr @memmem(ptr, i64, ptr, i64)
+define internal i64 @s.find(ptr %a, i64 %n, ptr %b, i64 %m) #0 {
+; position from 1 of the first %b in %a, or 0
+  %empty = icmp eq i64 %m, 0
+  %toolong = icmp ugt i64 %m, %n
+  %never = or i1 %empty, %toolong
+  br i1 %never, label %none, label %look
+look:
+  %large = icmp ugt i64 %n, 64
+  br i1 %large, label %far, label %near
+far:
+  %hit = call ptr @memmem(ptr %a, i64 %n, ptr %b, i64 %m)
+  %missed = icmp eq ptr %hit, null
+  %hitat = ptrtoint ptr %hit to i64
+  %aat = ptrtoint ptr %a to i64
+  %distance = sub i64 %hitat, %aat
+  %farposition = add i64 %distance, 1
+  %farresult = select i1 %missed, i64 0, i64 %farposition
+  ret i64 %farresult
+near:
+  %last = sub i64 %n, %m
+  %first = load i8, ptr %b, align 1
+  br label %try
+try:
+  %i = phi i64 [ 0, %near ], [ %next, %miss ]
+  %p = getelementptr i8, ptr %a, i64 %i
+  %c = load i8, ptr %p, align 1
+  %start = icmp eq i8 %c, %first
+  br i1 %start, label %compare, label %miss
+compare:
+  %same = call i1 @s.equal(ptr %p, i64 %m, ptr %b, i64 %m)
+  br i1 %same, label %found, label %miss
+miss:
+  %next = add i64 %i, 1
+  %on = icmp sle i64 %next, %last
+  br i1 %on, label %try, label %none
+found:
+  %position = add i64 %i, 1
+  ret i64 %position
+none:
+  ret i64 0
+}"""
+
+DECIMAL = """\
+define internal i64 @s.decimal(ptr %to, i64 %value, i1 %minus) noinline #0 {
+; writes the digits of an unsigned number, with a sign before them, and gives their count
+entry:
+  %digits = alloca [24 x i8], align 8
+  br label %digit
+digit:
+  %rest = phi i64 [ %value, %entry ], [ %quotient, %digit ]
+  %at = phi i64 [ 24, %entry ], [ %before, %digit ]
+  %quotient = udiv i64 %rest, 10
+  %tens = mul i64 %quotient, 10
+  %units = sub i64 %rest, %tens
+  %narrow = trunc i64 %units to i8
+  %char = add i8 %narrow, 48
+  %before = add i64 %at, -1
+  %place = getelementptr i8, ptr %digits, i64 %before
+  store i8 %char, ptr %place, align 1
+  %more = icmp ne i64 %quotient, 0
+  br i1 %more, label %digit, label %sign
+sign:
+  %signat = add i64 %before, -1
+  %signplace = getelementptr i8, ptr %digits, i64 %signat
+  store i8 45, ptr %signplace, align 1
+  %start = select i1 %minus, i64 %signat, i64 %before
+  %from = getelementptr i8, ptr %digits, i64 %start
+  %n = sub i64 24, %start
+  call void @s.copy(ptr %to, ptr %from, i64 %n)
+  ret i64 %n
+}"""
+
+REAL_TEXT = """\
+declare i32 @snprintf(ptr, i64, ptr, ...)
+@s.format = private unnamed_addr constant [5 x i8] c"%.*g\\00"
+define internal i64 @s.realtext(ptr %to, double %x, i64 %digits) noinline #0 {
+; writes at most 32 characters and a zero; precision beyond 1000 digits shows nothing more
+  %nan = fcmp uno double %x, 0.0
+  br i1 %nan, label %isnan, label %number
+isnan:
+  store i8 110, ptr %to, align 1
+  %a = getelementptr i8, ptr %to, i64 1
+  store i8 97, ptr %a, align 1
+  %n = getelementptr i8, ptr %to, i64 2
+  store i8 110, ptr %n, align 1
+  ret i64 3
+number:
+  %most = icmp sgt i64 %digits, 1000
+  %high = select i1 %most, i64 1000, i64 %digits
+  %least = icmp slt i64 %high, -1
+  %low = select i1 %least, i64 -1, i64 %high
+  %precision = trunc i64 %low to i32
+  %written = call i32 (ptr, i64, ptr, ...) @snprintf(ptr %to, i64 33, ptr @s.format, i32 %precision, double %x)
+  %cut = icmp sgt i32 %written, 32
+  %count = select i1 %cut, i32 32, i32 %written
+  %wide = sext i32 %count to i64
+  ret i64 %wide
+}"""
+
+SCAN = """\
+define internal i8 @s.at(ptr %a, i64 %n, i64 %i) alwaysinline #0 {
+; the character at a position, or 0 behind the end
+  %in = icmp ult i64 %i, %n
+  br i1 %in, label %read, label %end
+read:
+  %p = getelementptr i8, ptr %a, i64 %i
+  %c = load i8, ptr %p, align 1
+  ret i8 %c
+end:
+  ret i8 0
+}
+define internal i1 @s.isdigit(ptr %a, i64 %n, i64 %i) alwaysinline #0 {
+  %c = call i8 @s.at(ptr %a, i64 %n, i64 %i)
+  %d = sub i8 %c, 48
+  %is = icmp ult i8 %d, 10
+  ret i1 %is
+}
+define internal i64 @s.blanks(ptr %a, i64 %n) alwaysinline #0 {
+; count of leading blanks
+entry:
+  br label %next
+next:
+  %i = phi i64 [ 0, %entry ], [ %after, %next ]
+  %c = call i8 @s.at(ptr %a, i64 %n, i64 %i)
+  %space = icmp eq i8 %c, 32
+  %tab = icmp eq i8 %c, 9
+  %blank = or i1 %space, %tab
+  %after = add i64 %i, 1
+  br i1 %blank, label %next, label %done
+done:
+  ret i64 %i
+}
+define internal i64 @s.sign(ptr %a, i64 %n, i64 %i) alwaysinline #0 {
+; the position behind a sign
+  %c = call i8 @s.at(ptr %a, i64 %n, i64 %i)
+  %plus = icmp eq i8 %c, 43
+  %minus = icmp eq i8 %c, 45
+  %is = or i1 %plus, %minus
+  %step = zext i1 %is to i64
+  %after = add i64 %i, %step
+  ret i64 %after
+}
+define internal i64 @s.digits(ptr %a, i64 %n, i64 %i) alwaysinline #0 {
+; the position behind digits
+entry:
+  br label %next
+next:
+  %at = phi i64 [ %i, %entry ], [ %after, %next ]
+  %is = call i1 @s.isdigit(ptr %a, i64 %n, i64 %at)
+  %after = add i64 %at, 1
+  br i1 %is, label %next, label %done
+done:
+  ret i64 %at
+}"""
+
+TO_INT = """\
+declare { i64, i1 } @llvm.smul.with.overflow.i64(i64, i64)
+declare { i64, i1 } @llvm.ssub.with.overflow.i64(i64, i64)
+define internal i64 @s.toint(ptr %a, i64 %n) noinline #0 {
+; counts down from zero, as the smallest number has no positive counterpart
+entry:
+  %from = call i64 @s.blanks(ptr %a, i64 %n)
+  %c = call i8 @s.at(ptr %a, i64 %n, i64 %from)
+  %minus = icmp eq i8 %c, 45
+  %first = call i64 @s.sign(ptr %a, i64 %n, i64 %from)
+  br label %next
+next:
+  %i = phi i64 [ %first, %entry ], [ %after, %add ]
+  %sum = phi i64 [ 0, %entry ], [ %less, %add ]
+  %is = call i1 @s.isdigit(ptr %a, i64 %n, i64 %i)
+  br i1 %is, label %digit, label %done
+digit:
+  %d = call i8 @s.at(ptr %a, i64 %n, i64 %i)
+  %units = sub i8 %d, 48
+  %wide = zext i8 %units to i64
+  %product = call { i64, i1 } @llvm.smul.with.overflow.i64(i64 %sum, i64 10)
+  %tens = extractvalue { i64, i1 } %product, 0
+  %over1 = extractvalue { i64, i1 } %product, 1
+  br i1 %over1, label %saturate, label %subtract
+subtract:
+  %difference = call { i64, i1 } @llvm.ssub.with.overflow.i64(i64 %tens, i64 %wide)
+  %less = extractvalue { i64, i1 } %difference, 0
+  %over2 = extractvalue { i64, i1 } %difference, 1
+  br i1 %over2, label %saturate, label %add
+add:
+  %after = add i64 %i, 1
+  br label %next
+saturate:
+  %bound = select i1 %minus, i64 -9223372036854775808, i64 9223372036854775807
+  ret i64 %bound
+done:
+  %smallest = icmp eq i64 %sum, -9223372036854775808
+  %negated = sub i64 0, %sum
+  %positive = select i1 %smallest, i64 9223372036854775807, i64 %negated
+  %result = select i1 %minus, i64 %sum, i64 %positive
+  ret i64 %result
+}"""
+
+TO_REAL = """\
+declare double @strtod(ptr, ptr)
+define internal double @s.toreal(ptr %a, i64 %n) noinline #0 {
+; finds the longest prefix that is a number, and has libc convert a copy of just that
+entry:
+  %copy = alloca [32768 x i8], align 16
+  %from = call i64 @s.blanks(ptr %a, i64 %n)
+  %first = call i64 @s.sign(ptr %a, i64 %n, i64 %from)
+  %whole = call i64 @s.digits(ptr %a, i64 %n, i64 %first)
+  %count1 = sub i64 %whole, %first
+  %c = call i8 @s.at(ptr %a, i64 %n, i64 %whole)
+  %point = icmp eq i8 %c, 46
+  %behind = add i64 %whole, 1
+  %fractionend = call i64 @s.digits(ptr %a, i64 %n, i64 %behind)
+  %fraction = sub i64 %fractionend, %behind
+  %count2 = select i1 %point, i64 %fraction, i64 0
+  %count = add i64 %count1, %count2
+  %none = icmp eq i64 %count, 0
+  br i1 %none, label %zero, label %number
+number:
+  %mantissa = select i1 %point, i64 %fractionend, i64 %whole
+  %e = call i8 @s.at(ptr %a, i64 %n, i64 %mantissa)
+  %lower = or i8 %e, 32
+  %ise = icmp eq i8 %lower, 101
+  %signat = add i64 %mantissa, 1
+  %digitat = call i64 @s.sign(ptr %a, i64 %n, i64 %signat)
+  %isdigit = call i1 @s.isdigit(ptr %a, i64 %n, i64 %digitat)
+  %exponentend = call i64 @s.digits(ptr %a, i64 %n, i64 %digitat)
+  %isexponent = and i1 %ise, %isdigit
+  %end = select i1 %isexponent, i64 %exponentend, i64 %mantissa
+  %size = sub i64 %end, %from
+  %start = getelementptr i8, ptr %a, i64 %from
+  call ptr @memcpy(ptr %copy, ptr %start, i64 %size)
+  %zeroat = getelementptr i8, ptr %copy, i64 %size
+  store i8 0, ptr %zeroat, align 1
+  %result = call double @strtod(ptr %copy, ptr null)
+  ret double %result
+zero:
+  ret double 0.0
+}
+declare ptr @memcpy(ptr, ptr, i64)"""
+
+HELPERS: dict[str, tuple[str, tuple[str, ...]]] = {
+    "copy": (COPY, ()),
+    "order": (ORDER, ()),
+    "equal": (EQUAL, ()),
+    "find": (FIND, ("equal",)),
+    "decimal": (DECIMAL, ("copy",)),
+    "realtext": (REAL_TEXT, ()),
+    "scan": (SCAN, ()),
+    "toint": (TO_INT, ("scan",)),
+    "toreal": (TO_REAL, ("scan",)),
+}
+"""Text of a helper, and the helpers it calls."""

@@ -1,0 +1,61 @@
+"""Both engines at once: every scan runs on each, and the images must agree byte for byte."""
+
+from scanbench.check.layout import Layout
+from scanbench.check.program import Program
+from scanbench.check.symbols import at_offset
+from scanbench.engines.engine import Engine, Pace, Reason, Stop
+from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.native.engine import NativeEngine
+
+
+class Differs(Exception):
+    """The engines disagree after a scan."""
+
+    def __init__(self, scan: int, where: str, native: str, reference: str) -> None:
+        super().__init__(f"scan {scan}: the engines differ at {where}: native {native}, reference {reference}")
+        self.scan = scan
+        self.where = where
+
+
+class PairEngine(Engine):
+    """Native on the image given; the reference engine on a copy of it that is made before every scan."""
+
+    name = "both"
+
+    def __init__(self, program: Program, memory: bytearray) -> None:
+        self.program = program
+        self.memory = memory
+        self.shadow = bytearray(memory)
+        self.native = NativeEngine(program, memory)
+        self.reference = ReferenceEngine(program, self.shadow)
+
+    def knock(self) -> None:
+        self.native.knock()
+
+    def run(self, scans: int, pace: Pace | None = None) -> Stop:
+        for _ in range(scans):
+            scan = int.from_bytes(self.memory[Layout.SCAN : Layout.SCAN + 8], "little")
+            self.shadow[:] = self.memory
+            stop = self.native.run(1, pace)
+            if stop.reason is Reason.KNOCKED:
+                return stop
+            other = self.reference.run(1)
+            self._compare(scan, stop, other)
+            if stop.reason is Reason.TRAP:
+                return stop
+        return Stop(Reason.DONE)
+
+    def _compare(self, scan: int, stop: Stop, other: Stop) -> None:
+        size = self.program.layout.state_size
+        if stop != other:
+            raise Differs(scan, "the end of the scan", self._say(stop), self._say(other))
+        if self.memory[:size] != self.shadow[:size]:
+            at = next(index for index in range(size) if self.memory[index] != self.shadow[index])
+            values = (memory[at : at + 8].hex(" ") for memory in (self.memory, self.shadow))
+            raise Differs(scan, f"{at_offset(self.program, at)} (byte {at} of the image)", *values)
+
+    def _say(self, stop: Stop) -> str:
+        if stop.reason is not Reason.TRAP:
+            return "went on"
+        site = self.program.traps[stop.trap - 1]
+        return f"trapped at {site.span}: {site.message}"

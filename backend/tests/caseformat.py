@@ -1,0 +1,165 @@
+"""Reads `.case` files and runs their cases on engines."""
+
+import re
+from collections.abc import Callable
+from dataclasses import dataclass, field
+from pathlib import Path
+
+from scanbench.check.build import check_sources
+from scanbench.check.layout import Layout
+from scanbench.check.program import Program
+from scanbench.check.symbols import Symbol, UnknownPath, at_offset, resolve
+from scanbench.check.values import format_value, parse_value
+from scanbench.engines.engine import Engine, Reason, Stop
+from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.plcmodel.model import Model
+from scanbench.syntax.literals import duration
+
+HEAD = re.compile(r"^\[(case|source|scans|trap|model|interval|budget)\b\s*(.*?)\]\s*$")
+LINE = re.compile(r"^\s*(\d+)\s*:(.*?)(?:\|(.*))?$")
+PAIR = re.compile(r"\s*([^\s:=,]+(?:\[[^\]]*\][^\s:=,]*)*)\s*:?=\s*('(?:\$.|[^'])*'|[^,]+)\s*(?:,|$)")
+
+MODELS: dict[str, Model] = {model.name: model for model in load_all(model_directory())[0]}
+
+
+@dataclass(slots=True)
+class Step:
+    """What happens before a scan, and holds after it."""
+
+    scan: int
+    sets: list[tuple[str, str]]
+    expected: list[tuple[str, str]]
+    line: int
+
+
+@dataclass(slots=True)
+class Case:
+    name: str
+    source: str = ""
+    steps: list[Step] = field(default_factory=list)
+    trap: tuple[str, int] | None = None
+    model: str = "GENERIC-IEC"
+    interval_ns: int = 10_000_000
+    budget: int | None = None
+
+
+def read_cases(path: Path) -> list[Case]:
+    """All cases of a file."""
+    cases: list[Case] = []
+    part = ""
+    for number, line in enumerate(path.read_text("utf-8").splitlines(), 1):
+        head = HEAD.match(line)
+        if head:
+            part, rest = head.groups()
+            if part == "case":
+                cases.append(Case(f"{path.stem}/{rest}"))
+            elif part == "trap":
+                kind, place = rest.split()
+                cases[-1].trap = kind, int(place)
+            elif part == "model":
+                cases[-1].model = rest
+            elif part == "budget":
+                cases[-1].budget = int(rest)
+            elif part == "interval":
+                cases[-1].interval_ns = duration(rest)
+        elif part == "source":
+            cases[-1].source += line + "\n"
+        elif part == "scans" and line.strip():
+            match = LINE.match(line)
+            assert match, f"{path}:{number}: a line is `scan: sets | expectations`"
+            scan, sets, expected = match.groups()
+            cases[-1].steps.append(Step(int(scan), PAIR.findall(sets), PAIR.findall(expected or ""), number))
+    return cases
+
+
+def build(case: Case) -> Program:
+    """The checked program; problems fail the test."""
+    checked = check_sources({"case.st": case.source}, MODELS[case.model], case.interval_ns)
+    assert checked.program is not None, "\n".join(map(str, checked.problems))
+    return checked.program
+
+
+def look_up(program: Program, path: str) -> Symbol:
+    """A variable of Main before anything else of that name."""
+    try:
+        return resolve(program, f"Main.{path}")
+    except UnknownPath:
+        return resolve(program, path)
+
+
+def find(program: Program, path: str, memory: bytearray) -> tuple[int, int | None, str]:
+    symbol = look_up(program, path)
+    place = symbol.locate(memory)
+    assert place is not None, f"{path} is bound to nothing"
+    offset, bit = place
+    data = bytes(memory[offset : offset + symbol.type.size])
+    if bit is not None:
+        data = bytes([data[0] >> bit & 1])
+    return offset, bit, format_value(symbol.type, data)
+
+
+def write(program: Program, path: str, text: str, memory: bytearray) -> None:
+    symbol = look_up(program, path)
+    offset, bit, _ = find(program, path, memory)
+    data = parse_value(symbol.type, text)
+    if bit is None:
+        memory[offset : offset + len(data)] = data
+    else:
+        memory[offset] = memory[offset] & ~(1 << bit) | data[0] << bit
+
+
+def first_difference(program: Program, a: bytearray, b: bytearray) -> str:
+    """Where two images differ, for people; '' where they do not."""
+    size = program.layout.state_size
+    if a[:size] == b[:size]:
+        return ""
+    at = next(index for index in range(size) if a[index] != b[index])
+    return f"{at_offset(program, at)} (byte {at}): {a[at : at + 8].hex()} and {b[at : at + 8].hex()}"
+
+
+def run_case(case: Case, engines: list[Callable[[Program, bytearray], Engine]]) -> None:
+    """Runs on all engines in lockstep; compares whole images after every scan, then the expectations."""
+    program = build(case)
+    memories = [bytearray(program.initial_image) for _ in engines]
+    for memory in memories if case.budget else ():
+        memory[Layout.BUDGET_LIMIT : Layout.BUDGET_LIMIT + 8] = (case.budget or 0).to_bytes(8, "little")
+    running = [make(program, memory) for make, memory in zip(engines, memories, strict=True)]
+    steps = {step.scan: step for step in case.steps}
+    last = max(steps)
+    for scan in range(last + 1):
+        step = steps.get(scan)
+        for path, value in step.sets if step else ():
+            for memory in memories:
+                write(program, path, value, memory)
+        stops = [engine.run(1) for engine in running]
+        assert len(set(stops)) == 1, f"scan {scan}: {stops}"
+        for memory in memories[1:]:
+            difference = first_difference(program, memories[0], memory)
+            assert not difference, f"scan {scan}: {running[0].name} and {running[1].name} differ at {difference}"
+        for path, value in step.expected if step else ():
+            shown = find(program, path, memories[0])[2]
+            assert same(shown, value), f"line {step.line if step else 0}, scan {scan}: {path} is {shown}, not {value}"
+        check_stop(program, case, stops[0], scan == last)
+
+
+def same(shown: str, wanted: str) -> bool:
+    """Equal as text, or as the number or duration that both write."""
+    wanted = wanted.strip()
+    if shown == wanted or shown.upper() == wanted.upper():
+        return True
+    try:
+        if shown.startswith("T#") and wanted.upper().startswith("T#"):
+            return duration(shown[2:]) == duration(wanted[2:])
+        number = (lambda text: int(text[3:], 16) if text.startswith("16#") else float(text))
+        return bool(number(shown) == number(wanted))
+    except ValueError:
+        return False
+
+
+def check_stop(program: Program, case: Case, stop: Stop, last: bool) -> None:
+    if stop.reason is Reason.TRAP:
+        site = program.traps[stop.trap - 1]
+        assert case.trap == (site.kind.value, site.span.line), f"trapped: {site}"
+        assert last
+    else:
+        assert not (last and case.trap), f"no trap, but {case.trap} expected"

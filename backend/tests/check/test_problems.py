@@ -1,0 +1,112 @@
+"""One test a row of the table of problems: the code, and where it points."""
+
+import pytest
+
+from scanbench.check.build import check_sources
+from scanbench.problems import TABLE
+from tests.caseformat import MODELS
+
+MAIN = "PROGRAM Main\nVAR x : INT; b : BOOL; a : ARRAY[1..3] OF INT; r : REAL; t : TON; END_VAR\n{}\nEND_PROGRAM\n"
+
+BODIES = [
+    ("S001", "x := 1 ? 2;", 3),
+    ("S002", "x := 1; (* never closed", 3),
+    ("S002", "x := LEN('open);", 3),
+    ("S003", "x := ;", 3),
+    ("S003", "x = 1;", 3),
+    ("S003", "IF b THEN x := 1;", 4),
+    ("S004", "x := 40000;", 3),
+    ("S004", "t(PT := T#5q);", 3),
+    ("S004", "x := x / 0;", 3),
+    ("T001", "y := 1;", 3),
+    ("T001", "x := Foo(1);", 3),
+    ("T002", "x := r;", 3),
+    ("T002", "b := x + 1;", 3),
+    ("T002", "x := x AND 1;", 3),
+    ("T003", "t.Q := TRUE;", 3),
+    ("T004", "t(IM := b);", 3),
+    ("T004", "x := ABS();", 3),
+    ("T006", "IF x THEN x := 1; END_IF;", 3),
+    ("T007", "CASE x OF 1: x := 2; 1: x := 3; END_CASE;", 3),
+    ("T008", "FOR r := 1 TO 2 DO x := 1; END_FOR;", 3),
+    ("T008", "FOR x := 1 TO 2 DO x := 1; END_FOR;", 3),
+    ("T009", "EXIT;", 3),
+    ("T010", "x := t();", 3),
+    ("T010", "x := x[1];", 3),
+    ("T010", "b := t.running;", 3),
+    ("T012", "x := a[4];", 3),
+    ("W001", "x + 1;", 3),
+    ("X001", "CONTINUE;", 3),
+    ("X001", "x := x.3;", 3),
+]
+
+FILES = [
+    ("D001", "PROGRAM Main\nVAR x : INT;\nX : INT; END_VAR\nEND_PROGRAM", 3),
+    ("D001", "PROGRAM Main\nEND_PROGRAM\nFUNCTION_BLOCK main\nEND_FUNCTION_BLOCK", 3),
+    ("D002", "PROGRAM Main\nVAR x : INTT; END_VAR\nEND_PROGRAM", 2),
+    ("D003", "FUNCTION_BLOCK A\nVAR b : B; END_VAR\nEND_FUNCTION_BLOCK\nFUNCTION_BLOCK B\nVAR a : A; END_VAR\nEND_FUNCTION_BLOCK", 5),
+    ("D004", "PROGRAM Main\nVAR y : INT;\nx : INT := y; END_VAR\nEND_PROGRAM", 3),
+    ("D005", "PROGRAM Main\nVAR x AT %MW9999999 : INT; END_VAR\nEND_PROGRAM", 2),
+    ("D005", "PROGRAM Main\nVAR x AT %MX0.0 : INT; END_VAR\nEND_PROGRAM", 2),
+    ("D006", "PROGRAM Main\nVAR x : ARRAY[3..1] OF INT; END_VAR\nEND_PROGRAM", 2),
+    ("D006", "PROGRAM Main\nVAR x : STRING[0]; END_VAR\nEND_PROGRAM", 2),
+    ("D007", "PROGRAM Main\nVAR_EXTERNAL g : INT; END_VAR\nEND_PROGRAM", 2),
+    ("D008", "PROGRAM Main\nVAR_IN_OUT g : INT; END_VAR\nEND_PROGRAM", 2),
+    ("D009", "FUNCTION F : INT\nVAR_INPUT x : INT; END_VAR\nF := F(x);\nEND_FUNCTION\nPROGRAM Main\nEND_PROGRAM", 1),
+    ("D010", "PROGRAM Main\nEND_PROGRAM\nCONFIGURATION C\nRESOURCE R ON P\nPROGRAM m : Mein;\nEND_RESOURCE\nEND_CONFIGURATION", 5),
+    ("D011", "FUNCTION F : INT\nF := 1;\nEND_FUNCTION", 1),
+    ("D012", "PROGRAM Main\nVAR x : ARRAY[0..99999999] OF LINT; END_VAR\nEND_PROGRAM", 2),
+    ("T005", "FUNCTION_BLOCK B\nVAR_IN_OUT x : INT; END_VAR\nEND_FUNCTION_BLOCK\nPROGRAM Main\nVAR b : B; END_VAR\nb();\nEND_PROGRAM", 6),
+    ("T005", "FUNCTION_BLOCK B\nVAR_IN_OUT x : INT; END_VAR\nEND_FUNCTION_BLOCK\nPROGRAM Main\nVAR b : B; END_VAR\nb(x := 5);\nEND_PROGRAM", 6),
+    ("S005", None, 0),
+    ("T011", "PROGRAM Main\nVAR f AT A402.12 : BOOL; END_VAR\nf := TRUE;\nEND_PROGRAM", 3),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("code", "body", "line"), BODIES, ids=[f"{code} {body}" for code, body, _ in BODIES])
+def test_statement(code: str, body: str, line: int) -> None:
+    expect(code, MAIN.format(body), line)
+
+
+@pytest.mark.parametrize(("code", "text", "line"), [row for row in FILES if row[1]])
+def test_declaration(code: str, text: str, line: int) -> None:
+    expect(code, text, line)
+
+
+def expect(code: str, text: str, line: int) -> None:
+    checked = check_sources({"a.st": text}, MODELS["CJ1M-CPU63" if code == "T011" else "GENERIC-IEC"])
+    found = [(problem.code, problem.span.line) for problem in checked.problems]
+    assert (code, line) in found, "\n".join(map(str, checked.problems))
+    assert (checked.program is None) == any(not each.startswith("W") for each, _ in found)
+
+
+def test_every_problem_has_a_test() -> None:
+    """S005 is tested where files are read (the command line), M-codes with the models."""
+    tested = {code for code, _, _ in [*BODIES, *FILES]}
+    assert {code for code in TABLE if not code.startswith("M")} == tested
+
+
+def test_many_problems_at_once() -> None:
+    text = MAIN.format("x := ;\nb := 5;\ny := 1;\nIF x THEN\nx := 1\nEND_IF\nx := a[9];")
+    lines = [problem.span.line for problem in check_sources({"a.st": text}, MODELS["GENERIC-IEC"]).problems]
+    assert lines == [3, 4, 5, 6, 7, 9]
+
+
+def test_did_you_mean() -> None:
+    problems = check_sources({"a.st": MAIN.format("x := tt.Q;")}, MODELS["GENERIC-IEC"]).problems
+    assert "Did you mean `t`?" in problems[0].message
+
+
+def test_nothing_crashes_on_half_a_program() -> None:
+    """Every prefix of a program is read to its end."""
+    text = MAIN.format("IF b THEN\n a[x] := 3;\nELSE t(IN := b, PT := T#3s); END_IF\nCASE x OF 1: x := 2; END_CASE;")
+    for end in range(len(text)):
+        check_sources({"a.st": text[:end]}, MODELS["GENERIC-IEC"])
+
+
+def test_deep_nesting_is_refused_not_a_crash() -> None:
+    for text in ("(" * 3000 + "1" + ")" * 3000, "-" * 3000 + "1", "1" + "+x" * 3000, "NOT " * 3000 + "b"):
+        problems = check_sources({"a.st": MAIN.format(f"x := {text};")}, MODELS["GENERIC-IEC"]).problems
+        assert problems[0].code == "S003"
+    nested = "IF b THEN " * 3000
+    assert check_sources({"a.st": MAIN.format(nested)}, MODELS["GENERIC-IEC"]).program is None

@@ -1,0 +1,99 @@
+"""Variables by path."""
+
+import pytest
+
+from scanbench.check.build import check_sources
+from scanbench.check.program import Program
+from scanbench.check.symbols import UnknownPath, at_offset, complete, members, resolve
+from scanbench.check.values import format_value, parse_value
+from tests.caseformat import MODELS
+
+SOURCE = """
+TYPE Zone : STRUCT parts : INT; rate : REAL; END_STRUCT; END_TYPE
+VAR_GLOBAL total AT D100 : DINT; flag AT A402.12 : BOOL; END_VAR
+FUNCTION_BLOCK Fill VAR_IN_OUT zone : Zone; END_VAR VAR n : INT; END_VAR zone.parts := zone.parts + 1; END_FUNCTION_BLOCK
+PROGRAM Main
+VAR zones : ARRAY[1..3, 0..1] OF Zone; fill : Fill; k : INT := 2; never : Fill; END_VAR
+fill(zone := zones[k, 1]);
+IF FALSE THEN never(zone := zones[1, 0]); END_IF;
+END_PROGRAM
+"""
+
+
+@pytest.fixture(scope="module")
+def program() -> Program:
+    made = check_sources({"a.st": SOURCE}, MODELS["CJ1M-CPU63"]).program
+    assert made is not None
+    return made
+
+
+def test_paths_are_found_in_any_case(program: Program) -> None:
+    assert resolve(program, "main.ZONES[2,1].Parts").path == "Main.zones[2,1].parts"
+    assert resolve(program, "d100").path == "D100"
+    assert resolve(program, "TOTAL").address == "D100"
+
+
+@pytest.mark.parametrize("path", ["Main.zones[2, 1].parts", " Main . zones [2,1] . parts"])
+def test_blanks_do_not_matter(program: Program, path: str) -> None:
+    assert resolve(program, path).path == "Main.zones[2,1].parts"
+
+
+def test_unknown_paths_name_what_is_near(program: Program) -> None:
+    with pytest.raises(UnknownPath) as caught:
+        resolve(program, "Main.zoness")
+    assert caught.value.near == ("Main.zones",)
+    with pytest.raises(UnknownPath, match=r"outside of 1\.\.3"):
+        resolve(program, "Main.zones[4,0]")
+    with pytest.raises(UnknownPath):
+        resolve(program, "Main.k.x")
+    with pytest.raises(UnknownPath):
+        resolve(program, "D99999")
+
+
+def test_what_the_model_protects_is_not_writable(program: Program) -> None:
+    assert not resolve(program, "A402.12").writable
+    assert not resolve(program, "flag").writable
+    assert resolve(program, "D100").writable
+
+
+def test_an_in_out_is_followed_to_what_it_is_bound_to(program: Program) -> None:
+    from scanbench.engines.interpreter.engine import ReferenceEngine
+
+    memory = bytearray(program.initial_image)
+    symbol = resolve(program, "Main.fill.zone.parts")
+    assert symbol.locate(memory) is None
+    ReferenceEngine(program, memory).run(1)
+    assert symbol.locate(memory) == resolve(program, "Main.zones[2,1].parts").locate(memory)
+    assert resolve(program, "Main.never.zone.parts").locate(memory) is None
+
+
+def test_members_and_completion(program: Program) -> None:
+    assert [each.name for each in members(program, "")] == ["Main", "total", "flag"]
+    assert [each.path for each in members(program, "Main.zones")][:2] == ["Main.zones[1,0]", "Main.zones[1,1]"]
+    assert [each.path for each in complete(program, "Main.zo", 10)] == ["Main.zones"]
+    assert "A402.12" in [each.path for each in complete(program, "A402.12", 10)]
+
+
+def test_a_byte_of_the_image_has_a_name(program: Program) -> None:
+    symbol = resolve(program, "Main.zones[3,1].rate")
+    place = symbol.locate(program.initial_image)
+    assert place is not None
+    assert at_offset(program, place[0] + 2) == "Main.zones[3,1].rate"
+
+
+@pytest.mark.parametrize(
+    ("path", "text", "shown"),
+    [
+        ("Main.k", "16#7FFF", "32767"), ("Main.k", "-5", "-5"), ("flag", "true", "TRUE"), ("D100", "255", "16#00FF"),
+        ("Main.zones[1,0].rate", "1e3", "1000"),
+    ],
+)  # fmt: skip
+def test_values_as_text(program: Program, path: str, text: str, shown: str) -> None:
+    type = resolve(program, path).type
+    assert format_value(type, parse_value(type, text)) == shown
+
+
+@pytest.mark.parametrize(("path", "text", "why"), [("Main.k", "40000", "-32768 to 32767"), ("flag", "5", "TRUE or FALSE"), ("Main.k", "abc", "integer"), ("Main.zones", "1", "members")])
+def test_wrong_values_say_what_fits(program: Program, path: str, text: str, why: str) -> None:
+    with pytest.raises(ValueError, match=why):
+        parse_value(resolve(program, path).type, text)
