@@ -21,7 +21,7 @@ SOURCES = $(shell find frontend/src frontend/public frontend/index.html frontend
 NODE_ROOTS := $(patsubst %/package-lock.json,%,$(wildcard frontend/package-lock.json frontend/tools/package-lock.json e2e/package-lock.json))
 
 .PHONY: help setup setup-test run test check bench shots lock clean
-.PHONY: lint types layers unit frontend-check frontend-unit frontend-build e2e
+.PHONY: lint types layers unit wire wire-check frontend-check frontend-unit frontend-build e2e
 .PHONY: tools-python tools-node system-chromium system-postgresql
 
 help:
@@ -30,6 +30,7 @@ help:
 	@echo "make check   lint, types and layers only"
 	@echo "make bench   time the native engine beside C"
 	@echo "make shots   take the README's screenshots again"
+	@echo "make wire    generate the browser's types from the backend's messages"
 	@echo "make lock    resolve the dependencies again and write the lock files"
 	@echo "make clean   remove everything that make has made"
 
@@ -42,10 +43,10 @@ run: setup
 	@exec $(BIN)/scanbench serve $(ARGS)
 
 test: setup-test
-	@.ci/steps lint types layers unit frontend-check frontend-unit frontend-build e2e
+	@.ci/steps lint types layers unit wire-check frontend-check frontend-unit frontend-build e2e
 
 check: $(VENV)/.stamp-runtime $(VENV)/.stamp-dev $(NODE_ROOTS:%=%/node_modules/.stamp)
-	@.ci/steps lint types layers frontend-check
+	@.ci/steps lint types layers wire-check frontend-check
 
 bench: $(VENV)/.stamp-runtime
 	@$(BIN)/scanbench bench $(ARGS)
@@ -65,6 +66,16 @@ layers:
 
 unit:
 	@cd backend && $(BIN)/python -m pytest --quiet
+
+# The browser's types come from the backend's messages; `wire` writes them, `wire-check` finds them out of date.
+wire: $(VENV)/.stamp-runtime frontend/tools/node_modules/.stamp
+	@$(BIN)/python -m scanbench.web.openapi frontend/tools/node_modules/openapi.json
+	@cd frontend/tools && node generate.mjs node_modules/openapi.json $(WIRE_TARGET)
+
+wire-check:
+	@$(MAKE) wire WIRE_TARGET=node_modules/messages.gen.ts >/dev/null
+	@cmp -s frontend/tools/node_modules/messages.gen.ts frontend/src/wire/messages.gen.ts \
+	  || { echo "frontend/src/wire/messages.gen.ts is out of date: make wire" >&2; exit 1; }
 
 frontend-check:
 	@cd frontend && $(NPM) run --silent check

@@ -150,10 +150,13 @@ def same(shown: str, wanted: str) -> bool:
     try:
         if shown.startswith("T#") and wanted.upper().startswith("T#"):
             return duration(shown[2:]) == duration(wanted[2:])
-        number = (lambda text: int(text[3:], 16) if text.startswith("16#") else float(text))
-        return bool(number(shown) == number(wanted))
+        return _number(shown) == _number(wanted)
     except ValueError:
         return False
+
+
+def _number(text: str) -> float:
+    return int(text[3:], 16) if text.startswith("16#") else float(text)
 
 
 def check_stop(program: Program, case: Case, stop: Stop, last: bool) -> None:

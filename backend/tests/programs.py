@@ -1,5 +1,6 @@
 """Random programs: well-formed ST from hypothesis, small enough to run in both engines, nasty enough to make them differ."""
 
+from collections.abc import Callable
 from dataclasses import dataclass
 
 from hypothesis import strategies as st
@@ -10,6 +11,10 @@ REALS = ("REAL", "LREAL")
 WIDTH = {"SINT": 8, "INT": 16, "DINT": 32, "LINT": 64, "USINT": 8, "UINT": 16, "UDINT": 32, "ULINT": 64,
          "BYTE": 8, "WORD": 16, "DWORD": 32, "LWORD": 64}  # fmt: skip
 TYPES = (*INTEGERS, *BITS, *REALS, "BOOL", "TIME", "STRING[12]")
+
+
+Sub = Callable[[str], str]
+"""Gives an expression of the type asked for."""
 
 
 @dataclass(frozen=True)
@@ -29,7 +34,13 @@ def literal(draw: st.DrawFn, type: str) -> str:
         text = draw(st.text(alphabet="abcXYZ 019-", max_size=14))
         return f"'{text}'"
     if type in REALS:
-        value = draw(st.one_of(st.integers(-3, 3), st.floats(-1e6, 1e6, width=32), st.floats(width=32, allow_nan=False, allow_infinity=False)))
+        value = draw(
+            st.one_of(
+                st.integers(-3, 3),
+                st.floats(-1e6, 1e6, width=32),
+                st.floats(width=32, allow_nan=False, allow_infinity=False),
+            )
+        )
         return f"{type}#{float(value)!r}"
     width = WIDTH[type]
     signed = type in ("SINT", "INT", "DINT", "LINT")
@@ -46,17 +57,24 @@ def expression(draw: st.DrawFn, shape: Shape, type: str, depth: int) -> str:
     if shape.names.get(type):
         leaves += [st.sampled_from(shape.names[type])] * 3
     if depth == 0:
-        return draw(st.one_of(*leaves))
-    sub = lambda wanted: draw(expression(shape, wanted, depth - 1))  # noqa: E731
+        return str(draw(st.one_of(*leaves)))
+
+    def sub(wanted: str) -> str:
+        return str(draw(expression(shape, wanted, depth - 1)))
+
     choice = draw(st.integers(0, 9))
     if choice < 2:
-        return draw(st.one_of(*leaves))
+        return str(draw(st.one_of(*leaves)))
     if type == "BOOL":
         return _bool(draw, sub, choice)
     if type == "TIME":
         if choice < 6:
             return f"({sub('TIME')} {draw(st.sampled_from('+-'))} {sub('TIME')})"
-        return f"({sub('TIME')} * {sub(draw(st.sampled_from(['INT', 'DINT', 'REAL'])))})" if choice < 9 else f"DINT_TO_TIME({sub('DINT')})"
+        return (
+            f"({sub('TIME')} * {sub(draw(st.sampled_from(['INT', 'DINT', 'REAL'])))})"
+            if choice < 9
+            else f"DINT_TO_TIME({sub('DINT')})"
+        )
     if type.startswith("STRING"):
         return _string(draw, sub, choice)
     if type in REALS:
@@ -66,7 +84,7 @@ def expression(draw: st.DrawFn, shape: Shape, type: str, depth: int) -> str:
     return _integer(draw, sub, type, choice)
 
 
-def _bool(draw: st.DrawFn, sub, choice: int) -> str:  # type: ignore[no-untyped-def]
+def _bool(draw: st.DrawFn, sub: Sub, choice: int) -> str:
     if choice < 5:
         return f"({sub('BOOL')} {draw(st.sampled_from(['AND', 'OR', 'XOR', '=', '<>']))} {sub('BOOL')})"
     if choice < 6:
@@ -75,7 +93,7 @@ def _bool(draw: st.DrawFn, sub, choice: int) -> str:  # type: ignore[no-untyped-
     return f"({sub(type)} {draw(st.sampled_from(['=', '<>', '<', '<=', '>', '>=']))} {sub(type)})"
 
 
-def _string(draw: st.DrawFn, sub, choice: int) -> str:  # type: ignore[no-untyped-def]
+def _string(draw: st.DrawFn, sub: Sub, choice: int) -> str:
     text = "STRING[12]"
     match choice:
         case 2 | 3:
@@ -93,7 +111,7 @@ def _string(draw: st.DrawFn, sub, choice: int) -> str:  # type: ignore[no-untype
     return f"DINT_TO_STRING({sub('DINT')})"
 
 
-def _real(draw: st.DrawFn, sub, type: str, choice: int) -> str:  # type: ignore[no-untyped-def]
+def _real(draw: st.DrawFn, sub: Sub, type: str, choice: int) -> str:
     if choice < 6:
         return f"({sub(type)} {draw(st.sampled_from('+-*/'))} {sub(type)})"
     if choice == 6:
@@ -106,7 +124,7 @@ def _real(draw: st.DrawFn, sub, type: str, choice: int) -> str:  # type: ignore[
     return f"{draw(st.sampled_from(['MIN', 'MAX']))}({sub(type)}, {sub(type)})"
 
 
-def _bits(draw: st.DrawFn, sub, type: str, choice: int) -> str:  # type: ignore[no-untyped-def]
+def _bits(draw: st.DrawFn, sub: Sub, type: str, choice: int) -> str:
     if choice < 6:
         return f"({sub(type)} {draw(st.sampled_from(['AND', 'OR', 'XOR']))} {sub(type)})"
     if choice == 6:
@@ -117,7 +135,7 @@ def _bits(draw: st.DrawFn, sub, type: str, choice: int) -> str:  # type: ignore[
     return f"{other}_TO_{type}({sub(other)})"
 
 
-def _integer(draw: st.DrawFn, sub, type: str, choice: int) -> str:  # type: ignore[no-untyped-def]
+def _integer(draw: st.DrawFn, sub: Sub, type: str, choice: int) -> str:
     if choice < 6:
         return f"({sub(type)} {draw(st.sampled_from(['+', '-', '*', 'MOD', '/']))} {sub(type)})"
     if choice == 6:
@@ -127,7 +145,11 @@ def _integer(draw: st.DrawFn, sub, type: str, choice: int) -> str:  # type: igno
         return f"{other}_TO_{type}({sub(other)})"
     if choice == 8:
         return f"{draw(st.sampled_from(['MIN', 'MAX']))}({sub(type)}, {sub(type)})"
-    return f"SEL({sub('BOOL')}, {sub(type)}, {sub(type)})" if type != "INT" else f"FIND({sub('STRING[12]')}, {sub('STRING[12]')})"
+    return (
+        f"SEL({sub('BOOL')}, {sub(type)}, {sub(type)})"
+        if type != "INT"
+        else f"FIND({sub('STRING[12]')}, {sub('STRING[12]')})"
+    )
 
 
 @st.composite
@@ -175,7 +197,9 @@ def program(draw: st.DrawFn) -> str:
     shape = Shape(names)
     body = draw(st.lists(statement(shape, 2), min_size=1, max_size=8))
     inner = Shape({type: names[type] for type in ("INT", "BOOL", "REAL", "DINT", "STRING[12]")})
-    block = draw(st.lists(statement(Shape({"INT": ["x", "y", "io"], "BOOL": ["b"], "REAL": ["r"]}), 1), min_size=1, max_size=3))
+    block = draw(
+        st.lists(statement(Shape({"INT": ["x", "y", "io"], "BOOL": ["b"], "REAL": ["r"]}), 1), min_size=1, max_size=3)
+    )
     call = f"fb(x := {draw(expression(inner, 'INT', 1))}, b := {draw(expression(inner, 'BOOL', 1))}, io := v_int1);"
     counters = "k0, k1, k2 : INT;"
     variables = "\n".join(lines)
@@ -185,4 +209,3 @@ def program(draw: st.DrawFn) -> str:
         f"PROGRAM Main\nVAR\n{variables}\nlist : ARRAY[1..5] OF INT := [1, 2, 3, 4, 5];\nfb : Inner;\n{counters}\nEND_VAR\n"
         + "\n".join(body) + f"\n{call}\nEND_PROGRAM\n"
     )  # fmt: skip
-

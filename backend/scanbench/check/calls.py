@@ -278,9 +278,7 @@ class CallChecker(ExpressionChecker):
                 gate = self.coerce(gate, BOOL, node.span, "`G`")
                 return Intrinsic("SEL", first.type, (gate, first, second))
             case "LIMIT":
-                low, value, high = self._unify(
-                    self._values(node, ("MN", "IN", "MX"), name), node.span, name, wanted
-                )
+                low, value, high = self._unify(self._values(node, ("MN", "IN", "MX"), name), node.span, name, wanted)
                 if not isinstance(value.type, Elementary):
                     raise self.report.reject("T002", f"`LIMIT` cannot work on {value.type}.", node.span)
                 lower = Intrinsic("MAX", value.type, (value, low))

@@ -12,11 +12,11 @@ def bench(
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
 ) -> None:
     """Measure the bench programs: ns per scan, ratio to hand-written C (gcc -O3), compile times."""
-    from scanbench.bench.run import UnknownProgram, run_bench
+    from scanbench.bench.run import BenchError, run_bench
 
     try:
         result = run_bench(programs or None)
-    except UnknownProgram as error:
+    except BenchError as error:
         usage(str(error))
     if as_json:
         typer.echo(json.dumps(result))

@@ -141,7 +141,9 @@ def _end(result: HeadlessRun[dict[str, Json]]) -> None:
         typer.echo(f"scanbench: refused before scan {refused.scan}: {refused.refusal.message}.{near}", err=True)
     trap = result.resource.trap
     if trap is not None:
-        typer.echo(f"{trap.file}:{trap.line}:{trap.column}: trap {trap.kind}: {trap.message} in scan {trap.scan}", err=True)
+        typer.echo(
+            f"{trap.file}:{trap.line}:{trap.column}: trap {trap.kind}: {trap.message} in scan {trap.scan}", err=True
+        )
         raise typer.Exit(4)
     if result.refused:
         raise typer.Exit(2)

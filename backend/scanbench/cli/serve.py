@@ -8,7 +8,9 @@ from scanbench.cli.inputs import usage
 
 
 def serve(
-    host: str = typer.Option("127.0.0.1", help="Address to listen on; the default is reachable from this machine only."),
+    host: str = typer.Option(
+        "127.0.0.1", help="Address to listen on; the default is reachable from this machine only."
+    ),
     port: int | None = typer.Option(None, help="Port; default 8700, or a free one if that is taken. 0: any free one."),
     data: Path = typer.Option(Path("data"), metavar="DIR", help="Folder for the database; made when it is missing."),
 ) -> None:
@@ -17,7 +19,7 @@ def serve(
     from scanbench.web.serve import serve as serve_web
 
     try:
-        serve_web(host, port, data, lambda line: typer.echo(line))
+        serve_web(host, port, data, typer.echo)
     except CannotServe as error:
         usage(str(error))
     except OSError as error:

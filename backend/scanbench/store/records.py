@@ -33,6 +33,8 @@ class ProjectRow:
     model: str
     version: int
     created: datetime
+    watch: tuple[str, ...] = ()
+    """Paths that a fresh watch list begins with."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -17,7 +17,7 @@ from scanbench.store.tables import ErrorHistory, File, Instance, Log, ProgramVer
 
 def project(row: Project) -> ProjectRow:
     """A project."""
-    return ProjectRow(row.id, row.name, row.model, row.version, row.created)
+    return ProjectRow(row.id, row.name, row.model, row.version, row.created, tuple(row.watch))
 
 
 def file(row: File) -> FileRow:

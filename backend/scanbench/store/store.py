@@ -2,7 +2,7 @@
 
 import hashlib
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from datetime import datetime
 
@@ -63,12 +63,12 @@ class Store:
         with self._reading() as session:
             return rows.project(_project(session, project))
 
-    def create_project(self, name: str, model: str) -> ProjectRow:
-        """A new project without files."""
+    def create_project(self, name: str, model: str, watch: Sequence[str] = ()) -> ProjectRow:
+        """A new project without files; `watch` is what a fresh watch list begins with."""
         _check("the name", name, NAME)
         try:
             with self._writing() as session:
-                made = Project(name=name, model=model, version=0, created=wall_time())
+                made = Project(name=name, model=model, watch=list(watch), version=0, created=wall_time())
                 session.add(made)
                 session.flush()
                 return rows.project(made)

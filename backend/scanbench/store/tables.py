@@ -54,6 +54,7 @@ class Project(Base):
     id: Mapped[int] = mapped_column(primary_key=True)
     name: Mapped[str] = mapped_column(String(NAME))
     model: Mapped[str] = mapped_column(String(ID))
+    watch: Mapped[list[str]] = mapped_column(JSON)
     version: Mapped[int]
     created: Mapped[datetime] = mapped_column(Moment)
 

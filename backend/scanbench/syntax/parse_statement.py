@@ -164,7 +164,11 @@ class StatementParser(ExpressionParser):
         ahead = 0
         while True:
             token = self.ahead(ahead)
-            if token.kind in (Lex.INTEGER, Lex.NAME) or token.text in (",", "..", ".", "-", "+") or (token.kind is Lex.OPERATOR and token.text.endswith("#")):
+            if (
+                token.kind in (Lex.INTEGER, Lex.NAME)
+                or token.text in (",", "..", ".", "-", "+")
+                or (token.kind is Lex.OPERATOR and token.text.endswith("#"))
+            ):
                 ahead += 1
             else:
                 return ahead > 0 and token.kind is Lex.OPERATOR and token.text == ":"

@@ -93,7 +93,15 @@ def test_values_as_text(program: Program, path: str, text: str, shown: str) -> N
     assert format_value(type, parse_value(type, text)) == shown
 
 
-@pytest.mark.parametrize(("path", "text", "why"), [("Main.k", "40000", "-32768 to 32767"), ("flag", "5", "TRUE or FALSE"), ("Main.k", "abc", "integer"), ("Main.zones", "1", "members")])
+@pytest.mark.parametrize(
+    ("path", "text", "why"),
+    [
+        ("Main.k", "40000", "-32768 to 32767"),
+        ("flag", "5", "TRUE or FALSE"),
+        ("Main.k", "abc", "integer"),
+        ("Main.zones", "1", "members"),
+    ],
+)
 def test_wrong_values_say_what_fits(program: Program, path: str, text: str, why: str) -> None:
     with pytest.raises(ValueError, match=why):
         parse_value(resolve(program, path).type, text)

@@ -159,4 +159,3 @@ def _output(body: Body, inner: Self, expr: Expr, target: Place) -> None:
         with body.instance(inner):
             source = aggregate(body, expr)
         move(body, address(body, target).pointer, source, target.type.size)
-

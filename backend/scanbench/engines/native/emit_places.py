@@ -74,14 +74,11 @@ def index_steps(body: Body, index: Index) -> str:
     if within(value.range, (index.low, index.high)):
         return steps
     outside = body.text.op(f"icmp ugt i64 {steps}, {index.high - index.low}")
-    if value.high > bounds_of_i64[1]:
+    if value.high >= 1 << 63:
         huge = body.text.op(f"icmp slt i64 {number}, 0")
         outside = body.text.op(f"or i1 {outside}, {huge}")
     body.text.trap_if(outside, index.trap)
     return steps
-
-
-bounds_of_i64 = (-(1 << 63), (1 << 63) - 1)
 
 
 def widened(body: Body, value: Value, type: Elementary) -> str:

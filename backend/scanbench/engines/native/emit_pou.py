@@ -1,13 +1,13 @@
 """One POU: a function of LLVM that returns 0 or the number of a trap."""
 
 from scanbench.check.program import Base, Place, Pou
-from scanbench.check.types import Elementary, StringType
+from scanbench.check.types import StringType
 from scanbench.engines.native import emit_expressions, emit_statements, inlining, registers
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_function import FunctionText
 from scanbench.engines.native.emit_places import move
 from scanbench.engines.native.emit_strings import Piece, assign
-from scanbench.engines.native.emit_types import stored
+from scanbench.engines.native.emit_types import elementary, stored
 from scanbench.engines.native.registers import Parameter, Passing
 
 IMAGE = "ptr nonnull noundef align 8 dereferenceable({size}) %img"
@@ -58,8 +58,7 @@ def _receive(body: Body, parameter: Parameter) -> None:
     offset = body.pou.frame_offset + member.offset
     match parameter.passing:
         case Passing.VALUE | Passing.REFERENCE:
-            assert isinstance(member.type, Elementary) or parameter.passing is Passing.REFERENCE
-            type = "i64" if parameter.passing is Passing.REFERENCE else stored(member.type)  # type: ignore[arg-type]
+            type = "i64" if parameter.passing is Passing.REFERENCE else stored(elementary(member.type))
             pointer = register or text.op(f"getelementptr inbounds nuw i8, ptr {body.image}, i64 {offset}")
             text.do(f"store {type} {name}, ptr {pointer}, align 1")
         case Passing.STRING:
@@ -70,5 +69,3 @@ def _receive(body: Body, parameter: Parameter) -> None:
         case Passing.BYTES:
             pointer = text.op(f"getelementptr inbounds nuw i8, ptr {body.image}, i64 {offset}")
             move(body, pointer, name, member.type.size)
-
-

@@ -158,5 +158,3 @@ def _wide_label(body: Body, type: Elementary, ssa: str, label: tuple[int, int], 
     on = text.name("on")
     text.choose(text.op(f"and i1 {above}, {below}"), target, on)
     text.begin(on)
-
-

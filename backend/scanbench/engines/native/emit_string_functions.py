@@ -3,6 +3,8 @@
 from collections.abc import Callable
 
 from scanbench.check.program import Intrinsic
+from scanbench.check.types import LINT, StringType
+from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
 from scanbench.engines.native.emit_operators import convert
@@ -20,8 +22,6 @@ from scanbench.engines.native.emit_strings import (
     total,
 )
 from scanbench.engines.native.emit_types import bounds, elementary, string
-from scanbench.engines.native import walk
-from scanbench.check.types import LINT, StringType
 
 LONGEST = "32767"
 """No string is longer, so counts beyond it mean the same as it."""

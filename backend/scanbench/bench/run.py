@@ -1,0 +1,134 @@
+"""Speed of the native engine beside C written by hand, measured in the same run by the same method.
+
+Both run the program 2,000 scans first and must then agree on its checksum `chk`. Time is thread CPU time, as the machine
+may have other things to do; samples of the two alternate, and medians of five are compared.
+"""
+
+import re
+import shutil
+import subprocess
+import tempfile
+from dataclasses import dataclass
+from pathlib import Path
+from statistics import median
+from time import perf_counter_ns, thread_time_ns
+
+from scanbench.check.build import check_sources
+from scanbench.check.program import Program
+from scanbench.check.symbols import resolve
+from scanbench.engines.engine import Reason
+from scanbench.engines.native.engine import NativeEngine
+from scanbench.plcmodel.load import load_all, model_directory
+
+HERE = Path(__file__).parent
+PROGRAMS = ("noop", "bool", "arith", "array", "mavg", "state", "string", "string_unrolled", "big10k", "big10kflat")
+MODEL = "GENERIC-IEC"
+INTERVAL_NS = 1_000_000
+WARM_UP = 2000
+SAMPLES = 5
+SAMPLE_S = 0.05
+
+Result = dict[str, dict[str, dict[str, float | None]]]
+
+
+class BenchError(Exception):
+    """The bench cannot be run, or a program computes something else than its C twin."""
+
+
+@dataclass(slots=True)
+class _Native:
+    """A program under measurement on the native engine."""
+
+    engine: NativeEngine
+    chk: int
+    scans: int
+    """In one sample."""
+
+    def sample(self) -> float:
+        start = thread_time_ns()
+        stop = self.engine.run(self.scans)
+        spent = thread_time_ns() - start
+        if stop.reason is not Reason.DONE:
+            raise BenchError(f"the program stopped: {stop}")
+        return spent / self.scans
+
+
+def run_bench(programs: list[str] | None = None) -> Result:
+    """ns per scan of each program, natively and in C (None where it has no twin or there is no gcc); build times in ms."""
+    names = programs or list(PROGRAMS)
+    unknown = [name for name in names if name not in PROGRAMS]
+    if unknown:
+        raise BenchError(f"there is no bench program {', '.join(unknown)}; there are: {', '.join(PROGRAMS)}")
+    result: Result = {"programs": {}, "compile": {}}
+    with tempfile.TemporaryDirectory() as directory:
+        for name in names:
+            program, check_ms = _check(name)
+            native, compile_ms = _build(program)
+            twin = _compile_c(name, Path(directory))
+            result["compile"][name] = {"check": check_ms, **compile_ms}
+            result["programs"][name] = _measure(name, native, twin)
+    return result
+
+
+def _check(name: str) -> tuple[Program, float]:
+    models = {model.name: model for model in load_all(model_directory())[0]}
+    source = (HERE / "st" / f"{name}.st").read_text("utf-8")
+    start = perf_counter_ns()
+    checked = check_sources({f"{name}.st": source}, models[MODEL], INTERVAL_NS)
+    spent = (perf_counter_ns() - start) / 1e6
+    if checked.program is None:
+        raise BenchError("\n".join(map(str, checked.problems)))
+    return checked.program, round(spent, 1)
+
+
+def _build(program: Program) -> tuple[_Native, dict[str, float | None]]:
+    memory = bytearray(program.initial_image)
+    engine = NativeEngine(program, memory)
+    steps = ("emit", "parse", "optimise", "codegen", "link")
+    compile_ms: dict[str, float | None] = {step: round(getattr(engine.timings, step), 1) for step in steps}
+    engine.run(WARM_UP)
+    place = resolve(program, "bench.chk").locate(memory)
+    assert place is not None
+    chk = int.from_bytes(memory[place[0] : place[0] + 4], "little", signed=True)
+    native = _Native(engine, chk, 16)
+    while (spent := native.sample() * native.scans) < SAMPLE_S * 0.2e9:
+        native.scans *= 2
+    native.scans = max(1, int(native.scans * SAMPLE_S * 1e9 / spent))
+    return native, compile_ms
+
+
+def _compile_c(name: str, directory: Path) -> Path | None:
+    """The C twin as a program that measures itself."""
+    source, gcc = HERE / "hand" / f"{name}.c", shutil.which("gcc")
+    if gcc is None or not source.is_file():
+        return None
+    target = directory / name
+    done = subprocess.run(
+        [gcc, "-O3", "-march=native", str(HERE / "hand" / "main.c"), str(source), "-lm", "-o", str(target)],
+        capture_output=True, text=True, check=False,
+    )  # fmt: skip
+    if done.returncode:
+        raise BenchError(f"gcc cannot compile {source}:\n{done.stderr}")
+    return target
+
+
+def _measure(name: str, native: _Native, twin: Path | None) -> dict[str, float | None]:
+    ours, theirs = [], []
+    for _ in range(SAMPLES):
+        ours.append(native.sample())
+        if twin is not None:
+            theirs.append(_sample_c(name, native.chk, twin))
+    ns = median(ours)
+    c_ns = median(theirs) if theirs else None
+    return {"ns": round(ns, 2), "c_ns": c_ns, "ratio": round(ns / c_ns, 3) if c_ns else None}
+
+
+def _sample_c(name: str, chk: int, twin: Path) -> float:
+    # the C measures five times, too
+    done = subprocess.run([str(twin), name, str(SAMPLE_S / SAMPLES)], capture_output=True, text=True, check=True)
+    found = re.search(r"chk2000=(-?\d+) .* median=([\d.]+)", done.stdout)
+    if found is None:
+        raise BenchError(f"{name}: the C twin printed something else: {done.stdout!r}")
+    if int(found.group(1)) != chk:
+        raise BenchError(f"{name}: chk is {chk}, but {found.group(1)} in C")
+    return float(found.group(2))

@@ -1,0 +1,1 @@
+"""The error simulator: raises and recovers every error that the model knows."""

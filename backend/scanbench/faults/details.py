@@ -1,0 +1,127 @@
+"""Details of an error: what was chosen or entered, checked, and the bits it stands for."""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+from scanbench.check.layout import Layout
+from scanbench.plcmodel.model import ErrorAddress, ErrorDetail, ErrorEntry, Location
+from scanbench.runtime.command import Refusal
+
+
+@dataclass(frozen=True, slots=True)
+class Bits:
+    """Bits of one byte of the image: which, and their values."""
+
+    offset: int
+    mask: int
+    value: int
+
+
+@dataclass(frozen=True, slots=True)
+class Chosen:
+    """An error with all its details decided."""
+
+    error: ErrorEntry
+    details: tuple[tuple[str, str], ...]
+    """(detail, chosen id or number as text), in the order of the catalogue."""
+    code: int
+    bits: tuple[Bits, ...]
+    """Details and flag."""
+
+    def __str__(self) -> str:
+        return ", ".join(f"{name}={value}" for name, value in self.details)
+
+
+def choose(error: ErrorEntry, given: Mapping[str, str], layout: Layout) -> Chosen | Refusal:
+    """Decides every detail: as given, else the catalogue's default."""
+    names = [detail.name for detail in error.details]
+    for name in given:
+        if name not in names:
+            known = f"its details are {', '.join(names)}" if names else "it has none"
+            return Refusal(f"{error.id} has no detail {name}: {known}", tuple(get_close_matches(name, names)))
+    decided: list[tuple[str, str]] = []
+    bits: list[Bits] = []
+    code = error.code
+    for detail in error.details:
+        found = _decide(error, detail, given.get(detail.name))
+        if isinstance(found, Refusal):
+            return found
+        address, number, text = found
+        decided.append((detail.name, text))
+        bits += _bits(address, number, layout)
+        if address.add_to_code:
+            code += number
+    bits += field_bits(error.flag, 0, 1, 1, layout)
+    return Chosen(error, tuple(decided), code & 0xFFFF, tuple(bits))
+
+
+def field_bits(location: Location, shift: int, width: int, value: int, layout: Layout) -> list[Bits]:
+    """The bits of a field of `width` bits that begins `shift` bits behind `location`."""
+    first = layout.areas[location.area.name] * 8 + location.byte * 8 + (location.bit or 0) + shift
+    found: list[Bits] = []
+    done = 0
+    while done < width:
+        offset, bit = divmod(first + done, 8)
+        count = min(8 - bit, width - done)
+        mask = (1 << count) - 1
+        found.append(Bits(offset, mask << bit, (value >> done & mask) << bit))
+        done += count
+    return found
+
+
+def _decide(error: ErrorEntry, detail: ErrorDetail, text: str | None) -> tuple[ErrorAddress, int, str] | Refusal:
+    if detail.control == "List":
+        return _decide_choice(error, detail, text)
+    address = detail.addresses[0]
+    if text is None:
+        start = address.default if address.default is not None else address.minimum
+        number = start if start is not None else 0
+    else:
+        parsed = _number(text, address.base)
+        if parsed is None:
+            return Refusal(f"{error.id}: {detail.name}={text} is not a number to the base {address.base}")
+        number = parsed
+    low, high = address.minimum or 0, _highest(address)
+    if not low <= number <= high:
+        return Refusal(f"{error.id}: {detail.name}={text} is outside of {low} to {high}; nothing was written")
+    return address, number, f"{number:X}" if address.base == 16 else str(number)
+
+
+def _decide_choice(error: ErrorEntry, detail: ErrorDetail, text: str | None) -> tuple[ErrorAddress, int, str] | Refusal:
+    ids = [address.id for address in detail.addresses]
+    wanted = (text if text is not None else detail.default or ids[0]).strip()
+    address = detail.choice(wanted)
+    if address is None:
+        near = tuple(get_close_matches(wanted, ids, cutoff=0.4)) or tuple(ids)
+        return Refusal(f"{error.id}: {detail.name} cannot be {wanted!r}; it is one of {', '.join(ids)}", near)
+    return address, address.value if address.value is not None else 1, wanted
+
+
+def _bits(address: ErrorAddress, number: int, layout: Layout) -> list[Bits]:
+    if address.location is None:
+        return []
+    if address.kind == "Bit":
+        return field_bits(address.location, 0, 1, 1, layout)
+    if address.kind == "BitArray":
+        return field_bits(address.location, number, 1, 1, layout)
+    value = int(str(number), 16) if address.kind == "BCD" else number
+    return field_bits(address.location, address.shift, address.width, value, layout)
+
+
+def _highest(address: ErrorAddress) -> int:
+    if address.maximum is not None:
+        return address.maximum
+    if address.kind == "BCD":
+        return int(10 ** (address.width // 4)) - 1
+    return (1 << address.width) - 1
+
+
+def _number(text: str, base: int) -> int | None:
+    plain = text.strip().removeprefix("#").removeprefix("16#").replace("_", "")
+    if text.strip().startswith("16#") or plain[:2].lower() == "0x":
+        base = 16
+    try:
+        return int(plain, base)
+    except ValueError:
+        return None

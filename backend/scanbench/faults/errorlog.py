@@ -1,0 +1,51 @@
+"""The model's own error log: one record for each error generated, the oldest dropped when it is full."""
+
+from collections.abc import Sequence
+
+from scanbench.faults.details import Chosen
+from scanbench.runtime.command import Patch, View
+
+_CODE, _CONTENTS, _MINUTE_SECOND, _DAY_HOUR, _YEAR_MONTH = range(5)
+
+
+def log_patches(view: View, generated: Sequence[Chosen]) -> list[Patch]:
+    """Patches that append a record for each error: code, first detail word, virtual time since the cold start in BCD."""
+    log, layout = view.model.log, view.program.layout
+    if log is None or not generated:
+        return []
+    counter = layout.areas[log.counter.area.name] + log.counter.byte
+    first = layout.areas[log.first.area.name] + log.first.byte
+    size = 2 * log.words
+    count = min(view.memory[counter], log.records)
+    records = [bytes(view.memory[first + size * k : first + size * (k + 1)]) for k in range(count)]
+    records += [_record(view, one, log.words) for one in generated]
+    records = records[-log.records :]
+    return [Patch.whole(first, b"".join(records)), Patch.whole(counter, bytes((len(records),)))]
+
+
+def _record(view: View, chosen: Chosen, words: int) -> bytes:
+    seconds = view.header.scan * view.program.interval_ns // 1_000_000_000
+    minutes, hours, days = seconds // 60, seconds // 3600, seconds // 86400 % 100
+    record = [0] * max(words, 5)
+    record[_CODE] = chosen.code
+    record[_CONTENTS] = _contents(chosen)
+    record[_MINUTE_SECOND] = _bcd(minutes % 60) << 8 | _bcd(seconds % 60)
+    record[_DAY_HOUR] = _bcd(days) << 8 | _bcd(hours % 24)
+    return b"".join(word.to_bytes(2, "little") for word in record[:words])
+
+
+def _contents(chosen: Chosen) -> int:
+    """The word that its details write, as far as they lie in the first one."""
+    details = chosen.bits[:-1]
+    if not details:
+        return 0
+    word = details[0].offset & ~1
+    value = 0
+    for part in details:
+        if part.offset & ~1 == word:
+            value |= part.value << 8 * (part.offset & 1)
+    return value
+
+
+def _bcd(number: int) -> int:
+    return int(str(number), 16)

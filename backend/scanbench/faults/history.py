@@ -1,0 +1,94 @@
+"""What was tested: one row for every error of the catalogue, folded from journal entries as they come."""
+
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass, replace
+from datetime import datetime
+from typing import Literal
+
+from scanbench.check.layout import Layout
+from scanbench.faults.details import choose
+from scanbench.faults.inject import Generate, Recover
+from scanbench.plcmodel.model import Model
+from scanbench.runtime.command import Entry, Refusal
+
+Status = Literal["never", "generated", "cleared"]
+Origin = Literal["simulator", "plc", "program"]
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorRow:
+    """The history of one error on one instance."""
+
+    id: str
+    name: str
+    severity: Literal["fatal", "nonfatal"]
+    status: Status = "never"
+    code: str = ""
+    details: str = ""
+    generated_at: datetime | None = None
+    recovered_at: datetime | None = None
+    generated_scan: int | None = None
+    recovered_scan: int | None = None
+    by: str | None = None
+    origin: Origin | None = None
+    count: int = 0
+
+
+class History:
+    """The rows of one instance, in the order of the catalogue."""
+
+    def __init__(self, model: Model, kept: Mapping[str, ErrorRow] | None = None) -> None:
+        """`kept` is what is known from earlier, by id."""
+        self._model = model
+        # Codes and details are the same in every layout, so any will do.
+        self._layout = Layout(model, {area.name: 0 for area in model.areas})
+        self._rows = {
+            error.id: (kept or {}).get(error.id)
+            or ErrorRow(error.id, error.name, error.severity, code=f"{error.code:04X}")
+            for error in model.errors()
+        }
+
+    @property
+    def rows(self) -> list[ErrorRow]:
+        """Every row, in the order of the catalogue."""
+        return list(self._rows.values())
+
+    def fold(self, entry: Entry) -> list[ErrorRow]:
+        """Takes an entry in; the rows that it changed."""
+        command = entry.command
+        if isinstance(command, Generate):
+            return self._generated(entry, command)
+        if isinstance(command, Recover):
+            present = [row.id for row in self._rows.values() if row.status == "generated"]
+            return self._cleared(present if command.ids is None else command.ids, entry.at, entry.scan)
+        return []
+
+    def cold_start(self, at: datetime) -> list[ErrorRow]:
+        """A restart ends every error; the rows that it changed."""
+        return self._cleared([row.id for row in self._rows.values() if row.status == "generated"], at, 0)
+
+    def _generated(self, entry: Entry, command: Generate) -> list[ErrorRow]:
+        changed = []
+        for ref in command.errors:
+            error = self._model.error(ref.id)
+            chosen = choose(error, dict(ref.details), self._layout) if error is not None else None
+            if error is None or chosen is None or isinstance(chosen, Refusal):
+                continue
+            row = self._rows[error.id]
+            self._rows[error.id] = replace(
+                row,
+                status="generated", code=f"{chosen.code:04X}", details=str(chosen), generated_at=entry.at,
+                recovered_at=None, generated_scan=entry.scan, recovered_scan=None, by=command.author,
+                origin="simulator", count=row.count + 1,
+            )  # fmt: skip
+            changed.append(self._rows[error.id])
+        return changed
+
+    def _cleared(self, ids: Iterable[str], at: datetime, scan: int) -> list[ErrorRow]:
+        changed = []
+        for id in ids:
+            row = self._rows.get(id)
+            if row is not None and row.status == "generated":
+                self._rows[id] = replace(row, status="cleared", recovered_at=at, recovered_scan=scan)
+                changed.append(self._rows[id])
+        return changed

@@ -1,0 +1,53 @@
+"""An error as text: `battery-error`, `memory-error:io-table-checksum`, `io-bus-error:rack=1,slot=3`."""
+
+from dataclasses import dataclass
+from difflib import get_close_matches
+
+from scanbench.plcmodel.model import ErrorEntry, Model
+from scanbench.runtime.command import Refusal
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorRef:
+    """An error of the catalogue with the details that were given."""
+
+    id: str
+    details: tuple[tuple[str, str], ...] = ()
+
+
+def find_error(model: Model, id: str) -> ErrorEntry | Refusal:
+    """The catalogue's entry, or a refusal with near matches."""
+    entry = model.error(id)
+    if entry is not None:
+        return entry
+    ids = [error.id for error in model.errors()]
+    near = tuple(get_close_matches(id.lower(), ids, n=4, cutoff=0.4))
+    hint = f"; did you mean {' or '.join(near)}?" if near else ""
+    return Refusal(f"{model.name} knows no error {id!r}{hint}", near)
+
+
+def parse_reference(model: Model, text: str) -> ErrorRef | Refusal:
+    """Reads the notation of the command line. A choice of a List may stand without the name of its detail."""
+    id, _, rest = text.strip().partition(":")
+    entry = find_error(model, id.strip())
+    if isinstance(entry, Refusal):
+        return entry
+    details: list[tuple[str, str]] = []
+    for part in filter(None, (part.strip() for part in rest.split(","))):
+        name, equals, value = (piece.strip() for piece in part.partition("="))
+        if not equals:
+            name, value = _unnamed(entry, [done for done, _ in details]), part
+        if not name:
+            return Refusal(f"{entry.id}: say which detail {part!r} is for, as in {entry.id}:NAME={part}")
+        details.append((name, value))
+    return ErrorRef(entry.id, tuple(details))
+
+
+def _unnamed(entry: ErrorEntry, done: list[str]) -> str:
+    """The detail that a value without a name is for: the only List, else the only detail there is."""
+    open_ = [detail for detail in entry.details if detail.name not in done]
+    lists = [detail for detail in open_ if detail.control == "List"]
+    for candidates in (lists, open_):
+        if len(candidates) == 1:
+            return candidates[0].name
+    return ""

@@ -1,0 +1,1 @@
+"""The virtual PLC: image, seam, journal, scan loop."""

@@ -1,0 +1,78 @@
+"""Runs a program without a clock, a socket or a person: the same commands give the same image, every time."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass
+from typing import Generic, TypeVar
+
+from scanbench.check.program import Program
+from scanbench.runtime.command import Command, Entry, Refusal
+from scanbench.runtime.resource import EngineFactory, Resource
+
+T = TypeVar("T")
+
+
+@dataclass(frozen=True, slots=True)
+class Refused:
+    """A command that the PLC did not take."""
+
+    scan: int
+    command: Command
+    refusal: Refusal
+
+
+@dataclass(frozen=True, slots=True)
+class HeadlessRun(Generic[T]):
+    """What came out. `scans` were run, or passed while the program was stopped; a trap ends the run."""
+
+    resource: Resource
+    scans: int
+    entries: tuple[Entry, ...]
+    refused: tuple[Refused, ...]
+    rows: tuple[tuple[int, T], ...]
+    """(scans run so far, what `sample` saw), every `every` scans."""
+
+
+def run_headless(
+    program: Program,
+    scans: int,
+    engine_factory: EngineFactory,
+    commands_at: Sequence[tuple[int, Command]] = (),
+    every: int = 0,
+    sample: Callable[[Resource], T] | None = None,
+) -> HeadlessRun[T]:
+    """Runs `scans` scans from a cold start in MONITOR mode.
+
+    A command (n, c) is entered in the seam before scan n, counting from 0; several for one seam in the order given.
+    n == `scans` is the seam behind the last scan; what is later does not come to pass. While the program is stopped (a fatal
+    error, mode PROGRAM) scans pass without it. A trap ends the run at once.
+    """
+    resource = Resource(program, engine_factory)
+    refused: list[Refused] = []
+    rows: list[tuple[int, T]] = []
+    waiting = sorted(commands_at, key=lambda pair: pair[0])
+    while resource.trap is None:
+        now = resource.header.scan
+        while waiting and waiting[0][0] <= now:
+            at, command = waiting.pop(0)
+            outcome = resource.submit(command)
+            if isinstance(outcome, Refusal):
+                refused.append(Refused(at, command, outcome))
+        if now >= scans:
+            break
+        stops = [scans]
+        if waiting:
+            stops.append(waiting[0][0])
+        if every:
+            stops.append(now - now % every + every)
+        _advance(resource, min(stops) - now)
+        done = resource.header.scan
+        if every and sample is not None and done % every == 0 and done > now and resource.trap is None:
+            rows.append((done, sample(resource)))
+    return HeadlessRun(resource, resource.header.scan, tuple(resource.journal), tuple(refused), tuple(rows))
+
+
+def _advance(resource: Resource, scans: int) -> None:
+    if resource.runnable:
+        resource.run(scans)
+    else:
+        resource.pass_time(scans)

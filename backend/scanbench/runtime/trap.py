@@ -1,0 +1,43 @@
+"""A trap: the program did what no PLC can do. It stops, and says where."""
+
+from dataclasses import dataclass
+
+from scanbench.check.layout import Layout
+from scanbench.check.program import Program, TrapSite
+from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
+from scanbench.runtime.header import Halt
+from scanbench.runtime.modes import outputs_off
+
+
+@dataclass(frozen=True, slots=True)
+class TrapInfo:
+    """Why and where the program stopped by itself; lines and columns count from 1."""
+
+    kind: str
+    message: str
+    file: str
+    line: int
+    column: int
+    scan: int
+
+    def __str__(self) -> str:
+        return f"{self.file}:{self.line}:{self.column}: {self.message} (scan {self.scan})"
+
+
+@dataclass(frozen=True, slots=True)
+class Trapped(Command):
+    """Entered by the resource itself, behind the part of `scan` that ran before the trap; replay runs into it again."""
+
+    info: TrapInfo
+
+    def plan(self, view: View) -> Plan | Refusal:
+        """Keeps the program stopped, outputs off."""
+        halt = bytes((view.header.halt | Halt.TRAP,))
+        return Plan((Patch.whole(Layout.FATAL, halt), *outputs_off(view)), str(self.info))
+
+
+def trap_info(program: Program, trap: int, scan: int) -> TrapInfo:
+    """The trap that an engine names by its number."""
+    site: TrapSite = program.traps[trap - 1]
+    span = site.span
+    return TrapInfo(site.kind.value, site.message, span.file, span.line, span.column, scan)

@@ -1,0 +1,95 @@
+"""Frozen dataclasses as msgpack, length first: the language between the parent and its hosts.
+
+Only the classes listed here can be read, so that a message never makes anything but plain data.
+"""
+
+import struct
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
+
+import msgpack  # type: ignore[import-untyped]
+
+from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.reference import ErrorRef
+from scanbench.runtime.command import Entry, Patch, Plan
+from scanbench.runtime.forces import Force, Release
+from scanbench.runtime.modes import SetMode
+from scanbench.runtime.program_change import ProgramChange
+from scanbench.runtime.trap import TrapInfo, Trapped
+from scanbench.runtime.write import Write
+from scanbench.session import protocol
+
+LENGTH = struct.Struct("<I")
+LARGEST = 1 << 30
+_OBJECT = 1
+
+_CLASSES: dict[str, type] = {
+    cls.__name__: cls
+    for cls in (
+        Entry, Force, Generate, Patch, Plan, ErrorRef, ProgramChange, Recover, Release, SetMode, TrapInfo, Trapped, Write,
+        protocol.Ack, protocol.Build, protocol.Checkpoint, protocol.Drive, protocol.Entered, protocol.Found,
+        protocol.Frame, protocol.HostState, protocol.Lookup, protocol.Quit, protocol.Ready, protocol.Sources,
+        protocol.Start, protocol.StartFailed, protocol.Submit, protocol.SymbolInfo, protocol.UnwatchIds,
+        protocol.WantSnapshot, protocol.WatchItem, protocol.WatchPaths, protocol.Watching,
+    )
+}  # fmt: skip
+_FIELDS = {name: tuple(field.name for field in fields(cls)) for name, cls in _CLASSES.items()}
+
+
+class BadMessage(Exception):
+    """Bytes that are no message."""
+
+
+def pack(message: object) -> bytes:
+    """A message with its length in front."""
+    body = _body(message)
+    return LENGTH.pack(len(body)) + body
+
+
+def unpack(body: bytes) -> object:
+    """The message in `body`, which comes without its length."""
+    try:
+        return msgpack.unpackb(body, ext_hook=_read, use_list=False, strict_map_key=False, timestamp=3)
+    except (ValueError, TypeError, KeyError) as error:
+        raise BadMessage(f"{len(body)} bytes that are no message: {error}") from error
+
+
+class Splitter:
+    """Cuts a stream of bytes into messages."""
+
+    def __init__(self) -> None:
+        self._buffer = bytearray()
+
+    def feed(self, data: bytes) -> Iterator[object]:
+        """Takes the next bytes; the messages that are complete now."""
+        self._buffer += data
+        while len(self._buffer) >= LENGTH.size:
+            (length,) = LENGTH.unpack_from(self._buffer)
+            if length > LARGEST:
+                raise BadMessage(f"a message of {length} bytes")
+            end = LENGTH.size + length
+            if len(self._buffer) < end:
+                return
+            body = bytes(memoryview(self._buffer)[LENGTH.size : end])
+            del self._buffer[:end]
+            yield unpack(body)
+
+
+def _body(message: object) -> bytes:
+    packed = msgpack.packb(message, default=_write, datetime=True)
+    assert isinstance(packed, bytes)
+    return packed
+
+
+def _write(value: object) -> msgpack.ExtType:
+    name = type(value).__name__
+    if not is_dataclass(value) or name not in _FIELDS:
+        raise TypeError(f"{name} is not in the protocol")
+    return msgpack.ExtType(_OBJECT, _body([name, *(getattr(value, field) for field in _FIELDS[name])]))
+
+
+def _read(code: int, data: bytes) -> object:
+    if code != _OBJECT:
+        raise ValueError(f"unknown kind of value {code}")
+    name, *values = msgpack.unpackb(data, ext_hook=_read, use_list=False, strict_map_key=False, timestamp=3)
+    return _CLASSES[name](*values)

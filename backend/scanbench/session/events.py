@@ -1,0 +1,128 @@
+"""What a session tells its subscribers, in order. Value frames go beside these, as bytes."""
+
+from dataclasses import dataclass
+from datetime import datetime
+from typing import Protocol
+
+from scanbench.faults.history import ErrorRow
+from scanbench.runtime.trap import TrapInfo
+from scanbench.session.builds import BuildOutcome
+from scanbench.session.protocol import WatchItem
+
+
+@dataclass(frozen=True, slots=True)
+class User:
+    """Somebody at a browser."""
+
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class PlcState:
+    """The state of one virtual PLC, host process included."""
+
+    state: str
+    mode: str
+    message: str
+    scan: int
+    time_ns: int
+    interval_ns: int
+    cycle_us: float
+    speed: float
+    pid: int | None
+    restarts: int
+    trap: TrapInfo | None
+    forces: int
+    version: int
+
+
+@dataclass(frozen=True, slots=True)
+class LogEntry:
+    """One line of the log, for people."""
+
+    at: datetime
+    scan: int
+    author: str
+    text: str
+    kind: str
+
+
+@dataclass(frozen=True, slots=True)
+class StateChanged:
+    """The PLC's state is another."""
+
+    state: PlcState
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorsChanged:
+    """Rows of the error history that changed."""
+
+    rows: tuple[ErrorRow, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Logged:
+    """New lines of the log."""
+
+    lines: tuple[LogEntry, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class UsersChanged:
+    """Somebody came or went."""
+
+    users: tuple[User, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ProgramBuilt:
+    """Somebody built; refused builds are told too."""
+
+    author: str
+    outcome: BuildOutcome
+
+
+@dataclass(frozen=True, slots=True)
+class FileSaved:
+    """Somebody saved a file of the project."""
+
+    author: str
+    path: str
+    version: int
+
+
+@dataclass(frozen=True, slots=True)
+class ValueWritten:
+    """Somebody wrote or forced a variable."""
+
+    path: str
+    author: str
+    scan: int
+    forced: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Watching:
+    """Answer to the `watch` of a subscriber; with ref None what all ids mean now that the variables moved."""
+
+    ref: int | None
+    items: tuple[WatchItem, ...]
+
+
+Event = StateChanged | ErrorsChanged | Logged | UsersChanged | ProgramBuilt | FileSaved | ValueWritten | Watching
+
+
+class Subscriber(Protocol):
+    """Somebody who looks at a PLC. Called in the event loop; must not wait."""
+
+    user: User
+
+    def on_event(self, event: Event) -> None:
+        """Something happened."""
+
+    def on_frame(self, frame: bytes) -> None:
+        """Values changed."""
+
+    def on_snapshot(self, frame: bytes) -> None:
+        """All values, as asked for."""

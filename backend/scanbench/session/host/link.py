@@ -1,0 +1,88 @@
+"""The host's end of the socket: one thread reads, writes and ticks; any thread posts.
+
+Messages are packed in that thread, not in the caller's: the scan loop only appends to a queue.
+"""
+
+import os
+import selectors
+import socket
+from collections import deque
+from collections.abc import Callable
+
+from scanbench.runtime.clock import monotonic_ns
+from scanbench.session.codec import Splitter, pack
+
+BACKLOG_BYTES = 4 << 20
+"""More than this unsent: the parent does not keep up, and frames are dropped."""
+
+
+class Link:
+    """A two-way stream of messages over a local socket."""
+
+    def __init__(self, sock: socket.socket) -> None:
+        sock.setblocking(False)
+        self._sock = sock
+        self._wake = os.eventfd(0, os.EFD_NONBLOCK | os.EFD_CLOEXEC)
+        self._queue: deque[object] = deque()
+        self._unsent = bytearray()
+        self._closing = False
+
+    @property
+    def backlogged(self) -> bool:
+        """Whether the parent does not keep up."""
+        return len(self._unsent) > BACKLOG_BYTES
+
+    def post(self, message: object) -> None:
+        """Sends a message, or what a callable makes of itself in the link's thread."""
+        self._queue.append(message)
+        os.eventfd_write(self._wake, 1)
+
+    def close(self) -> None:
+        """Sends what is queued, and ends `serve`."""
+        self._closing = True
+        os.eventfd_write(self._wake, 1)
+
+    def serve(self, on_message: Callable[[object], None], on_tick: Callable[[], None], tick_ns: int) -> None:
+        """Reads and writes until the other end closes or `close` is called; `on_tick` comes every `tick_ns`."""
+        splitter = Splitter()
+        next_tick = monotonic_ns() + tick_ns
+        with selectors.DefaultSelector() as selector:
+            selector.register(self._sock, selectors.EVENT_READ)
+            selector.register(self._wake, selectors.EVENT_READ)
+            while not (self._closing and not self._queue and not self._unsent):
+                events = selectors.EVENT_READ | (selectors.EVENT_WRITE if self._unsent else 0)
+                selector.modify(self._sock, events)
+                for key, ready in selector.select(max(0, next_tick - monotonic_ns()) / 1e9):
+                    if key.fileobj is self._sock and ready & selectors.EVENT_READ:
+                        data = self._receive()
+                        if not data:
+                            return
+                        for message in splitter.feed(data):
+                            on_message(message)
+                    elif key.fileobj == self._wake:
+                        os.eventfd_read(self._wake)
+                if monotonic_ns() >= next_tick:
+                    next_tick = monotonic_ns() + tick_ns
+                    on_tick()
+                if not self._send():
+                    return
+
+    def _receive(self) -> bytes:
+        try:
+            return self._sock.recv(1 << 20)
+        except ConnectionError:
+            return b""
+
+    def _send(self) -> bool:
+        """Sends as much as goes without waiting; false when the other end is gone."""
+        while self._queue:
+            message = self._queue.popleft()
+            self._unsent += pack(message() if callable(message) else message)
+        try:
+            while self._unsent:
+                del self._unsent[: self._sock.send(memoryview(self._unsent)[: 1 << 20])]
+        except BlockingIOError:
+            return True
+        except ConnectionError:
+            return False
+        return True

@@ -1,0 +1,46 @@
+"""Symbols for people: what is below a path, what completes a text."""
+
+from scanbench.check.program import Program
+from scanbench.check.symbols import Symbol, UnknownPath, complete, members, resolve
+from scanbench.check.types import Elementary, StringType
+from scanbench.session.protocol import Found, Lookup, SymbolInfo, WatchItem
+
+COMPLETIONS = 50
+
+
+def look_up(program: Program, question: Lookup) -> Found:
+    """Answers a `Lookup`."""
+    try:
+        if question.kind == "complete":
+            symbols = complete(program, question.text, COMPLETIONS)
+        else:
+            symbols = members(program, question.text)
+    except UnknownPath as error:
+        return Found(question.ref, (), error.message, tuple(error.near))
+    return Found(question.ref, tuple(map(symbol_info, symbols)))
+
+
+def watch_item(program: Program, id: int, path: str) -> tuple[WatchItem, Symbol | None]:
+    """One path to watch, and its symbol when values of it can be sent."""
+    try:
+        symbol = resolve(program, path)
+    except UnknownPath as error:
+        return WatchItem(id, path, None, False, error.message, tuple(error.near)), None
+    sent = isinstance(symbol.type, Elementary | StringType)
+    return WatchItem(id, path, symbol_info(symbol), sent), symbol if sent else None
+
+
+def symbol_info(symbol: Symbol) -> SymbolInfo:
+    """A symbol as data."""
+    simple = isinstance(symbol.type, Elementary | StringType)
+    return SymbolInfo(
+        path=symbol.path,
+        name=symbol.name,
+        type=symbol.type.name,
+        kind=symbol.type.kind.value,
+        size=symbol.type.size,
+        address=symbol.address,
+        writable=symbol.writable,
+        section=str(symbol.section),
+        expandable=not simple,
+    )

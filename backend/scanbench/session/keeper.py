@@ -1,0 +1,92 @@
+"""Writes history and log behind the back of the live path: a command never waits for the database."""
+
+import asyncio
+import logging
+from collections.abc import Callable, Sequence
+
+from scanbench.faults.history import ErrorRow
+from scanbench.plcmodel.model import Model
+from scanbench.session.events import LogEntry
+from scanbench.store.records import HistoryRow, LogRow
+from scanbench.store.store import Store
+
+log = logging.getLogger("scanbench")
+
+
+class Keeper:
+    """One task that writes in the order in which things happened."""
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+        self._jobs: asyncio.Queue[Callable[[], object]] = asyncio.Queue()
+        self._task: asyncio.Task[None] | None = None
+
+    def start(self) -> None:
+        """Begins to write."""
+        self._task = asyncio.get_running_loop().create_task(self._work())
+
+    async def flush(self) -> None:
+        """Waits until everything so far is written."""
+        await self._jobs.join()
+
+    async def close(self) -> None:
+        """Writes the rest, and ends."""
+        if self._task is not None:
+            await self.flush()
+            self._task.cancel()
+            await asyncio.gather(self._task, return_exceptions=True)
+
+    def keep_rows(self, instance: int, rows: Sequence[ErrorRow], program_version: int) -> None:
+        """Error history rows that changed."""
+        for row in rows:
+            self._jobs.put_nowait(_row_job(self._store, instance, row, program_version))
+
+    def keep_line(self, instance: int, line: LogEntry) -> None:
+        """A line of the log."""
+        at, scan, author, kind, text = line.at, line.scan, line.author, line.kind, line.text
+        self._jobs.put_nowait(lambda: self._store.add_log(instance, at, scan, author, kind, text))
+
+    async def _work(self) -> None:
+        while True:
+            jobs = [await self._jobs.get()]
+            while not self._jobs.empty():
+                jobs.append(self._jobs.get_nowait())
+            await asyncio.to_thread(_run_all, jobs)
+            for _ in jobs:
+                self._jobs.task_done()
+
+
+def row_of(model: Model, kept: HistoryRow) -> ErrorRow | None:
+    """A row as the store has it; None for an error that the model no longer knows."""
+    error = model.error(kept.error)
+    if error is None:
+        return None
+    return ErrorRow(
+        error.id, error.name, error.severity, kept.status, kept.code, kept.details, kept.generated_at,
+        kept.recovered_at, kept.generated_scan, kept.recovered_scan, kept.by, kept.origin, kept.count,
+    )  # fmt: skip
+
+
+def line_of(kept: LogRow) -> LogEntry:
+    """A line as the store has it."""
+    return LogEntry(kept.at, kept.scan, kept.author, kept.text, kept.kind)
+
+
+def _row_job(store: Store, instance: int, row: ErrorRow, program_version: int) -> Callable[[], object]:
+    if row.status == "cleared" and row.recovered_at is not None:
+        at, scan = row.recovered_at, row.recovered_scan or 0
+        return lambda: store.record_cleared(instance, row.id, at=at, scan=scan)
+    generated_at = row.generated_at
+    assert generated_at is not None
+    return lambda: store.record_generated(
+        instance, row.id, program_version=program_version, code=row.code, details=row.details, at=generated_at,
+        scan=row.generated_scan or 0, by=row.by or "", origin=row.origin or "simulator",
+    )  # fmt: skip
+
+
+def _run_all(jobs: Sequence[Callable[[], object]]) -> None:
+    for job in jobs:
+        try:
+            job()
+        except Exception:  # the PLC goes on; the next lines may be written again
+            log.exception("a line of history or log could not be written")

@@ -1,0 +1,127 @@
+"""Projects: files, checks, builds. A build with errors is refused, and every PLC goes on with the program it has."""
+
+import asyncio
+from collections.abc import Callable, Mapping, Sequence
+
+from scanbench.plcmodel.model import Model
+from scanbench.session.builds import INTERVAL_NS, BuildOutcome, Checker, CheckOutcome
+from scanbench.session.protocol import Sources
+from scanbench.session.session import Session
+from scanbench.store.records import FileInfo, FileRow, ProjectRow
+from scanbench.store.store import Store
+
+
+class Refused(Exception):
+    """A request that makes no sense; the message says why, and what to do."""
+
+    def __init__(self, message: str, near: tuple[str, ...] = ()) -> None:
+        super().__init__(message)
+        self.message, self.near = message, near
+
+
+class Projects:
+    """The projects of a server. `sessions_of` gives the PLCs that run a project's program."""
+
+    def __init__(
+        self, store: Store, models: Mapping[str, Model], checker: Checker, sessions_of: Callable[[int], list[Session]]
+    ) -> None:
+        self._store, self._models, self._checker, self._sessions_of = store, models, checker, sessions_of
+        self._building: dict[int, asyncio.Lock] = {}
+
+    async def all(self) -> list[ProjectRow]:
+        """Every project."""
+        return await asyncio.to_thread(self._store.projects)
+
+    async def get(self, id: int) -> ProjectRow:
+        """The project of this number."""
+        return await asyncio.to_thread(self._store.project, id)
+
+    async def create(self, name: str, model: str, watch: Sequence[str] = ()) -> ProjectRow:
+        """An empty project on a model."""
+        self.model(model)
+        return await asyncio.to_thread(self._store.create_project, name, model, watch)
+
+    async def delete(self, id: int) -> None:
+        """Deletes a project that no PLC runs."""
+        project = await self.get(id)
+        if running := self._sessions_of(id):
+            raise Refused(f"{project.name} runs on {', '.join(each.name for each in running)}: delete that first")
+        await asyncio.to_thread(self._store.delete_project, id)
+
+    def model(self, name: str) -> Model:
+        """The model of this name."""
+        model = self._models.get(name)
+        if model is None:
+            raise Refused(f"there is no model {name}", tuple(self._models))
+        return model
+
+    # ---- files ----------------------------------------------------------------------------------------------------
+
+    async def files(self, id: int) -> list[FileInfo]:
+        """The files of a project."""
+        return await asyncio.to_thread(self._store.files, id)
+
+    async def file(self, id: int, path: str) -> FileRow:
+        """One file."""
+        return await asyncio.to_thread(self._store.file, id, path)
+
+    async def save(self, id: int, path: str, text: str, version: int, author: str) -> FileRow:
+        """Saves what was edited from `version` on; `store.Conflict` when somebody else was first."""
+        _check_path(path)
+        file = await asyncio.to_thread(self._store.save_file, id, path, text, version, author)
+        for session in self._sessions_of(id):
+            session.told_saved(author, file.path, file.version)
+        return file
+
+    async def delete_file(self, id: int, path: str) -> None:
+        """Deletes a file."""
+        await asyncio.to_thread(self._store.delete_file, id, path)
+
+    async def sources(self, id: int) -> dict[str, str]:
+        """Path -> text of all program files."""
+        return await asyncio.to_thread(self._store.sources, id)
+
+    # ---- check and build ------------------------------------------------------------------------------------------
+
+    async def check(self, id: int, edited: Mapping[str, str]) -> CheckOutcome:
+        """Checks the project with texts that are not saved yet."""
+        project = await self.get(id)
+        sources = await self.sources(id) | dict(edited)
+        return await self._checker.check(sources, self.model(project.model))
+
+    async def built(self, id: int) -> Sources | None:
+        """The last build that was accepted."""
+        project = await self.get(id)
+        files = await asyncio.to_thread(self._store.last_build, id)
+        return None if files is None else Sources(project.model, files, INTERVAL_NS, project.version)
+
+    async def build(self, id: int, author: str) -> BuildOutcome:
+        """Builds what is saved, and swaps it into the project's PLCs, each in its seam. One build at a time."""
+        async with self._building.setdefault(id, asyncio.Lock()):
+            outcome = await self._build(id, author)
+        for session in self._sessions_of(id):
+            session.told_built(author, outcome)
+        return outcome
+
+    async def _build(self, id: int, author: str) -> BuildOutcome:
+        project = await self.get(id)
+        sources = await self.sources(id)
+        found = await self._checker.check(sources, self.model(project.model))
+        if found.errors:
+            count = f"{found.errors} error{'s' * (found.errors != 1)}"
+            first = next(problem for problem in found.problems if problem.severity == "error")
+            message = f"{count}, nothing was changed: {first}"
+            return BuildOutcome(False, message, found, project)
+        version = await asyncio.to_thread(self._store.accept_build, id, sources, author)
+        build = Sources(project.model, sources, INTERVAL_NS, version)
+        sessions = self._sessions_of(id)
+        acks = await asyncio.gather(*(session.build(build, author) for session in sessions))
+        lines = [f"{session.name}: {ack.message}" for session, ack in zip(sessions, acks, strict=True)]
+        message = "; ".join([f"version {version} built", *lines])
+        return BuildOutcome(all(ack.ok for ack in acks), message, found, await self.get(id))
+
+
+def _check_path(path: str) -> None:
+    parts = path.split("/")
+    if not path.lower().endswith(".st") or len(path) > 200 or any(part.strip(". ") == "" for part in parts):
+        raise Refused(f"{path!r} cannot be a file of a project: name it like motor.st")

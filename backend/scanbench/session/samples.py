@@ -1,0 +1,31 @@
+"""The projects that a first start finds: `samples/<name>/` of the package."""
+
+import json
+from collections.abc import Iterator
+from dataclasses import dataclass
+from importlib.resources import files
+
+
+@dataclass(frozen=True, slots=True)
+class Sample:
+    """A project that ships."""
+
+    name: str
+    model: str
+    watch: tuple[str, ...]
+    files: dict[str, str]
+
+
+def samples() -> Iterator[Sample]:
+    """Every sample that ships, by name."""
+    root = files("scanbench").joinpath("samples")
+    for folder in sorted(root.iterdir(), key=lambda each: each.name):
+        if not folder.is_dir() or not folder.joinpath("project.json").is_file():
+            continue
+        about = json.loads(folder.joinpath("project.json").read_text("utf-8"))
+        texts = {
+            file.name: file.read_text("utf-8")
+            for file in sorted(folder.iterdir(), key=lambda each: each.name)
+            if file.name.endswith(".st")
+        }
+        yield Sample(about["name"], about["model"], tuple(about.get("watch", ())), texts)

@@ -1,0 +1,124 @@
+"""Everything a server has: models, projects, and a session for every instance."""
+
+import asyncio
+import logging
+from collections.abc import Mapping
+
+from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.plcmodel.model import Model
+from scanbench.session.builds import Checker
+from scanbench.session.keeper import Keeper, line_of, row_of
+from scanbench.session.projects import Projects, Refused
+from scanbench.session.samples import samples
+from scanbench.session.session import LOG_LINES, Session
+from scanbench.store.records import InstanceRow, NotFound
+from scanbench.store.store import Store
+
+log = logging.getLogger("scanbench")
+
+FIRST_INSTANCE = "line-1"
+
+
+class Workbench:
+    """Starts and ends with the server."""
+
+    def __init__(self, store: Store) -> None:
+        self._store = store
+        models, problems = load_all(model_directory())
+        for problem in problems:
+            log.error("%s", problem)
+        self.models: Mapping[str, Model] = {model.name: model for model in models}
+        self._checker = Checker()
+        self._keeper = Keeper(store)
+        self._sessions: dict[int, Session] = {}
+        self._warming: asyncio.Task[None] | None = None
+        self.projects = Projects(store, self.models, self._checker, self._sessions_of)
+
+    async def start(self) -> None:
+        """Opens what the store holds, or the samples on the first start, and runs every instance."""
+        self._keeper.start()
+        if not await self.projects.all():
+            await self._first_start()
+        for instance in await asyncio.to_thread(self._store.instances):
+            try:
+                await self._open(instance)
+            except Refused as error:  # its model is gone, say: the others must not suffer
+                log.error("%s", error)
+        if self.models:
+            warming = self._checker.warm(next(iter(self.models.values())))
+            self._warming = asyncio.get_running_loop().create_task(warming)
+
+    async def close(self) -> None:
+        """Ends every PLC, and writes what is still to be written."""
+        if self._warming is not None:
+            self._warming.cancel()
+            await asyncio.gather(self._warming, return_exceptions=True)
+        await asyncio.gather(*(session.stop() for session in self._sessions.values()))
+        await self._keeper.close()
+        await self._checker.close()
+
+    # ---- instances ------------------------------------------------------------------------------------------------
+
+    @property
+    def sessions(self) -> list[Session]:
+        """Every session, in the order in which the instances were made."""
+        return [self._sessions[id] for id in sorted(self._sessions)]
+
+    def session(self, id: int) -> Session:
+        """The session of an instance."""
+        session = self._sessions.get(id)
+        if session is None:
+            raise NotFound(f"there is no instance {id}")
+        return session
+
+    async def create_instance(self, project_id: int, name: str) -> Session:
+        """A new PLC that runs a project's last accepted build."""
+        project = await self.projects.get(project_id)
+        if await self.projects.built(project_id) is None:
+            outcome = await self.projects.build(project_id, "server")
+            if not outcome.ok:
+                raise Refused(f"{project.name} has no program that could run: {outcome.message}")
+        row = await asyncio.to_thread(self._store.create_instance, project_id, name)
+        return await self._open(row)
+
+    async def delete_instance(self, id: int) -> None:
+        """Ends a PLC and forgets it, its history too."""
+        session = self.session(id)
+        await session.stop()
+        del self._sessions[id]
+        await self._keeper.flush()
+        await asyncio.to_thread(self._store.delete_instance, id)
+
+    async def _open(self, row: InstanceRow) -> Session:
+        project = await self.projects.get(row.project)
+        sources = await self.projects.built(project.id)
+        model = self.models.get(project.model)
+        if sources is None or model is None:
+            raise Refused(f"instance {row.name}: {project.name} has no accepted build on {project.model}")
+        rows = [row_of(model, each) for each in await asyncio.to_thread(self._store.history, row.id)]
+        lines = [line_of(each) for each in await asyncio.to_thread(self._store.log, row.id, LOG_LINES)]
+        kept = {each.id: each for each in rows if each is not None}
+        session = Session(row.id, row.name, project.id, model, sources, self._keeper, kept, lines)
+        self._sessions[row.id] = session
+        session.start()
+        return session
+
+    def _sessions_of(self, project_id: int) -> list[Session]:
+        return [session for session in self.sessions if session.project_id == project_id]
+
+    async def _first_start(self) -> None:
+        """The samples; the first one runs on an instance of its own."""
+        first = True
+        for sample in samples():
+            if sample.model not in self.models:
+                log.error("sample %s needs model %s, which could not be loaded", sample.name, sample.model)
+                continue
+            project = await self.projects.create(sample.name, sample.model, sample.watch)
+            for path, text in sample.files.items():
+                await self.projects.save(project.id, path, text, 0, "sample")
+            outcome = await self.projects.build(project.id, "sample")
+            if not outcome.ok:
+                log.error("sample %s: %s", sample.name, outcome.message)
+            elif first:
+                await asyncio.to_thread(self._store.create_instance, project.id, FIRST_INSTANCE)
+                first = False

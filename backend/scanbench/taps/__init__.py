@@ -1,0 +1,1 @@
+"""Readers of the image: they look in the seam, and never write."""

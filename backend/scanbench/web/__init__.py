@@ -1,0 +1,1 @@
+"""HTTP and WebSocket: translators between browsers and sessions."""

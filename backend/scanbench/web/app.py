@@ -1,0 +1,111 @@
+"""The FastAPI application: routes, errors as `Refusal`, the page, and the guard around all of it."""
+
+from collections.abc import AsyncIterator
+from contextlib import asynccontextmanager
+from dataclasses import dataclass
+from pathlib import Path
+
+from fastapi import FastAPI, Request
+from fastapi.exceptions import RequestValidationError
+from fastapi.responses import HTMLResponse, JSONResponse
+from fastapi.staticfiles import StaticFiles
+from starlette.exceptions import HTTPException
+
+from scanbench import __version__
+from scanbench.session.instance import Unavailable
+from scanbench.session.projects import Refused
+from scanbench.session.workbench import Workbench
+from scanbench.store.records import Conflict, NameTaken, NotFound, StoreError
+from scanbench.web import messages as wire
+from scanbench.web import routes_instances, routes_models, routes_projects
+from scanbench.web.auth import Gate, Guard
+from scanbench.web.pages import frontend_directory, not_built_page
+
+_STATUS: dict[type[Exception], int] = {
+    NotFound: 404, NameTaken: 409, Refused: 422, Unavailable: 503, StoreError: 503,
+}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Config:
+    """What a server needs to know."""
+
+    bench: Workbench
+    gate: Gate
+
+
+def create_app(config: Config) -> FastAPI:
+    """The application; its lifespan starts and ends the PLCs."""
+
+    @asynccontextmanager
+    async def lifespan(app: FastAPI) -> AsyncIterator[None]:
+        app.state.bench = config.bench
+        try:
+            await config.bench.start()
+            yield
+        finally:
+            await config.bench.close()
+
+    app = bare_app()
+    app.router.lifespan_context = lifespan
+    app.add_middleware(Guard, gate=config.gate)
+    return app
+
+
+def bare_app() -> FastAPI:
+    """Routes without anything behind them: enough to describe the API."""
+    app = FastAPI(
+        title="Scanbench", version=__version__, docs_url=None, redoc_url=None, openapi_url="/api/openapi.json",
+        responses={"4XX": {"model": wire.Refusal}},
+    )  # fmt: skip
+    for routes in (routes_instances, routes_projects, routes_models):
+        app.include_router(routes.router)
+    for error, status in _STATUS.items():
+        app.add_exception_handler(error, _refusing(status))
+    app.add_exception_handler(Conflict, _on_conflict)
+    app.add_exception_handler(RequestValidationError, _on_invalid)
+    app.add_exception_handler(HTTPException, _on_http)
+    _serve_page(app, frontend_directory())
+    return app
+
+
+def _refusing(status: int):  # type: ignore[no-untyped-def]  # the handler's type is Starlette's own affair
+    async def on_error(_request: Request, error: Exception) -> JSONResponse:
+        near = list(error.near) if isinstance(error, Refused) else []
+        return JSONResponse(wire.Refusal(message=str(error), near=near).model_dump(), status)
+
+    return on_error
+
+
+async def _on_conflict(_request: Request, error: Exception) -> JSONResponse:
+    """Somebody else saved first; a file that was deleted meanwhile comes as version 0, to be made anew."""
+    assert isinstance(error, Conflict)
+    theirs = error.theirs
+    text = wire.FileText(
+        path=error.path, version=theirs.version if theirs else 0, text=theirs.text if theirs else ""
+    )  # fmt: skip
+    return JSONResponse(wire.SaveConflict(message=str(error), theirs=text).model_dump(), 409)
+
+
+async def _on_invalid(_request: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, RequestValidationError)
+    lines = [f"{'.'.join(map(str, one['loc'][1:]))}: {one['msg']}" for one in error.errors()]
+    return JSONResponse(wire.Refusal(message="; ".join(lines)).model_dump(), 422)
+
+
+async def _on_http(_request: Request, error: Exception) -> JSONResponse:
+    assert isinstance(error, HTTPException)
+    return JSONResponse(wire.Refusal(message=str(error.detail)).model_dump(), error.status_code)
+
+
+def _serve_page(app: FastAPI, directory: Path) -> None:
+    """The built frontend, whether it is there at the start or comes later."""
+
+    @app.get("/", include_in_schema=False)
+    async def on_page() -> HTMLResponse:
+        index = directory / "index.html"
+        if not index.is_file():
+            return HTMLResponse(not_built_page(directory), 503)
+        return HTMLResponse(index.read_text("utf-8"), headers={"Cache-Control": "no-cache"})
+
+    app.mount("/", StaticFiles(directory=directory, check_dir=False), name="frontend")

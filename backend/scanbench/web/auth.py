@@ -1,0 +1,146 @@
+"""Who may speak to this server: token, Host and Origin, checked before any route is reached.
+
+The token is in the address printed at the start; opening it sets a cookie. Host must be an address or a name of this
+machine, so that no foreign name can be pointed here (DNS rebinding); Origin must be the page this server gave out.
+"""
+
+import hmac
+import ipaddress
+import socket
+from collections.abc import Iterable
+from dataclasses import dataclass, field
+from urllib.parse import parse_qs, quote, unquote, urlsplit
+
+from starlette.datastructures import Headers
+from starlette.requests import HTTPConnection
+from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Response
+from starlette.types import ASGIApp, Receive, Scope, Send
+from starlette.websockets import WebSocketClose
+
+from scanbench.session.events import User
+from scanbench.web.pages import no_token_page
+
+USER = "scanbench_user"
+_SAFE = {"GET", "HEAD", "OPTIONS"}
+_NAME_LENGTH = 40
+
+
+@dataclass(slots=True)
+class Gate:
+    """What is checked against, and the numbers for guests."""
+
+    token: str
+    port: int
+    hosts: frozenset[str]
+    guests: int = field(default=0)
+
+    @property
+    def cookie(self) -> str:
+        """The cookie's name: servers on other ports of the same host have their own."""
+        return f"scanbench_token_{self.port}"
+
+    def next_guest(self) -> str:
+        """A name for somebody who gave none."""
+        self.guests += 1
+        return f"Guest {self.guests}"
+
+
+def known_hosts(names: Iterable[str]) -> frozenset[str]:
+    """Names under which this server may be asked for, besides addresses."""
+    return frozenset({"localhost", socket.gethostname().lower(), *(name.lower() for name in names)})
+
+
+def user_of(connection: HTTPConnection) -> User:
+    """Who it is, by query or cookie."""
+    name = connection.query_params.get(USER) or unquote(connection.cookies.get(USER, ""))
+    plain = "".join(letter for letter in name if letter.isprintable()).strip()
+    return User(plain[:_NAME_LENGTH] or "Guest")
+
+
+class Guard:
+    """ASGI middleware around everything."""
+
+    def __init__(self, app: ASGIApp, gate: Gate) -> None:
+        self._app, self._gate = app, gate
+
+    async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
+        """Lets a request through, or answers it."""
+        if scope["type"] not in ("http", "websocket"):
+            await self._app(scope, receive, send)
+            return
+        reason = self._foreign(scope)
+        if reason is not None:
+            await _refuse(scope, receive, send, 403, reason)
+            return
+        connection = HTTPConnection(scope)
+        if scope["path"].startswith("/api"):
+            if not self._knows_token(connection):
+                await _refuse(
+                    scope, receive, send, 401, "the token is missing or wrong: open the address that was printed"
+                )
+                return
+        elif scope["type"] == "http" and scope["path"] == "/":
+            page = self._entrance(connection)
+            if page is not None:
+                await page(scope, receive, send)
+                return
+        await self._app(scope, receive, send)
+
+    def _foreign(self, scope: Scope) -> str | None:
+        """Why this comes from a page that is not ours, or None."""
+        headers = Headers(scope=scope)
+        host = headers.get("host", "")
+        if not self._is_ours(host):
+            return f"Host {host!r} is not a name of this server: use localhost, its address, or --host"
+        origin = headers.get("origin")
+        must_match = scope["type"] == "websocket" or scope["method"] not in _SAFE
+        if origin is not None and must_match and urlsplit(origin).netloc.lower() != host.lower():
+            return f"Origin {origin!r} is another page than this server's"
+        if must_match and headers.get("sec-fetch-site", "same-origin") not in ("same-origin", "none"):
+            return "the request comes from another site"
+        return None
+
+    def _is_ours(self, host: str) -> bool:
+        try:
+            name = urlsplit(f"//{host}").hostname or ""
+        except ValueError:
+            return False
+        if name in self._gate.hosts:
+            return True
+        try:
+            ipaddress.ip_address(name)
+        except ValueError:
+            return False
+        return True
+
+    def _knows_token(self, connection: HTTPConnection) -> bool:
+        kind, _, bearer = connection.headers.get("authorization", "").partition(" ")
+        given = (
+            connection.cookies.get(self._gate.cookie),
+            connection.query_params.get("token"),
+            bearer.strip() if kind.lower() == "bearer" else None,
+        )
+        right = self._gate.token.encode()
+        return any(text is not None and hmac.compare_digest(text.encode(), right) for text in given)
+
+    def _entrance(self, connection: HTTPConnection) -> Response | None:
+        """The page itself: a token in the address moves into a cookie; without one there is an explanation."""
+        if not self._knows_token(connection):
+            return HTMLResponse(no_token_page(), 401)
+        query = parse_qs(connection.url.query)
+        named = USER in connection.cookies and USER not in query
+        if "token" not in query and named:
+            return None
+        response = RedirectResponse("/", 303)
+        response.set_cookie(self._gate.cookie, self._gate.token, httponly=True, samesite="strict", path="/")
+        if not named:
+            name = user_of(connection).name if USER in query else self._gate.next_guest()
+            response.set_cookie(USER, quote(name), samesite="strict", path="/", max_age=365 * 86400)
+        return response
+
+
+async def _refuse(scope: Scope, receive: Receive, send: Send, status: int, message: str) -> None:
+    if scope["type"] == "websocket":
+        await WebSocketClose(1008, message)(scope, receive, send)
+    else:
+        await JSONResponse({"message": message, "near": []}, status)(scope, receive, send)

@@ -1,0 +1,434 @@
+"""What goes over the wire: every JSON shape of the REST API and of the WebSocket, in one file.
+
+The browser's types (`frontend/src/wire/messages.gen.ts`) are generated from these models through the OpenAPI
+document, so a change here is a compile error there. Binary value frames are described in `frames.py`.
+"""
+
+from typing import Annotated, Literal
+
+from pydantic import BaseModel, ConfigDict, Field
+
+
+class Wire(BaseModel):
+    """Base of all wire shapes: unknown fields are refused, so that a typing error never passes silently."""
+
+    model_config = ConfigDict(extra="forbid")
+
+
+# ---- programs, files, problems -------------------------------------------------------------------------------
+
+
+class Problem(Wire):
+    """One finding of the compiler. Lines and columns count from 1; the end is exclusive."""
+
+    code: str
+    severity: Literal["error", "warning", "info"]
+    message: str
+    file: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+
+class Project(Wire):
+    id: int
+    name: str
+    model: str
+    version: int = Field(description="counts the builds that were accepted")
+    watch: list[str] = Field(description="what a fresh watch list begins with")
+
+
+class NewProject(Wire):
+    name: str = Field(min_length=1, max_length=100)
+    model: str = "GENERIC-IEC"
+
+
+class FileInfo(Wire):
+    path: str
+    version: int
+
+
+class FileText(FileInfo):
+    text: str
+
+
+class SaveFile(Wire):
+    """Optimistic save: `version` is the one the edit began from (0 for a new file)."""
+
+    text: str
+    version: int
+
+
+class SaveConflict(Wire):
+    """Somebody else saved first (status 409): nothing was written; here is theirs."""
+
+    message: str
+    theirs: FileText
+
+
+class CheckRequest(Wire):
+    """Texts being edited, not yet saved; the other files of the project are taken as stored."""
+
+    files: dict[str, str]
+
+
+class Pou(Wire):
+    name: str
+    kind: Literal["program", "function_block", "function", "type", "global"]
+    file: str
+    line: int
+
+
+class CheckResult(Wire):
+    problems: list[Problem]
+    pous: list[Pou]
+
+
+class BuildResult(Wire):
+    ok: bool
+    message: str
+    problems: list[Problem]
+    project: Project
+    pous: list[Pou]
+
+
+# ---- models ----------------------------------------------------------------------------------------------------
+
+Access = Literal["none", "read", "write"]
+
+
+class Area(Wire):
+    name: str
+    description: str
+    words: int = Field(description="size in 16-bit words")
+    first: str = Field(description="first address in the vendor's notation")
+    last: str
+    program: Access
+    tool: Access
+    engine: Access
+
+
+class ErrorDetail(Wire):
+    """One thing to choose or enter when an error is raised."""
+
+    name: str = Field(description="key in the command line's and the API's `details`, e.g. `rack`")
+    control: Literal["List", "Spin", "Edit"]
+    description: str
+    address: str
+    choices: list["ErrorChoiceInfo"] = Field(default_factory=list, description="List: what can be chosen")
+    minimum: int | None = None
+    maximum: int | None = None
+    default: str = ""
+    base: int = 10
+
+
+class ErrorChoiceInfo(Wire):
+    id: str
+    description: str
+    address: str
+
+
+class ErrorInfo(Wire):
+    id: str
+    name: str
+    description: str
+    code: str = Field(description="four hex digits")
+    flag: str
+    severity: Literal["fatal", "nonfatal"]
+    verified: bool
+    source: str
+    details: list[ErrorDetail]
+
+
+class ErrorGroup(Wire):
+    name: str
+    groups: list["ErrorGroup"]
+    errors: list[ErrorInfo]
+
+
+class ModelSummary(Wire):
+    name: str
+    vendor: str
+    description: str
+    error_count: int
+
+
+class ModelInfo(ModelSummary):
+    areas: list[Area]
+    code_word: str | None = Field(description="address of the error code word, e.g. A400")
+    status_words: list[str] = Field(description="words shown under the tree, e.g. A400, A401, A402")
+    catalogue: list[ErrorGroup]
+
+
+# ---- instances ---------------------------------------------------------------------------------------------------
+
+RunState = Literal["starting", "running", "paused", "stopped", "fatal", "trapped", "restarting", "failed"]
+Mode = Literal["PROGRAM", "MONITOR", "RUN"]
+
+
+class TrapInfo(Wire):
+    """Why the program was stopped by itself."""
+
+    kind: Literal["bounds", "division", "null", "string", "loop"]
+    message: str
+    file: str
+    line: int
+    column: int
+    scan: int
+
+
+class InstanceState(Wire):
+    """The state of one virtual PLC, as the top bar and the rail show it."""
+
+    state: RunState
+    mode: Mode
+    message: str = Field(description="one line that says why, e.g. the error code or the trap's place")
+    scan: int
+    time_ns: int
+    interval_ns: int
+    cycle_us: float = Field(description="measured duration of a scan")
+    speed: float = Field(description="1 = real time, 0 = as fast as possible")
+    pid: int | None
+    restarts: int
+    trap: TrapInfo | None
+    forces: int
+    program_version: int
+
+
+class Instance(Wire):
+    id: int
+    name: str
+    project: Project
+    model: str
+    state: InstanceState
+
+
+class NewInstance(Wire):
+    project: int
+    name: str = Field(min_length=1, max_length=100)
+
+
+class Symbol(Wire):
+    """A variable, or an address, by its instance path."""
+
+    path: str
+    name: str
+    type: str = Field(description="as declared, e.g. INT, ARRAY[0..9] OF REAL, TON")
+    kind: Literal["bool", "int", "uint", "bits", "real", "time", "string", "array", "struct", "block"]
+    size: int = Field(description="bytes of the value")
+    address: str | None = Field(description="vendor notation when it is located")
+    writable: bool
+    section: str = Field(description="VAR, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_GLOBAL, address or member")
+    expandable: bool
+
+
+class ErrorHistoryRow(Wire):
+    """One row per catalogue error: has it been tested?"""
+
+    id: str
+    name: str
+    severity: Literal["fatal", "nonfatal"]
+    status: Literal["never", "generated", "cleared"]
+    code: str
+    details: str
+    generated_at: str | None = Field(description="ISO 8601, UTC")
+    recovered_at: str | None
+    generated_scan: int | None
+    recovered_scan: int | None
+    by: str | None
+    origin: Literal["simulator", "plc", "program"] | None
+    count: int
+
+
+class LogLine(Wire):
+    """One line of the instance's journal, for people."""
+
+    at: str
+    scan: int
+    author: str
+    text: str
+    kind: Literal["write", "force", "error", "recover", "mode", "run", "build", "system"]
+
+
+class User(Wire):
+    name: str
+    initials: str
+
+
+class AppInfo(Wire):
+    version: str
+    you: User
+    projects: list[Project]
+    instances: list[Instance]
+
+
+class Refusal(Wire):
+    """Every refused request: what, and what to do next."""
+
+    message: str
+    near: list[str] = Field(default_factory=list, description="near matches for an unknown name")
+
+
+# ---- WebSocket: browser to server -------------------------------------------------------------------------------
+# `ref` is chosen by the sender and comes back in `Done`, so that a refusal lands in the row that caused it.
+
+
+class Watch(Wire):
+    type: Literal["watch"] = "watch"
+    ref: int
+    paths: list[str]
+
+
+class Unwatch(Wire):
+    type: Literal["unwatch"] = "unwatch"
+    ids: list[int]
+
+
+class Write(Wire):
+    type: Literal["write"] = "write"
+    ref: int
+    path: str
+    value: str = Field(description="as typed: TRUE, 42, 16#FF, T#5s, 1.5, 'text'")
+
+
+class Force(Wire):
+    type: Literal["force"] = "force"
+    ref: int
+    path: str
+    value: str
+
+
+class Release(Wire):
+    type: Literal["release"] = "release"
+    ref: int
+    path: str | None = Field(description="null releases all")
+
+
+class GenerateOne(Wire):
+    id: str
+    details: dict[str, str] = Field(default_factory=dict, description="detail name to chosen entry or number")
+
+
+class Generate(Wire):
+    type: Literal["generate"] = "generate"
+    ref: int
+    errors: list[GenerateOne]
+
+
+class Recover(Wire):
+    type: Literal["recover"] = "recover"
+    ref: int
+    ids: list[str] | None = Field(description="null recovers every error that is generated")
+
+
+class SetMode(Wire):
+    type: Literal["mode"] = "mode"
+    ref: int
+    mode: Mode
+
+
+class Run(Wire):
+    type: Literal["run"] = "run"
+    ref: int
+    action: Literal["continue", "pause", "scan", "restart"]
+    speed: float | None = None
+
+
+ClientMessage = Annotated[
+    Watch | Unwatch | Write | Force | Release | Generate | Recover | SetMode | Run, Field(discriminator="type")
+]
+
+# ---- WebSocket: server to browser -------------------------------------------------------------------------------
+
+
+class Hello(Wire):
+    """First message after connecting, and after every reconnection: everything but the values."""
+
+    type: Literal["hello"] = "hello"
+    you: User
+    users: list[User]
+    instance: Instance
+    errors: list[ErrorHistoryRow]
+    log: list[LogLine]
+
+
+class State(Wire):
+    type: Literal["state"] = "state"
+    state: InstanceState
+
+
+class Watched(Wire):
+    """One path of a `Watch`: an id for the value frames, or the reason why there is none."""
+
+    path: str
+    id: int | None
+    symbol: Symbol | None
+    refusal: Refusal | None
+
+
+class Watching(Wire):
+    """Answer to `watch`; sent again, for all ids, when a new program moved the variables."""
+
+    type: Literal["watching"] = "watching"
+    ref: int | None
+    items: list[Watched]
+
+
+class Done(Wire):
+    """Answer to every command: applied in the seam before `scan`, or refused with a reason."""
+
+    type: Literal["done"] = "done"
+    ref: int
+    ok: bool
+    message: str
+    scan: int | None
+    near: list[str] = Field(default_factory=list)
+
+
+class Errors(Wire):
+    """Rows of the error history that changed."""
+
+    type: Literal["errors"] = "errors"
+    rows: list[ErrorHistoryRow]
+
+
+class Log(Wire):
+    type: Literal["log"] = "log"
+    lines: list[LogLine]
+
+
+class Users(Wire):
+    type: Literal["users"] = "users"
+    users: list[User]
+
+
+class Built(Wire):
+    """Somebody built: the running PLC has a new program (or the build was refused and the old one goes on)."""
+
+    type: Literal["built"] = "built"
+    author: str
+    result: BuildResult
+
+
+class Saved(Wire):
+    """Somebody saved a file of this project."""
+
+    type: Literal["saved"] = "saved"
+    author: str
+    file: FileInfo
+
+
+class Written(Wire):
+    """Somebody wrote a variable; shown in the tooltip of its row."""
+
+    type: Literal["written"] = "written"
+    path: str
+    author: str
+    scan: int
+    forced: bool
+
+
+ServerMessage = Annotated[
+    Hello | State | Watching | Done | Errors | Log | Users | Built | Saved | Written, Field(discriminator="type")
+]

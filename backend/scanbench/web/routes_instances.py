@@ -1,0 +1,90 @@
+"""REST: instances, their symbols and error histories; and the WebSocket of each."""
+
+from fastapi import APIRouter, Request, WebSocket
+
+from scanbench import __version__
+from scanbench.session.projects import Refused
+from scanbench.session.session import Session
+from scanbench.session.workbench import Workbench
+from scanbench.store.records import NotFound
+from scanbench.web import messages as wire
+from scanbench.web import translate
+from scanbench.web.auth import user_of
+from scanbench.web.reach import Bench, SocketBench
+from scanbench.web.socket import Client
+
+router = APIRouter(prefix="/api", tags=["instances"])
+
+
+@router.get("")
+async def on_app(bench: Bench, request: Request) -> wire.AppInfo:
+    """What there is, and who you are."""
+    projects = {row.id: row for row in await bench.projects.all()}
+    return wire.AppInfo(
+        version=__version__,
+        you=translate.user(user_of(request)),
+        projects=[translate.project(row) for row in projects.values()],
+        instances=[translate.instance(session, projects[session.project_id]) for session in bench.sessions],
+    )
+
+
+@router.get("/instances")
+async def on_instances(bench: Bench) -> list[wire.Instance]:
+    """Every instance."""
+    return [await _instance(bench, session) for session in bench.sessions]
+
+
+@router.post("/instances", status_code=201)
+async def on_new_instance(bench: Bench, new: wire.NewInstance) -> wire.Instance:
+    """A new PLC that runs a project's last accepted build."""
+    return await _instance(bench, await bench.create_instance(new.project, new.name.strip()))
+
+
+@router.get("/instances/{instance}")
+async def on_instance(bench: Bench, instance: int) -> wire.Instance:
+    """One instance."""
+    return await _instance(bench, bench.session(instance))
+
+
+@router.delete("/instances/{instance}", status_code=204)
+async def on_delete_instance(bench: Bench, instance: int) -> None:
+    """Ends a PLC, and forgets it."""
+    await bench.delete_instance(instance)
+
+
+@router.get("/instances/{instance}/symbols")
+async def on_symbols(bench: Bench, instance: int, path: str = "") -> list[wire.Symbol]:
+    """The members below a path; programs and globals below ''."""
+    found = await bench.session(instance).look_up("members", path)
+    if found.message:
+        raise Refused(found.message, found.near)
+    return list(map(translate.symbol, found.symbols))
+
+
+@router.get("/instances/{instance}/complete")
+async def on_complete(bench: Bench, instance: int, text: str = "") -> list[wire.Symbol]:
+    """At most 50 symbols whose path begins with the text."""
+    found = await bench.session(instance).look_up("complete", text)
+    return list(map(translate.symbol, found.symbols))
+
+
+@router.get("/instances/{instance}/errors")
+async def on_errors(bench: Bench, instance: int) -> list[wire.ErrorHistoryRow]:
+    """The error history, in the order of the catalogue."""
+    return list(map(translate.error_row, bench.session(instance).rows))
+
+
+@router.websocket("/instances/{instance}/socket")
+async def on_socket(bench: SocketBench, socket: WebSocket, instance: int) -> None:
+    """Live values, events and commands."""
+    try:
+        session = bench.session(instance)
+        described = await _instance(bench, session)
+    except NotFound as error:
+        await socket.close(1008, str(error))
+        return
+    await Client(socket, session, user_of(socket)).serve(described)
+
+
+async def _instance(bench: Workbench, session: Session) -> wire.Instance:
+    return translate.instance(session, await bench.projects.get(session.project_id))

@@ -1,0 +1,66 @@
+"""REST: projects, files, check, build."""
+
+from fastapi import APIRouter, Request
+
+from scanbench.web import messages as wire
+from scanbench.web import translate
+from scanbench.web.auth import user_of
+from scanbench.web.reach import Bench
+
+router = APIRouter(prefix="/api/projects", tags=["projects"])
+
+
+@router.get("")
+async def on_projects(bench: Bench) -> list[wire.Project]:
+    """Every project, by name."""
+    return [translate.project(row) for row in await bench.projects.all()]
+
+
+@router.post("", status_code=201)
+async def on_new_project(bench: Bench, new: wire.NewProject) -> wire.Project:
+    """An empty project on a model."""
+    return translate.project(await bench.projects.create(new.name.strip(), new.model))
+
+
+@router.delete("/{project}", status_code=204)
+async def on_delete_project(bench: Bench, project: int) -> None:
+    """Deletes a project that no instance runs."""
+    await bench.projects.delete(project)
+
+
+@router.get("/{project}/files")
+async def on_files(bench: Bench, project: int) -> list[wire.FileInfo]:
+    """The files of a project."""
+    return [wire.FileInfo(path=row.path, version=row.version) for row in await bench.projects.files(project)]
+
+
+@router.get("/{project}/files/{path:path}")
+async def on_file(bench: Bench, project: int, path: str) -> wire.FileText:
+    """One file with its text."""
+    row = await bench.projects.file(project, path)
+    return wire.FileText(path=row.path, version=row.version, text=row.text)
+
+
+@router.put("/{project}/files/{path:path}", responses={409: {"model": wire.SaveConflict}})
+async def on_save_file(bench: Bench, request: Request, project: int, path: str, save: wire.SaveFile) -> wire.FileInfo:
+    """Saves a file, if nobody else did since it was read."""
+    row = await bench.projects.save(project, path, save.text, save.version, user_of(request).name)
+    return wire.FileInfo(path=row.path, version=row.version)
+
+
+@router.delete("/{project}/files/{path:path}", status_code=204)
+async def on_delete_file(bench: Bench, project: int, path: str) -> None:
+    """Deletes a file."""
+    await bench.projects.delete_file(project, path)
+
+
+@router.post("/{project}/check")
+async def on_check(bench: Bench, project: int, edited: wire.CheckRequest) -> wire.CheckResult:
+    """Checks the project with texts that are not saved yet; stores nothing."""
+    return translate.check_result(await bench.projects.check(project, edited.files))
+
+
+@router.post("/{project}/build")
+async def on_build(bench: Bench, request: Request, project: int) -> wire.BuildResult:
+    """Builds what is saved, and swaps it into the project's instances."""
+    return translate.build_result(await bench.projects.build(project, user_of(request).name))

@@ -1,0 +1,96 @@
+"""Starts the server: binds, prints the address with its token when it is ready, serves until Ctrl-C."""
+
+import socket
+from collections.abc import Callable
+from pathlib import Path
+
+import uvicorn
+
+from scanbench.plcmodel.load import NoModels
+from scanbench.runtime.clock import fresh_token
+from scanbench.session.workbench import Workbench
+from scanbench.store.database import database_url
+from scanbench.store.records import StoreError
+from scanbench.store.store import Store
+from scanbench.web.app import Config, create_app
+from scanbench.web.auth import Gate, known_hosts
+
+DEFAULT_PORT = 8700
+
+
+class CannotServe(Exception):
+    """The address cannot be used; the message says why, and what to do."""
+
+
+def serve(
+    host: str, port: int | None, data_dir: Path, announce: Callable[[str], None], token: str | None = None
+) -> None:
+    """Serves until it is told to stop. `port` None: 8700, or a free one if that is taken; 0: any free one."""
+    sock = _bind(host, port, announce)
+    port = sock.getsockname()[1]
+    try:
+        data_dir.mkdir(parents=True, exist_ok=True)
+        store = Store(database_url(data_dir))
+        bench = Workbench(store)
+    except (StoreError, NoModels) as error:
+        raise CannotServe(str(error)) from error
+    gate = Gate(token or fresh_token(), port, known_hosts([host]))
+    shown = f"[{host}]" if ":" in host else host
+    if host in ("0.0.0.0", "::"):
+        shown = "localhost"
+    address = f"http://{shown}:{port}/?token={gate.token}"
+    config = uvicorn.Config(
+        create_app(Config(bench, gate)),
+        host=host,
+        port=port,
+        loop="uvloop",
+        ws="websockets-sansio",
+        ws_per_message_deflate=False,
+        ws_max_size=4 << 20,
+        log_level="warning",
+        lifespan="on",
+        server_header=False,
+        timeout_graceful_shutdown=3,
+    )
+    _Server(config, lambda: announce(f"Scanbench is ready: {address}")).run([sock])
+    store.close()
+
+
+class _Server(uvicorn.Server):
+    """Says when it is ready."""
+
+    def __init__(self, config: uvicorn.Config, ready: Callable[[], None]) -> None:
+        super().__init__(config)
+        self._ready = ready
+
+    async def startup(self, sockets: list[socket.socket] | None = None) -> None:
+        """As uvicorn does; then tells."""
+        await super().startup(sockets)
+        if self.started and not self.should_exit:
+            self._ready()
+
+
+def _bind(host: str, port: int | None, announce: Callable[[str], None]) -> socket.socket:
+    try:
+        return _listening(host, DEFAULT_PORT if port is None else port)
+    except OSError as error:
+        if port is not None:
+            raise CannotServe(f"{host}:{port} cannot be used ({error.strerror}): choose another --port") from error
+        announce(f"port {DEFAULT_PORT} is taken: using a free one")
+    try:
+        return _listening(host, 0)
+    except OSError as error:
+        raise CannotServe(f"{host} cannot be used ({error.strerror}): choose another --host") from error
+
+
+def _listening(host: str, port: int) -> socket.socket:
+    found = socket.getaddrinfo(host, port, type=socket.SOCK_STREAM, flags=socket.AI_PASSIVE)
+    family, kind, protocol, _, address = found[0]
+    sock = socket.socket(family, kind, protocol)
+    sock.setsockopt(socket.SOL_SOCKET, socket.SO_REUSEADDR, 1)
+    try:
+        sock.bind(address)
+    except OSError:
+        sock.close()
+        raise
+    return sock

@@ -1,0 +1,182 @@
+"""One browser at one PLC: messages in, events and value frames out.
+
+A browser that does not keep up loses frames, never the newest state: what it missed is made good by a snapshot as soon
+as it has taken everything else.
+"""
+
+import asyncio
+from collections import deque
+
+from fastapi import WebSocket, WebSocketDisconnect
+from pydantic import TypeAdapter, ValidationError
+
+from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.reference import ErrorRef
+from scanbench.runtime.command import Command
+from scanbench.runtime.forces import Force, Release
+from scanbench.runtime.modes import SetMode
+from scanbench.runtime.write import Write
+from scanbench.session import events
+from scanbench.session.events import Event, User
+from scanbench.session.session import Session
+from scanbench.web import messages as wire
+from scanbench.web import translate
+
+WAITING_FRAMES = 4
+"""So many frames not yet sent: the browser is slow, and gets a snapshot instead."""
+WAITING_MESSAGES = 20_000
+_SPEEDS = (0.001, 10_000.0)
+
+_INCOMING: TypeAdapter[wire.ClientMessage] = TypeAdapter(wire.ClientMessage)
+
+
+class Client:
+    """A subscriber behind a WebSocket."""
+
+    def __init__(self, socket: WebSocket, session: Session, user: User) -> None:
+        self.user = user
+        self._socket, self._session = socket, session
+        self._id = 0
+        self._ids: set[int] = set()
+        self._texts: deque[str] = deque()
+        self._state: events.StateChanged | None = None
+        self._frames: deque[bytes] = deque()
+        self._stale = False
+        self._asked = False
+        self._wake = asyncio.Event()
+
+    # ---- from the session -----------------------------------------------------------------------------------------
+
+    def on_event(self, event: Event) -> None:
+        """Queues it; of states only the newest is worth sending."""
+        if isinstance(event, events.StateChanged):
+            self._state = event
+        elif isinstance(event, events.Watching):
+            self._on_watching(event)
+        else:
+            self._texts.append(translate.event(event).model_dump_json())
+        self._wake.set()
+
+    def on_frame(self, frame: bytes) -> None:
+        """Queues it, unless the browser is behind."""
+        if self._stale or not self._ids:
+            return
+        if len(self._frames) >= WAITING_FRAMES:
+            self._frames.clear()
+            self._stale, self._asked = True, False
+        else:
+            self._frames.append(frame)
+        self._wake.set()
+
+    def on_snapshot(self, frame: bytes) -> None:
+        """All values: what was missed does not matter any more."""
+        self._frames.clear()
+        self._frames.append(frame)
+        self._stale = False
+        self._wake.set()
+
+    def _on_watching(self, event: events.Watching) -> None:
+        """Other people's paths are none of its business."""
+        items = event.items
+        if event.ref is None:
+            items = tuple(item for item in items if item.id in self._ids)
+        self._ids.update(item.id for item in items if item.sent)
+        if event.ref is not None or items:
+            self._texts.append(translate.event(events.Watching(event.ref, items)).model_dump_json())
+
+    # ---- the socket -----------------------------------------------------------------------------------------------
+
+    async def serve(self, instance: wire.Instance) -> None:
+        """Speaks with the browser until it goes."""
+        await self._socket.accept()
+        self._id = self._session.join(self)
+        hello = wire.Hello(
+            you=translate.user(self.user),
+            users=list(map(translate.user, self._session.users)),
+            instance=instance,
+            errors=list(map(translate.error_row, self._session.rows)),
+            log=list(map(translate.log_line, self._session.lines)),
+        )
+        self._texts.appendleft(hello.model_dump_json())
+        writer = asyncio.get_running_loop().create_task(self._write())
+        try:
+            while True:
+                await self._receive(await self._socket.receive_text())
+        except (WebSocketDisconnect, RuntimeError, KeyError):
+            pass  # gone, or it sent bytes where only text is understood
+        finally:
+            self._session.leave(self._id)
+            writer.cancel()
+            await asyncio.gather(writer, return_exceptions=True)
+
+    async def _write(self) -> None:
+        while True:
+            await self._wake.wait()
+            self._wake.clear()
+            if len(self._texts) > WAITING_MESSAGES:
+                await self._socket.close(1013, "too slow")
+                return
+            while self._texts:
+                await self._socket.send_text(self._texts.popleft())
+            if self._state is not None:
+                state, self._state = self._state, None
+                await self._socket.send_text(translate.event(state).model_dump_json())
+            while self._frames:
+                await self._socket.send_bytes(self._frames.popleft())
+            if self._stale and not self._asked:
+                self._asked = True
+                self._session.want_snapshot(self._id)
+
+    def _answer(self, ref: int, ok: bool, message: str, scan: int | None = None, near: tuple[str, ...] = ()) -> None:
+        done = wire.Done(ref=ref, ok=ok, message=message, scan=scan, near=list(near))
+        self._texts.append(done.model_dump_json())
+        self._wake.set()
+
+    # ---- from the browser -----------------------------------------------------------------------------------------
+
+    async def _receive(self, text: str) -> None:
+        try:
+            message = _INCOMING.validate_json(text)
+        except ValidationError as error:
+            first = error.errors()[0]
+            place = ".".join(map(str, first["loc"]))
+            self._answer(-1, False, f"not a message of this server: {place}: {first['msg']}")
+            return
+        match message:
+            case wire.Watch():
+                self._session.watch(self._id, message.ref, message.paths)
+            case wire.Unwatch():
+                self._ids.difference_update(message.ids)
+                self._session.unwatch(self._id, message.ids)
+            case wire.Run():
+                await self._on_run(message)
+            case _:
+                ack = await self._session.submit(self._command(message))
+                self._answer(message.ref, ack.ok, ack.message, ack.scan, ack.near)
+
+    async def _on_run(self, run: wire.Run) -> None:
+        low, high = _SPEEDS
+        if run.speed is not None and run.speed != 0 and not low <= run.speed <= high:
+            self._answer(run.ref, False, f"speed {run.speed:g} is outside of x{low:g} to x{high:g}; 0 is without limit")
+            return
+        ack = await self._session.drive(run.action, run.speed, self.user.name)
+        self._answer(run.ref, ack.ok, ack.message, ack.scan, ack.near)
+
+    def _command(
+        self, message: wire.Write | wire.Force | wire.Release | wire.Generate | wire.Recover | wire.SetMode
+    ) -> Command:
+        author = self.user.name
+        match message:
+            case wire.Write():
+                return Write(author, message.path, message.value)
+            case wire.Force():
+                return Force(author, message.path, message.value)
+            case wire.Release():
+                return Release(author, message.path)
+            case wire.Generate():
+                refs = (ErrorRef(one.id, tuple(one.details.items())) for one in message.errors)
+                return Generate(author, tuple(refs))
+            case wire.Recover():
+                return Recover(author, None if message.ids is None else tuple(message.ids))
+            case wire.SetMode():
+                return SetMode(author, message.mode)

@@ -1,0 +1,216 @@
+"""The session's dataclasses -> wire shapes. Nothing is decided here."""
+
+from collections.abc import Iterable
+
+from scanbench.check.build import PouInfo
+from scanbench.faults.history import ErrorRow
+from scanbench.plcmodel import model as plc
+from scanbench.problems import Problem
+from scanbench.runtime.clock import iso
+from scanbench.session import events
+from scanbench.session.builds import BuildOutcome, CheckOutcome
+from scanbench.session.events import LogEntry, PlcState, User
+from scanbench.session.protocol import SymbolInfo, WatchItem
+from scanbench.session.session import Session
+from scanbench.store.records import ProjectRow
+from scanbench.web import messages as wire
+
+
+def user(who: User) -> wire.User:
+    """A user with initials: of the first two words, digits whole (`Guest 12` is G12)."""
+    words = who.name.split()
+    letters = [word if word.isdigit() else word[0].upper() for word in words[:2]]
+    return wire.User(name=who.name, initials="".join(letters) or "?")
+
+
+def project(row: ProjectRow) -> wire.Project:
+    """A project."""
+    return wire.Project(id=row.id, name=row.name, model=row.model, version=row.version, watch=list(row.watch))
+
+
+def problem(found: Problem) -> wire.Problem:
+    """A problem with its place."""
+    span = found.span
+    return wire.Problem(
+        code=found.code, severity=found.severity.value, message=found.message, file=span.file, line=span.line,
+        column=span.column, end_line=span.end_line, end_column=span.end_column,
+    )  # fmt: skip
+
+
+def pou(info: PouInfo) -> wire.Pou:
+    """A declaration for the explorer."""
+    return wire.Pou.model_validate({"name": info.name, "kind": info.kind, "file": info.file, "line": info.line})
+
+
+def check_result(found: CheckOutcome) -> wire.CheckResult:
+    """Problems and declarations."""
+    return wire.CheckResult(problems=list(map(problem, found.problems)), pous=list(map(pou, found.pous)))
+
+
+def build_result(outcome: BuildOutcome) -> wire.BuildResult:
+    """What became of a build."""
+    return wire.BuildResult(
+        ok=outcome.ok,
+        message=outcome.message,
+        problems=list(map(problem, outcome.found.problems)),
+        project=project(outcome.project),
+        pous=list(map(pou, outcome.found.pous)),
+    )  # fmt: skip
+
+
+def state(now: PlcState) -> wire.InstanceState:
+    """The state of a PLC."""
+    trap = now.trap
+    return wire.InstanceState.model_validate(
+        {
+            "state": now.state, "mode": now.mode, "message": now.message, "scan": now.scan, "time_ns": now.time_ns,
+            "interval_ns": now.interval_ns, "cycle_us": now.cycle_us, "speed": now.speed, "pid": now.pid,
+            "restarts": now.restarts, "forces": now.forces, "program_version": now.version,
+            "trap": None if trap is None else {
+                "kind": trap.kind, "message": trap.message, "file": trap.file, "line": trap.line,
+                "column": trap.column, "scan": trap.scan,
+            },
+        }
+    )  # fmt: skip
+
+
+def instance(session: Session, row: ProjectRow) -> wire.Instance:
+    """An instance."""
+    return wire.Instance(
+        id=session.id, name=session.name, project=project(row), model=session.model.name, state=state(session.state)
+    )
+
+
+def symbol(info: SymbolInfo) -> wire.Symbol:
+    """A variable or an address."""
+    return wire.Symbol.model_validate(
+        {
+            "path": info.path, "name": info.name, "type": info.type, "kind": info.kind, "size": info.size,
+            "address": info.address, "writable": info.writable, "section": info.section,
+            "expandable": info.expandable,
+        }
+    )  # fmt: skip
+
+
+def watched(item: WatchItem) -> wire.Watched:
+    """One watched path."""
+    refusal = None if item.symbol is not None else wire.Refusal(message=item.message, near=list(item.near))
+    return wire.Watched(
+        path=item.path,
+        id=item.id if item.sent else None,
+        symbol=None if item.symbol is None else symbol(item.symbol),
+        refusal=refusal,
+    )
+
+
+def error_row(row: ErrorRow) -> wire.ErrorHistoryRow:
+    """A row of the error history."""
+    return wire.ErrorHistoryRow(
+        id=row.id, name=row.name, severity=row.severity, status=row.status, code=row.code, details=row.details,
+        generated_at=None if row.generated_at is None else iso(row.generated_at),
+        recovered_at=None if row.recovered_at is None else iso(row.recovered_at),
+        generated_scan=row.generated_scan, recovered_scan=row.recovered_scan, by=row.by, origin=row.origin,
+        count=row.count,
+    )  # fmt: skip
+
+
+def log_line(line: LogEntry) -> wire.LogLine:
+    """A line of the log."""
+    return wire.LogLine.model_validate(
+        {"at": iso(line.at), "scan": line.scan, "author": line.author, "text": line.text, "kind": line.kind}
+    )
+
+
+def event(happened: events.Event) -> wire.ServerMessage:
+    """What a session tells, as a message."""
+    match happened:
+        case events.StateChanged():
+            return wire.State(state=state(happened.state))
+        case events.ErrorsChanged():
+            return wire.Errors(rows=list(map(error_row, happened.rows)))
+        case events.Logged():
+            return wire.Log(lines=list(map(log_line, happened.lines)))
+        case events.UsersChanged():
+            return wire.Users(users=list(map(user, happened.users)))
+        case events.ProgramBuilt():
+            return wire.Built(author=happened.author, result=build_result(happened.outcome))
+        case events.FileSaved():
+            return wire.Saved(
+                author=happened.author, file=wire.FileInfo(path=happened.path, version=happened.version)
+            )  # fmt: skip
+        case events.ValueWritten():
+            return wire.Written(
+                path=happened.path, author=happened.author, scan=happened.scan, forced=happened.forced
+            )  # fmt: skip
+        case events.Watching():
+            return wire.Watching(ref=happened.ref, items=list(map(watched, happened.items)))
+
+
+# ---- models ------------------------------------------------------------------------------------------------------
+
+
+def model_summary(model: plc.Model) -> wire.ModelSummary:
+    """A model in a list."""
+    return wire.ModelSummary(
+        name=model.name, vendor=model.vendor, description=model.description, error_count=len(list(model.errors()))
+    )
+
+
+def model_info(model: plc.Model) -> wire.ModelInfo:
+    """A model with its memory and its errors."""
+    word = model.code_word
+    return wire.ModelInfo(
+        **model_summary(model).model_dump(),
+        areas=[_area(model, area, part) for area in model.areas for part in area.ranges],
+        code_word=None if word is None else model.format(word.area, word.byte, word.bit, word.bits),
+        status_words=list(model.status_words),
+        catalogue=_groups(model.catalogue),
+    )
+
+
+def _area(model: plc.Model, area: plc.Area, part: plc.AccessRange) -> wire.Area:
+    """Areas whose words differ in access are shown in parts."""
+    return wire.Area(
+        name=area.name,
+        description=area.description,
+        words=part.last - part.first + 1,
+        first=model.format(area, 2 * part.first, None, 16),
+        last=model.format(area, 2 * part.last, None, 16),
+        program=part.program,
+        tool=part.tool,
+        engine=part.engine,
+    )
+
+
+def _groups(groups: Iterable[plc.ErrorGroup]) -> list[wire.ErrorGroup]:
+    return [
+        wire.ErrorGroup(name=group.name, groups=_groups(group.groups), errors=list(map(_error, group.errors)))
+        for group in groups
+    ]
+
+
+def _error(error: plc.ErrorEntry) -> wire.ErrorInfo:
+    return wire.ErrorInfo(
+        id=error.id, name=error.name, description=error.description, code=f"{error.code:04X}", flag=error.flag_text,
+        severity=error.severity, verified=error.verified, source=error.source,
+        details=list(map(_detail, error.details)),
+    )  # fmt: skip
+
+
+def _detail(detail: plc.ErrorDetail) -> wire.ErrorDetail:
+    first = detail.addresses[0]
+    choices = [
+        wire.ErrorChoiceInfo(id=each.id, description=each.description, address=each.text) for each in detail.addresses
+    ]
+    is_list = detail.control == "List"
+    return wire.ErrorDetail(
+        name=detail.name, control=detail.control, description=detail.description or first.description,
+        address="" if is_list else first.text, choices=choices if is_list else [],
+        minimum=None if is_list else first.minimum, maximum=None if is_list else first.maximum,
+        default=(detail.default or "") if is_list else _default(first), base=first.base,
+    )  # fmt: skip
+
+
+def _default(address: plc.ErrorAddress) -> str:
+    number = address.default if address.default is not None else address.minimum or 0
+    return f"{number:X}" if address.base == 16 else str(number)

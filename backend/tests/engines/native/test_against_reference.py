@@ -1,0 +1,49 @@
+"""Random programs: the two engines must leave the same bytes after every scan, traps included."""
+
+from random import Random
+
+import pytest
+from hypothesis import assume, given, settings
+from hypothesis import strategies as st
+
+from scanbench.check.build import check_sources
+from scanbench.check.layout import Layout
+from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.native.engine import NativeEngine
+from tests.caseformat import first_difference
+from tests.engines.native.plc import MODEL
+from tests.engines.native.program_text import program_text
+
+SCANS = 4
+BUDGET = 300
+
+
+@settings(max_examples=40)
+@given(st.randoms(use_true_random=False), st.sampled_from([0, 2, 2, 2]))
+def test_the_engines_agree(choices: Random, opt_level: int) -> None:
+    source = program_text(choices)
+    program = check_sources({"random.st": source}, MODEL, 1_000_000).program
+    assume(program is not None)
+    assert program is not None
+    image = bytearray(program.initial_image)
+    image[Layout.BUDGET_LIMIT : Layout.BUDGET_LIMIT + 8] = BUDGET.to_bytes(8, "little")
+    memories = bytearray(image), bytearray(image)
+    engines = ReferenceEngine(program, memories[0]), NativeEngine(program, memories[1], opt_level)
+    for scan in range(SCANS):
+        stops = [engine.run(1) for engine in engines]
+        assert stops[0] == stops[1], f"scan {scan} of\n{source}"
+        assert first_difference(program, *memories) == "", f"scan {scan} of\n{source}"
+
+
+@pytest.mark.parametrize("seed", range(10))
+def test_the_engines_agree_on_fixed_programs(seed: int) -> None:
+    """Without hypothesis' liking for small choices: long programs."""
+    text = program_text(Random(seed))
+    program = check_sources({"random.st": text}, MODEL, 1_000_000).program
+    if program is None:
+        return
+    memories = bytearray(program.initial_image), bytearray(program.initial_image)
+    engines = ReferenceEngine(program, memories[0]), NativeEngine(program, memories[1])
+    for _ in range(SCANS):
+        assert engines[0].run(1) == engines[1].run(1)
+        assert first_difference(program, *memories) == ""

@@ -1,0 +1,41 @@
+"""Small PLCs for the tests of runtime, faults and taps."""
+
+from functools import cache
+
+from scanbench.check.build import check_sources
+from scanbench.check.program import Program
+from scanbench.check.symbols import resolve
+from scanbench.check.values import python_value
+from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.native.engine import NativeEngine
+from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.plcmodel.model import Model
+from scanbench.runtime.resource import EngineFactory, Resource
+
+ENGINES: tuple[EngineFactory, ...] = (ReferenceEngine, NativeEngine)
+
+
+@cache
+def model(name: str = "CJ1M-CPU63") -> Model:
+    models, _ = load_all(model_directory())
+    return next(each for each in models if each.name == name)
+
+
+@cache
+def program(source: str, model_name: str = "CJ1M-CPU63") -> Program:
+    checked = check_sources({"main.st": source}, model(model_name))
+    assert checked.program is not None, checked.problems
+    return checked.program
+
+
+def plc(source: str, engine: EngineFactory = ReferenceEngine, model_name: str = "CJ1M-CPU63") -> Resource:
+    return Resource(program(source, model_name), engine)
+
+
+def value(resource: Resource, path: str) -> bool | int | float | str | None:
+    symbol = resolve(resource.program, path)
+    place = symbol.locate(resource.memory)
+    assert place is not None, f"{path} is not connected"
+    offset, bit = place
+    data = bytes(resource.memory[offset : offset + symbol.type.size])
+    return bool(data[0] >> bit & 1) if bit is not None else python_value(symbol.type, data)

@@ -1,0 +1,78 @@
+"""A new program on a running PLC."""
+
+import pytest
+
+from scanbench.runtime.forces import Force
+from scanbench.runtime.modes import SetMode
+from scanbench.runtime.resource import EngineFactory
+from scanbench.runtime.write import Write
+from tests.runtime.bench import ENGINES, plc, program, value
+
+OLD = """
+TYPE Point : STRUCT x : INT; y : REAL; END_STRUCT; END_TYPE
+VAR_GLOBAL g : DINT := 3; END_VAR
+VAR_GLOBAL CONSTANT LIMIT : INT := 5; END_VAR
+PROGRAM Main
+VAR n : INT; gone : INT; list : ARRAY[0..3] OF INT; p : ARRAY[0..1] OF Point; text : STRING[9]; b : Block; r : REAL; END_VAR
+  n := n + 1; list[1] := n; p[1].x := n; text := 'old'; b(v := n);
+END_PROGRAM
+FUNCTION_BLOCK Block
+VAR_IN_OUT v : INT; END_VAR
+VAR calls : DINT; END_VAR
+  calls := calls + 1;
+END_FUNCTION_BLOCK
+"""
+NEW = (
+    OLD.replace("VAR n : INT; gone : INT;", "VAR first : LINT := 8; n : INT; r2 : INT;")
+    .replace("LIMIT : INT := 5", "LIMIT : INT := 6")
+    .replace("text : STRING[9]", "text : STRING[12]")
+    .replace("text := 'old';", "")
+    .replace("n := n + 1", "n := n + 10")
+    .replace("y : REAL", "y : REAL; z : INT")
+)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_values_of_the_same_path_and_type_are_kept(engine: EngineFactory) -> None:
+    resource = plc(OLD, engine)
+    resource.submit(Write("Ada", "g", "44"))
+    resource.submit(Write("Ada", "D100", "9"))
+    resource.submit(Force("Ada", "Main.r", "1.5"))
+    resource.submit(Force("Ada", "Main.gone", "1"))
+    resource.run(7)
+    new = program(NEW)
+    memory = bytearray(new.layout.size)
+    report = resource.swap(new, engine(new, memory), memory, "Ada", 2)
+    assert "Main.gone" in report  # its force has nowhere to go
+    for path, expected in (
+        ("Main.n", 7), ("Main.first", 8), ("Main.list[1]", 7), ("Main.p[1].x", 7), ("Main.p[1].z", 0), ("g", 44),
+        ("Main.text", ""), ("Main.b.calls", 7), ("LIMIT", 6), ("D100", 9), ("Main.r", 1.5),
+    ):  # fmt: skip
+        assert value(resource, path) == expected, path
+    assert resource.header.scan == 7
+    assert resource.header.force_count == 4
+    resource.submit(Write("Ada", "Main.r", "2.5"))
+    resource.run(1)
+    assert (value(resource, "Main.n"), value(resource, "Main.r"), value(resource, "Main.b.v")) == (17, 1.5, 17)
+
+
+def test_a_forced_plc_in_run_mode_keeps_its_forces() -> None:
+    resource = plc(OLD)
+    resource.submit(Force("Ada", "Main.r", "1.5"))
+    resource.submit(SetMode("Ada", "RUN"))
+    new = program(NEW)
+    memory = bytearray(new.layout.size)
+    resource.swap(new, ENGINES[0](new, memory), memory, "Ada", 2)
+    assert resource.header.mode.name == "RUN"
+    assert resource.header.force_count == 4
+
+
+def test_after_a_trap_the_new_program_starts_cold() -> None:
+    resource = plc("PROGRAM Main\nVAR n : INT; q : INT; d : INT; END_VAR\n  n := n + 1; q := 1 / d;\nEND_PROGRAM\n")
+    resource.run(1)
+    assert resource.trap is not None
+    new = program("PROGRAM Main\nVAR n : INT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n")
+    memory = bytearray(new.layout.size)
+    assert "cold" in resource.swap(new, ENGINES[0](new, memory), memory, "Ada", 2)
+    resource.run(2)
+    assert value(resource, "Main.n") == 2

@@ -1,0 +1,130 @@
+"""Files, checks, builds: REST, and what the people at the PLC see of it."""
+
+from tests.web.server import Server
+
+ONE = "PROGRAM Main\nVAR\n  n : DINT; kept : INT; changed : INT;\nEND_VAR\n  n := n + 1;\nEND_PROGRAM\n"
+TWO = "PROGRAM Main\nVAR\n  kept : INT; more : DINT; n : DINT; changed : REAL;\nEND_VAR\n  n := n + 1; more := -n;\nEND_PROGRAM\n"
+BAD = "PROGRAM Main\nVAR\n  n : DINT;\nEND_VAR\n  n := n + ;\n  m := 1;\nEND_PROGRAM\n"
+
+
+def test_check_finds_problems_with_places_and_stores_nothing(server: Server) -> None:
+    project = server.project("checked", "GENERIC-IEC", main=ONE)
+    result = server.http.post(f"/api/projects/{project}/check", json={"files": {"main.st": BAD}}).json()
+    places = [(each["severity"], each["file"], each["line"]) for each in result["problems"]]
+    assert ("error", "main.st", 5) in places
+    assert ("error", "main.st", 6) in places
+    assert [(each["name"], each["kind"]) for each in result["pous"]] == [("Main", "program")]
+    assert server.http.get(f"/api/projects/{project}/files/main.st").json()["text"] == ONE
+
+
+def test_a_conflict_shows_theirs(server: Server) -> None:
+    project = server.project("conflict", "GENERIC-IEC", main=ONE)
+    address = f"/api/projects/{project}/files/main.st"
+    assert server.http.put(address, json={"text": TWO, "version": 1}).json() == {"path": "main.st", "version": 2}
+    late = server.http.put(address, json={"text": BAD, "version": 1})
+    assert late.status_code == 409
+    assert late.json()["theirs"] == {"path": "main.st", "version": 2, "text": TWO}
+    assert server.http.get(address).json()["text"] == TWO
+
+
+def test_build_swaps_and_keeps_values_and_errors_refuse_it(server: Server) -> None:
+    project = server.project("built", "GENERIC-IEC", main=ONE)
+    instance = server.http.post("/api/instances", json={"project": project, "name": "built"}).json()["id"]
+    address = f"/api/projects/{project}/files/main.st"
+    with server.browser(instance) as browser:
+        browser.watch("Main.n", "Main.kept", "Main.changed")
+        browser.ask(type="write", path="Main.kept", value="5")
+        browser.ask(type="write", path="Main.changed", value="6")
+        browser.wait(lambda: (browser.number("Main.n") or 0) > 30)
+
+        server.http.put(address, json={"text": BAD, "version": 1})
+        assert browser.wait_for("saved")["file"] == {"path": "main.st", "version": 2}
+        refused = server.http.post(f"/api/projects/{project}/build").json()
+        assert not refused["ok"]
+        assert "main.st:5" in refused["message"]
+        assert not browser.wait_for("built")["result"]["ok"]
+        n = browser.number("Main.n") or 0
+        browser.wait(lambda: (browser.number("Main.n") or 0) > n + 10)  # the old program goes on
+        assert server.state(instance)["program_version"] == 1
+
+        server.http.put(address, json={"text": TWO, "version": 2})
+        built = server.http.post(f"/api/projects/{project}/build").json()
+        assert built["ok"], built
+        assert "2 variables kept" in built["message"]
+        assert built["project"]["version"] == 2
+        moved = browser.wait_for("watching", ref=None)
+        changed = next(item for item in moved["items"] if item["path"] == "Main.changed")
+        assert changed["symbol"]["type"] == "REAL"
+        browser.watch("Main.more")
+        browser.wait(lambda: (browser.number("Main.more") or 0) < -n)
+        assert browser.number("Main.kept") == 5
+        assert browser.number("Main.changed") == 0
+        assert server.state(instance)["program_version"] == 2
+
+
+def test_a_trapped_plc_runs_again_with_the_corrected_program(server: Server) -> None:
+    source = "PROGRAM Main\nVAR d : INT; q : INT; END_VAR\n  q := 1 / d;\nEND_PROGRAM\n"
+    project = server.project("corrected", "GENERIC-IEC", main=source)
+    instance = server.http.post("/api/instances", json={"project": project, "name": "corrected"}).json()["id"]
+    with server.browser(instance) as browser:
+        if browser.hello["instance"]["state"]["state"] != "trapped":
+            browser.wait_state("trapped")
+        right = {"text": source.replace("d : INT", "d : INT := 1"), "version": 1}
+        server.http.put(f"/api/projects/{project}/files/main.st", json=right)
+        assert server.http.post(f"/api/projects/{project}/build").json()["ok"]
+        browser.wait_state("running")
+
+
+def test_symbols_and_completion(server: Server) -> None:
+    app = server.http.get("/api").json()
+    line = next(each["id"] for each in app["instances"] if each["name"] == "line-1")
+    roots = [each["name"] for each in server.http.get(f"/api/instances/{line}/symbols").json()]
+    assert "Main" in roots
+    assert "motor" in roots
+    below = server.http.get(f"/api/instances/{line}/symbols", params={"path": "Main.buffer"}).json()
+    assert {"level", "limit"} <= {each["name"] for each in below}
+    found = server.http.get(f"/api/instances/{line}/complete", params={"text": "main.bel"}).json()
+    assert [each["path"] for each in found] == ["Main.belt"]
+    raw = server.http.get(f"/api/instances/{line}/complete", params={"text": "D100"}).json()
+    assert raw[0]["address"] == "D100"
+    missing = server.http.get(f"/api/instances/{line}/symbols", params={"path": "Main.bufer"})
+    assert missing.status_code == 422
+    assert missing.json()["near"] == ["Main.buffer"]
+
+
+def test_refusals_say_what_to_do(server: Server) -> None:
+    http = server.http
+    unknown = http.post("/api/projects", json={"name": "x", "model": "CJ9"})
+    assert unknown.status_code == 422
+    assert "CJ1M-CPU63" in unknown.json()["near"]
+    assert http.get("/api/projects/999/files").status_code == 404
+    assert http.get("/api/instances/999").status_code == 404
+    assert http.post("/api/projects", json={"nam": "x"}).status_code == 422
+    project = server.project("taken", "GENERIC-IEC", main=BAD)
+    assert http.post("/api/projects", json={"name": "taken", "model": "GENERIC-IEC"}).status_code == 409
+    unrunnable = http.post("/api/instances", json={"project": project, "name": "unrunnable"})
+    assert unrunnable.status_code == 422
+    assert "main.st:5" in unrunnable.json()["message"]
+    bad_path = http.put(f"/api/projects/{project}/files/../x", json={"text": "", "version": 0})
+    assert bad_path.status_code in (404, 405, 422)
+    assert http.put(f"/api/projects/{project}/files/notes.txt", json={"text": "", "version": 0}).status_code == 422
+
+
+def test_deleting(server: Server) -> None:
+    instance = server.instance("gone", "GENERIC-IEC", main=ONE)
+    project = server.http.get(f"/api/instances/{instance}").json()["project"]["id"]
+    assert server.http.delete(f"/api/projects/{project}").status_code == 422
+    assert server.http.delete(f"/api/instances/{instance}").status_code == 204
+    assert server.http.get(f"/api/instances/{instance}").status_code == 404
+    assert server.http.delete(f"/api/projects/{project}/files/main.st").status_code == 204
+    assert server.http.delete(f"/api/projects/{project}").status_code == 204
+
+
+def test_models(server: Server) -> None:
+    names = [each["name"] for each in server.http.get("/api/models").json()]
+    assert {"CJ1M-CPU63", "GENERIC-IEC"} <= set(names)
+    model = server.http.get("/api/models/CJ1M-CPU63").json()
+    assert model["code_word"] == "A400"
+    areas = [(each["name"], each["first"], each["tool"]) for each in model["areas"]]
+    assert ("A", "A0", "read") in areas
+    assert ("A", "A448", "write") in areas

@@ -1,0 +1,114 @@
+"""Deaths and restarts: of the server, of a PLC that dies again and again; and browsers that do not keep up."""
+
+import json
+import os
+import signal
+import socket
+import struct
+import time
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+from websockets.sync.client import connect
+
+from tests.web.server import Server
+
+SOURCE = "PROGRAM Main\nVAR n : DINT; basic AT A402.12 : BOOL; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"
+
+
+def alive(pid: int) -> bool:
+    try:
+        return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
+    except FileNotFoundError:
+        return False
+
+
+def until(condition: Callable[[], bool], timeout: float = 5) -> None:
+    end = time.monotonic() + timeout
+    while not condition():
+        assert time.monotonic() < end, "not in time"
+        time.sleep(0.02)
+
+
+@pytest.mark.parametrize("kill", [signal.SIGTERM, signal.SIGKILL])
+def test_a_restarted_server_has_projects_history_and_log(tmp_path: Path, kill: signal.Signals) -> None:
+    server = Server(tmp_path)
+    instance = server.instance("kept", "CJ1M-CPU63", main=SOURCE)
+    with server.browser(instance) as browser:
+        assert browser.ask(type="generate", errors=[{"id": "basic-io-error", "details": {"slot": "3"}}])["ok"]
+        browser.wait_for("errors")
+    time.sleep(0.3)  # history is written behind the live path
+    pids = [each["state"]["pid"] for each in server.http.get("/api/instances").json()]
+    assert len(pids) == 2
+    assert all(map(alive, pids))
+    os.kill(server.process.pid, kill)
+    server.process.wait(10)
+    until(lambda: not any(map(alive, pids)))
+    server.close()
+
+    again = Server(tmp_path)
+    assert again.token != server.token
+    names = [each["name"] for each in again.http.get("/api/instances").json()]
+    assert names == ["line-1", "kept"]
+    rows = {row["id"]: row for row in again.http.get(f"/api/instances/{instance}/errors").json()}
+    row = rows["basic-io-error"]
+    # A started PLC is a cold one: what was generated in the old life is over, and was tested.
+    assert (row["status"], row["count"], row["by"]) == ("cleared", 1, "Ada Lovelace")
+    assert "slot=3" in row["details"]
+    with again.browser(instance) as browser:
+        assert any("basic-io-error" in line["text"] for line in browser.hello["log"])
+        browser.watch("Main.n")
+        browser.wait(lambda: (browser.number("Main.n") or 0) > 5)
+    again.close()
+
+
+def test_a_plc_that_dies_again_and_again_is_given_up_and_can_be_revived(server: Server) -> None:
+    instance = server.instance("mortal", "CJ1M-CPU63", main=SOURCE)
+    with server.browser(instance) as browser:
+        for _ in range(5):
+            until(lambda: server.state(instance)["state"] == "running")
+            os.kill(server.state(instance)["pid"], signal.SIGKILL)
+            until(lambda: server.state(instance)["state"] != "running")
+        failed = browser.wait_state("failed")
+        assert "not started again" in failed["message"]
+        refused = browser.ask(type="write", path="Main.n", value="1")
+        assert not refused["ok"]
+        assert "failed" in refused["message"]
+        assert browser.ask(type="run", action="restart")["ok"]
+        browser.wait_state("running")
+        browser.watch("Main.n")
+        browser.wait(lambda: (browser.number("Main.n") or 0) > 5)
+
+
+def test_a_slow_browser_gets_a_snapshot_and_the_others_do_not_wait(server: Server) -> None:
+    count = 20_000
+    source = (
+        f"PROGRAM Main\nVAR v : ARRAY[1..{count}] OF DINT; i : DINT; n : DINT; END_VAR\n"
+        f"  n := n + 1;\n  FOR i := 1 TO {count} DO v[i] := n; END_FOR;\nEND_PROGRAM\n"
+    )
+    instance = server.instance("slow", "GENERIC-IEC", main=source)
+    sock = socket.create_connection(("127.0.0.1", server.port))
+    sock.setsockopt(socket.SOL_SOCKET, socket.SO_RCVBUF, 65536)
+    address = f"ws://127.0.0.1:{server.port}/api/instances/{instance}/socket?token={server.token}"
+    with (
+        connect(address, sock=sock, max_queue=1, max_size=None, compression=None) as slow,
+        server.browser(instance) as quick,
+    ):
+        paths = [f"Main.v[{index}]" for index in range(1, count + 1)]
+        slow.send(json.dumps({"type": "watch", "ref": 1, "paths": paths}))
+        quick.watch("Main.n")
+        quick.wait(lambda: (quick.number("Main.n") or 0) > 0)
+        first, frames, start = quick.number("Main.n") or 0, quick.frames, time.monotonic()
+        quick.wait(lambda: time.monotonic() > start + 4)  # the slow one reads nothing all this time
+        assert quick.frames - frames > 40
+        seen: list[tuple[int, int, int]] = []
+        end = time.monotonic() + 20
+        while not (seen and seen[-1][0]):
+            data = slow.recv(end - time.monotonic())
+            if isinstance(data, bytes):
+                _, full, _, values, scan, _ = struct.unpack_from("<BBHIQq", data)
+                seen.append((full, values, scan))
+        assert seen[-1][1] == count + 1  # with the other's path: a frame is made once for all
+        assert seen[-1][2] > first + 300
+        assert len(seen) < 70

@@ -1,0 +1,37 @@
+import { existsSync } from 'node:fs';
+import { defineConfig } from '@playwright/test';
+
+/** Chromium comes from the system (apt), not from a download: the tests run offline and on any architecture. */
+function chromium(): string {
+  const candidates = [process.env.CHROMIUM, '/usr/bin/chromium', '/usr/bin/chromium-browser', '/usr/bin/google-chrome'];
+  const found = candidates.find((path): path is string => path !== undefined && existsSync(path));
+  if (found === undefined) {
+    throw new Error('no Chromium found: apt-get install chromium, or set CHROMIUM to its path');
+  }
+  return found;
+}
+
+export default defineConfig({
+  outputDir: 'test-results',
+  timeout: 60_000,
+  expect: { timeout: 10_000 },
+  // Every worker starts a server of its own; two are what a small machine carries.
+  workers: 2,
+  fullyParallel: false,
+  retries: 0,
+  forbidOnly: true,
+  reporter: [['list']],
+  use: {
+    browserName: 'chromium',
+    headless: true,
+    viewport: { width: 1440, height: 900 },
+    locale: 'en-GB',
+    trace: 'retain-on-failure',
+    screenshot: 'only-on-failure',
+    launchOptions: { executablePath: chromium() },
+  },
+  projects: [
+    { name: 'stories', testDir: 'tests' },
+    { name: 'shots', testDir: 'shots' },
+  ],
+});

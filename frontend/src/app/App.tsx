@@ -1,0 +1,85 @@
+import { useEffect, useRef, useState } from "react";
+import { showState } from "../logic/plcstate";
+import { t } from "../logic/text";
+import { Banners } from "../panels/banner/Banners";
+import { Explorer } from "../panels/explorer/Explorer";
+import { StatusBar } from "../panels/status/StatusBar";
+import { TopBar } from "../panels/topbar/TopBar";
+import { start, useBench } from "../store/bench";
+import { useDocuments } from "../store/documents";
+import { useOnline, usePlc } from "../store/plc";
+import { usePrefs } from "../store/prefs";
+import { Icon } from "../ui/Icon";
+import { IconButton } from "../ui/IconButton";
+import { Dock, type DockHandle } from "./Dock";
+import { installKeys } from "./keys";
+import { Splitter } from "./Splitter";
+
+/** The window: rail, bars, explorer and the dock. */
+export function App() {
+  const phase = useBench((bench) => bench.phase);
+  // Another language: every text is drawn again.
+  const language = usePrefs((prefs) => prefs.language);
+  if (phase === "locked" || phase === "failed") return <Shut key={language} locked={phase === "locked"} />;
+  return <Window key={language} />;
+}
+
+function Window() {
+  const dock = useRef<DockHandle>(null);
+  const [left, setLeft] = useState(false);
+  const online = useOnline();
+  const connecting = usePlc((plc) => plc.link.state === "none" || plc.link.state === "connecting");
+  const state = usePlc((plc) => plc.state);
+  const tone = showState(state, online).tone;
+  const name = useBench((bench) => bench.instance?.name ?? bench.project?.name);
+
+  const active = useDocuments((documents) => documents.active);
+
+  useEffect(() => installKeys(), []);
+  // In a narrow window the explorer lies over the editor; once a file is open it has done its work.
+  // biome-ignore lint/correctness/useExhaustiveDependencies: the change of the file is the reason
+  useEffect(() => setLeft(false), [active]);
+  useEffect(() => {
+    document.title = name ? `${name} – Scanbench` : "Scanbench";
+  }, [name]);
+
+  return (
+    <div className="app" data-tone={connecting ? "none" : tone} data-link={online || connecting ? "open" : "lost"}>
+      <div className="rail" />
+      <TopBar onResetLayout={() => dock.current?.reset()} />
+      <div className="bannerslot">
+        <Banners />
+      </div>
+      <main className={`work${left ? " showleft" : ""}`}>
+        <div className="strip" role="toolbar" aria-label={t("strip.label")}>
+          <IconButton
+            icon="folder"
+            label={t("explorer.label")}
+            className={left ? "is-on" : ""}
+            onClick={() => setLeft(!left)}
+          />
+        </div>
+        <Explorer />
+        <Splitter />
+        <Dock ref={dock} />
+      </main>
+      <StatusBar />
+    </div>
+  );
+}
+
+/** Nothing can be shown: why, and what to do. */
+function Shut({ locked }: { locked: boolean }) {
+  const problem = useBench((bench) => bench.problem);
+  return (
+    <main className="shut">
+      <Icon name={locked ? "forced" : "lost"} />
+      <h1>{t(locked ? "shut.locked" : "shut.failed")}</h1>
+      <p>{t(locked ? "shut.locked.about" : "shut.failed.about")}</p>
+      <p className="mono faint">{problem}</p>
+      <button type="button" className="btn" onClick={() => void start()}>
+        {t("lost.now")}
+      </button>
+    </main>
+  );
+}

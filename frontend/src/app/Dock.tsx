@@ -1,0 +1,110 @@
+import { type DockviewApi, DockviewReact, type DockviewReadyEvent } from "dockview-react";
+import "dockview-react/dist/styles/dockview.css";
+import { type KeyboardEvent, type Ref, useCallback, useEffect, useImperativeHandle, useRef } from "react";
+import { useBench } from "../store/bench";
+import { closeDocument, useDocuments } from "../store/documents";
+import { keep, recall } from "../store/keep";
+import { onNavigate } from "../store/navigate";
+import { components, HeaderEnd, PanelTab } from "./dockParts";
+import { closeFile, closeFiles, fileOf, filePanel, openFilePanel, restoreLayout, standardLayout } from "./layout";
+
+export interface DockHandle {
+  reset: () => void;
+}
+
+const THEME = { name: "scanbench", className: "dockview-theme-scanbench" };
+
+/** The dockable part of the window. The layout is kept in this browser. */
+export function Dock({ ref }: { ref: Ref<DockHandle> }) {
+  const api = useRef<DockviewApi | null>(null);
+  const project = useBench((bench) => bench.project?.id ?? null);
+
+  const reset = useCallback(() => {
+    if (!api.current) return;
+    const files = api.current.panels.flatMap((panel) => fileOf(panel.id) ?? []);
+    standardLayout(api.current);
+    for (const file of files) openFilePanel(api.current, file);
+  }, []);
+  useImperativeHandle(ref, () => ({ reset }), [reset]);
+
+  const onReady = useCallback((event: DockviewReadyEvent) => {
+    const dock = event.api;
+    api.current = dock;
+    restoreLayout(dock, recall<unknown>("layout", null));
+    dock.onDidLayoutChange(() => keep("layout", dock.toJSON()));
+    dock.onDidActivePanelChange(({ panel }) => {
+      const path = panel && fileOf(panel.id);
+      if (path) useDocuments.setState({ active: path });
+    });
+    dock.onDidRemovePanel((panel) => {
+      const path = fileOf(panel.id);
+      // Moving a panel removes and adds it; only what is really gone is closed.
+      if (path) queueMicrotask(() => dock.getPanel(panel.id) ?? closeDocument(path));
+    });
+    onNavigate({
+      file: (path) => openFilePanel(dock, path),
+      panel: (name) => dock.getPanel(name)?.api.setActive(),
+    });
+  }, []);
+
+  useFilesOfProject(api, project);
+
+  // A tab cannot hold a close button for the keyboard; Delete closes the file instead.
+  function onKeyDown(event: KeyboardEvent): void {
+    const tab = event.target instanceof HTMLElement ? event.target.closest(".dv-tab") : null;
+    const path = tab?.querySelector<HTMLElement>("[data-file]")?.dataset.file;
+    if (event.key === "Delete" && path !== undefined && api.current) closeFile(api.current, filePanel(path));
+  }
+
+  return (
+    <div className="dock" onKeyDown={onKeyDown}>
+      <DockviewReact
+        theme={THEME}
+        components={components}
+        defaultTabComponent={PanelTab}
+        rightHeaderActionsComponent={HeaderEnd}
+        disableFloatingGroups
+        onReady={onReady}
+      />
+    </div>
+  );
+}
+
+/** Another project: its own files are opened, those of the one before are closed. A deleted file is closed too. */
+function useFilesOfProject(api: { current: DockviewApi | null }, project: number | null): void {
+  useEffect(() => {
+    const dock = api.current;
+    if (!dock || project === null) return;
+    const kept = recall<{ project: number; files: string[] }>("files", { project, files: [] });
+    const wanted = kept.project === project ? kept.files : recall<string[]>(`files.${project}`, []);
+    closeFiles(dock, (path) => kept.project !== project || !wanted.includes(path));
+    for (const path of wanted) openFilePanel(dock, path);
+    const remember = dock.onDidLayoutChange(() => {
+      const files = dock.panels.flatMap((panel) => fileOf(panel.id) ?? []);
+      keep("files", { project, files });
+      keep(`files.${project}`, files);
+    });
+    const stop = useDocuments.subscribe((now, before) => {
+      if (now.project !== project || now.files === before.files) return;
+      const known = new Set(now.files.map((file) => file.path));
+      closeFiles(dock, (path) => !known.has(path));
+      if (before.files.length === 0 && !dock.panels.some((panel) => fileOf(panel.id))) openFirst(dock);
+    });
+    const pous = useDocuments.subscribe((now, before) => {
+      if (before.pous.length === 0 && now.pous.length > 0 && !dock.panels.some((panel) => fileOf(panel.id)))
+        openFirst(dock);
+    });
+    return () => {
+      remember.dispose();
+      stop();
+      pous();
+    };
+  }, [api, project]);
+}
+
+/** On first sight of a project its first program is what one wants to read. */
+function openFirst(dock: DockviewApi): void {
+  const { pous, files } = useDocuments.getState();
+  const first = pous.find((pou) => pou.kind === "program")?.file ?? (pous.length > 0 ? files[0]?.path : undefined);
+  if (first) openFilePanel(dock, first);
+}

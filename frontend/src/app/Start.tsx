@@ -1,0 +1,22 @@
+import { t } from "../logic/text";
+import { Icon } from "../ui/Icon";
+
+/** Stands where the editors will stand, as long as no file is open. */
+export function Start() {
+  return (
+    <section className="pane startpage" aria-label={t("start.label")}>
+      <div className="way">
+        <Icon name="folder" />
+        <span>
+          <b>{t("start.open")}</b> {t("start.open.rest")}
+        </span>
+      </div>
+      <div className="way">
+        <Icon name="plus" />
+        <span>
+          <b>{t("start.new")}</b> {t("start.new.rest")}
+        </span>
+      </div>
+    </section>
+  );
+}

@@ -1,0 +1,76 @@
+/** Every message of the server to the store that it concerns. The switch is exhaustive: a new message is a compile error. */
+import { onProject, useBench } from "../store/bench";
+import { setClock } from "../store/clock";
+import { onBuilt, onSaved } from "../store/documents";
+import { onForceCount, onWritten } from "../store/forces";
+import { resetMembers } from "../store/members";
+import { onErrors, onHello, onLog, onState, usePlc } from "../store/plc";
+import { apply } from "../store/values";
+import { onWatching, watchAgain } from "../store/watches";
+import { refreshMembers } from "../store/watchlist";
+import { abandon, settle } from "../wire/send";
+import { link } from "../wire/socket";
+import type { ServerMessage } from "../wire/types";
+
+export function connectStores(): void {
+  link.listen({
+    onStatus: (status) => {
+      usePlc.setState({ link: status });
+      if (status.state === "lost") abandon("");
+    },
+    onMessage: dispatch,
+    onFrame: (frame) => {
+      setClock(frame.scan, frame.timeNs);
+      apply(frame);
+    },
+  });
+}
+
+function dispatch(message: ServerMessage): void {
+  switch (message.type) {
+    case "hello":
+      onHello(message);
+      onForceCount(message.instance.state.forces);
+      onProject(message.instance.project);
+      useBench.setState({ instance: message.instance });
+      watchAgain();
+      return;
+    case "state":
+      onState(message.state);
+      onForceCount(message.state.forces);
+      return;
+    case "watching":
+      onWatching(message.items, message.ref === null);
+      return;
+    case "done":
+      settle(message);
+      return;
+    case "errors":
+      onErrors(message.rows);
+      return;
+    case "log":
+      onLog(message.lines);
+      return;
+    case "users":
+      usePlc.setState({ users: message.users });
+      return;
+    case "built":
+      onBuilt(message.result, message.author);
+      if (message.result.ok) newProgram(message.result.project);
+      return;
+    case "saved":
+      void onSaved(message.file);
+      return;
+    case "written":
+      onWritten(message.path, message.author, message.scan, message.forced);
+      return;
+    default:
+      message satisfies never;
+  }
+}
+
+function newProgram(project: Parameters<typeof onProject>[0]): void {
+  onProject(project);
+  resetMembers(useBench.getState().instance?.id ?? null);
+  void refreshMembers();
+}

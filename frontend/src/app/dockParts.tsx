@@ -1,0 +1,102 @@
+import type { IDockviewHeaderActionsProps, IDockviewPanelHeaderProps, IDockviewPanelProps } from "dockview-react";
+import { type MouseEvent, useEffect } from "react";
+import { allErrors } from "../logic/catalogue";
+import { baseName } from "../logic/paths";
+import { t } from "../logic/text";
+import { EditorPanel } from "../panels/editor/EditorPanel";
+import { ErrorsPanel } from "../panels/errors/ErrorsPanel";
+import { HistoryPanel } from "../panels/history/HistoryPanel";
+import { LogPanel } from "../panels/log/LogPanel";
+import { ProblemsPanel } from "../panels/problems/ProblemsPanel";
+import { WatchPanel } from "../panels/watch/WatchPanel";
+import { useBench } from "../store/bench";
+import { isDirty, useDocuments } from "../store/documents";
+import { usePlc } from "../store/plc";
+import { Icon, type IconName } from "../ui/Icon";
+import type { Pou } from "../wire/types";
+import { closeFile, fileOf } from "./layout";
+import { Start } from "./Start";
+
+export const components = {
+  start: Start,
+  editor: ({ params }: IDockviewPanelProps<{ path: string }>) => <EditorPanel path={params.path} />,
+  watch: WatchPanel,
+  problems: ProblemsPanel,
+  log: LogPanel,
+  errors: ErrorsPanel,
+  history: HistoryPanel,
+};
+
+/** The tab of a panel: icon and name, what is not saved, how many problems. */
+export function PanelTab({ api, containerApi }: IDockviewPanelHeaderProps) {
+  const path = fileOf(api.id);
+  if (path === undefined) return <FixedTab api={api} />;
+  return <FileTab path={path} api={api} onClose={() => closeFile(containerApi, api.id)} />;
+}
+
+type PanelApi = IDockviewPanelHeaderProps["api"];
+
+/** Dockview names the tab for screen readers by the panel's title. */
+function useTitle(api: PanelApi, title: string): void {
+  useEffect(() => {
+    if (api.title !== title) api.setTitle(title);
+  }, [api, title]);
+}
+
+function FixedTab({ api }: { api: PanelApi }) {
+  const problems = useDocuments((documents) => (api.id === "problems" ? documents.problems.length : 0));
+  const name = t(`panel.${api.id as "watch"}`);
+  useTitle(api, problems > 0 ? `${name} (${problems})` : name);
+  return (
+    <span className="tab">
+      {name}
+      {problems > 0 && <span className="n">{problems}</span>}
+    </span>
+  );
+}
+
+const ICONS: Record<Pou["kind"], IconName> = {
+  program: "program",
+  function_block: "fb",
+  function: "fn",
+  type: "struct",
+  global: "globe",
+};
+
+function FileTab({ path, api, onClose }: { path: string; api: PanelApi; onClose: () => void }) {
+  const dirty = useDocuments((documents) => isDirty(documents.open[path]));
+  const kind = useDocuments((documents) => documents.pous.find((pou) => pou.file === path)?.kind);
+  useTitle(api, dirty ? `${baseName(path)}, ${t("unsaved")}` : baseName(path));
+  const close = (event: MouseEvent) => {
+    event.preventDefault();
+    event.stopPropagation();
+    onClose();
+  };
+  return (
+    <span className="tab" title={path} data-file={path} onAuxClick={(event) => event.button === 1 && close(event)}>
+      <Icon name={kind ? ICONS[kind] : "init"} small />
+      {baseName(path)}
+      {dirty && <span className="dirty" title={t("unsaved")} />}
+      {/* Not a button: a tab must not contain one. By keyboard a tab is closed with Delete. */}
+      <span
+        className="x"
+        title={t("close")}
+        data-testid={`close:${path}`}
+        onPointerDown={(event) => event.stopPropagation()}
+        onClick={close}
+      >
+        <Icon name="x" small />
+      </span>
+    </span>
+  );
+}
+
+/** At the end of the error simulator's tabs: how much of the catalogue was tested. */
+export function HeaderEnd({ panels }: IDockviewHeaderActionsProps) {
+  const model = useBench((bench) => bench.model);
+  const errors = usePlc((plc) => plc.errors);
+  if (!model || !panels.some((panel) => panel.id === "errors")) return null;
+  const all = allErrors(model.catalogue);
+  const tested = all.filter((error) => (errors.get(error.id)?.status ?? "never") !== "never").length;
+  return <span className="tested">{t("errors.tested", { tested, total: all.length })}</span>;
+}

@@ -1,0 +1,59 @@
+/** Keys of the whole window. Captured before Monaco, which keeps F8 and others to itself. */
+import { build, save, useDocuments } from "../store/documents";
+import { runAction, singleScan, toggleRun } from "../store/run";
+
+type Handler = (event: KeyboardEvent) => void;
+
+const keys: Record<string, Handler> = {
+  F5: toggleRun,
+  "Ctrl+Shift+F5": () => void runAction("restart"),
+  F8: singleScan,
+  F6: () => cyclePanes(1),
+  "Shift+F6": () => cyclePanes(-1),
+  "Ctrl+S": () => {
+    const { active } = useDocuments.getState();
+    if (active) void save(active);
+  },
+  "Ctrl+Shift+B": () => void build(),
+};
+
+export function installKeys(): () => void {
+  const onKeyDown = (event: KeyboardEvent) => {
+    const name = [
+      event.ctrlKey || event.metaKey ? "Ctrl+" : "",
+      event.shiftKey ? "Shift+" : "",
+      event.key.length === 1 ? event.key.toUpperCase() : event.key,
+    ].join("");
+    const handler = event.altKey ? undefined : keys[name];
+    if (!handler || document.querySelector("dialog[open]")) return;
+    event.preventDefault();
+    event.stopPropagation();
+    handler(event);
+  };
+  addEventListener("keydown", onKeyDown, true);
+  return () => removeEventListener("keydown", onKeyDown, true);
+}
+
+const FOCUSABLE =
+  "textarea.inputarea, [role=treegrid], [role=treeitem][tabindex='0'], [tabindex='0'], input, button:not([disabled])";
+
+/** The next pane that is in sight gets the focus, at the part of it that one works with. */
+function cyclePanes(by: 1 | -1): void {
+  const panes = [...document.querySelectorAll<HTMLElement>("[data-pane]")].filter((pane) => pane.offsetParent !== null);
+  const now = panes.findIndex((pane) => pane.contains(document.activeElement));
+  for (let i = 1; i <= panes.length; i += 1) {
+    const pane = panes[(now + by * i + panes.length * 2) % panes.length];
+    const target = pane && firstFocus(pane);
+    if (!target) continue;
+    target.focus();
+    return;
+  }
+}
+
+function firstFocus(pane: HTMLElement): HTMLElement | null {
+  for (const selector of FOCUSABLE.split(", ")) {
+    const found = pane.querySelector<HTMLElement>(selector);
+    if (found && (found.offsetParent !== null || found.matches("textarea"))) return found;
+  }
+  return null;
+}

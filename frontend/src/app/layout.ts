@@ -1,0 +1,85 @@
+/** The arrangement of panels: the usual one, and what this browser kept. */
+import type { AddPanelPositionOptions, DockviewApi, SerializedDockview } from "dockview-react";
+
+const FILE = "file:";
+
+export function filePanel(path: string): string {
+  return FILE + path;
+}
+
+export function fileOf(panel: string): string | undefined {
+  return panel.startsWith(FILE) ? panel.slice(FILE.length) : undefined;
+}
+
+/** Editor in the middle, watch below, error simulator at the right. */
+export function standardLayout(dock: DockviewApi): void {
+  dock.clear();
+  const narrow = innerWidth < 1280;
+  dock.addPanel({ id: "start", component: "start" });
+  dock.addPanel({
+    id: "errors",
+    component: "errors",
+    position: { referencePanel: "start", direction: "right" },
+    initialWidth: narrow ? 372 : 420,
+  });
+  dock.addPanel({ id: "history", component: "history", position: { referencePanel: "errors" }, inactive: true });
+  dock.addPanel({
+    id: "watch",
+    component: "watch",
+    position: { referencePanel: "start", direction: "below" },
+    initialHeight: innerHeight < 800 ? 280 : 386,
+  });
+  for (const id of ["problems", "log"]) {
+    dock.addPanel({ id, component: id, position: { referencePanel: "watch" }, inactive: true });
+  }
+  dock.getPanel("start")?.api.setActive();
+}
+
+const FIXED = ["errors", "history", "watch", "problems", "log"];
+
+/** What was kept, when it still fits this version of the page; else the usual arrangement. */
+export function restoreLayout(dock: DockviewApi, kept: unknown): void {
+  if (kept !== null) {
+    try {
+      dock.fromJSON(kept as SerializedDockview);
+      if (FIXED.every((id) => dock.getPanel(id))) return;
+    } catch {
+      // Kept by another version: the usual arrangement is better than none.
+    }
+  }
+  standardLayout(dock);
+}
+
+/** Shows a file: its panel, or a new one where the other files are. */
+export function openFilePanel(dock: DockviewApi, path: string): void {
+  const known = dock.getPanel(FILE + path);
+  if (known) {
+    known.api.setActive();
+    return;
+  }
+  dock.addPanel({ id: FILE + path, component: "editor", params: { path }, position: editorPlace(dock) });
+  const start = dock.getPanel("start");
+  if (start) dock.removePanel(start);
+}
+
+function editorPlace(dock: DockviewApi): AddPanelPositionOptions | undefined {
+  const neighbour = dock.getPanel("start") ?? dock.panels.findLast((panel) => fileOf(panel.id) !== undefined);
+  if (neighbour) return { referencePanel: neighbour };
+  return dock.getPanel("watch") ? { referencePanel: "watch", direction: "above" } : undefined;
+}
+
+/** Closes files; when none is left, the start page keeps their place. */
+export function closeFiles(dock: DockviewApi, which: (path: string) => boolean): void {
+  for (const panel of [...dock.panels]) {
+    const path = fileOf(panel.id);
+    if (path !== undefined && which(path)) closeFile(dock, panel.id);
+  }
+}
+
+export function closeFile(dock: DockviewApi, id: string): void {
+  const panel = dock.getPanel(id);
+  if (!panel) return;
+  const others = dock.panels.filter((other) => other.id !== id && fileOf(other.id) !== undefined);
+  if (others.length === 0) dock.addPanel({ id: "start", component: "start", position: { referencePanel: panel } });
+  dock.removePanel(panel);
+}

@@ -1,0 +1,49 @@
+import { describe, expect, it } from "vitest";
+import type { Pou } from "../wire/types";
+import { newFilePath, pouAt, pouGroups, skeleton } from "./explorer";
+
+const pous: Pou[] = [
+  { name: "FB_Belt", kind: "function_block", file: "belt.st", line: 3 },
+  { name: "Main", kind: "program", file: "main.st", line: 1 },
+  { name: "FB_Lift", kind: "function_block", file: "belt.st", line: 40 },
+];
+
+describe("explorer", () => {
+  it("groups by kind in the standard's order and keeps files without declarations", () => {
+    const groups = pouGroups(pous, [
+      { path: "main.st", version: 1 },
+      { path: "broken.st", version: 2 },
+    ]);
+    expect(groups.map((group) => [group.kind, group.nodes.map((node) => node.name)])).toEqual([
+      ["program", ["Main"]],
+      ["function_block", ["FB_Belt", "FB_Lift"]],
+      ["file", ["broken.st"]],
+    ]);
+    expect(groups[1]?.nodes[0]).toMatchObject({ shared: true });
+  });
+
+  it("shows global variables by their files", () => {
+    const globals: Pou[] = [
+      { name: "start", kind: "global", file: "Globals.st", line: 2 },
+      { name: "stop", kind: "global", file: "Globals.st", line: 3 },
+    ];
+    expect(pouGroups(globals, [])).toEqual([
+      { kind: "global", nodes: [{ kind: "pou", name: "Globals.st", file: "Globals.st", line: 2, shared: false }] },
+    ]);
+  });
+
+  it("finds the declaration around a line", () => {
+    expect(pouAt(pous, "belt.st", 41)?.name).toBe("FB_Lift");
+    expect(pouAt(pous, "belt.st", 10)?.name).toBe("FB_Belt");
+    expect(pouAt(pous, "belt.st", 1)).toBeUndefined();
+  });
+
+  it("makes paths for new files", () => {
+    expect(newFilePath(" FB_New ", [])).toBe("FB_New.st");
+    expect(newFilePath("a.ST", [])).toBe("a.ST");
+    expect(newFilePath("main", [{ path: "Main.st", version: 1 }])).toBeNull();
+    expect(newFilePath("../x", [])).toBeNull();
+    expect(skeleton("FB_New.st")).toContain("FUNCTION_BLOCK FB_New");
+    expect(skeleton("Line 2.st")).toContain("PROGRAM Line_2");
+  });
+});

@@ -1,0 +1,82 @@
+/** What the explorer shows of a project: files by the kind of what is declared in them. */
+import type { FileInfo, Pou } from "../wire/types";
+
+export interface PouNode {
+  kind: "pou";
+  name: string;
+  file: string;
+  line: number;
+  /** The file declares more than this, so that its name is worth showing. */
+  shared: boolean;
+}
+
+export interface FileNode {
+  kind: "file";
+  name: string;
+  file: string;
+}
+
+export type PouKind = Pou["kind"];
+
+export interface PouGroup {
+  kind: PouKind | "file";
+  nodes: (PouNode | FileNode)[];
+}
+
+const ORDER: PouKind[] = ["program", "function_block", "function", "type", "global"];
+
+/** Groups in the order of the standard; files in which nothing is declared (new, or broken) come last, as files. */
+export function pouGroups(pous: readonly Pou[], files: readonly FileInfo[]): PouGroup[] {
+  const perFile = new Map<string, number>();
+  for (const pou of pous) perFile.set(pou.file, (perFile.get(pou.file) ?? 0) + 1);
+  const groups: PouGroup[] = ORDER.map((kind) => {
+    const declared = pous.filter((pou) => pou.kind === kind);
+    return { kind, nodes: kind === "global" ? globalFiles(declared) : declared.map((pou) => pouNode(pou, perFile)) };
+  });
+  const loose = files.filter((file) => !perFile.has(file.path));
+  groups.push({ kind: "file", nodes: loose.map(({ path }) => ({ kind: "file" as const, name: path, file: path })) });
+  return groups.filter((group) => group.nodes.length > 0);
+}
+
+function pouNode(pou: Pou, perFile: ReadonlyMap<string, number>): PouNode {
+  return { ...pou, kind: "pou", shared: (perFile.get(pou.file) ?? 0) > 1 };
+}
+
+/** Global variables come in dozens: what one opens is the file they are declared in. */
+function globalFiles(globals: readonly Pou[]): PouNode[] {
+  const firsts = new Map<string, Pou>();
+  for (const pou of globals) if (!firsts.has(pou.file)) firsts.set(pou.file, pou);
+  return [...firsts.values()].map(({ file, line }) => ({ kind: "pou", name: file, file, line, shared: false }));
+}
+
+/** The declaration that a line of a file stands in, for `Add to watch` in the editor. */
+export function pouAt(pous: readonly Pou[], file: string, line: number): Pou | undefined {
+  return pous
+    .filter((pou) => pou.file === file && pou.line <= line)
+    .sort((a, b) => b.line - a.line)
+    .at(0);
+}
+
+const NAME = /^[\p{L}\d_][\p{L}\d_\- .]*$/u;
+
+/** The path for a new file by the name someone typed; null when it cannot be one. */
+export function newFilePath(typed: string, existing: readonly FileInfo[]): string | null {
+  const name = typed.trim();
+  if (!NAME.test(name)) return null;
+  const path = /\.(st|iecst)$/i.test(name) ? name : `${name}.st`;
+  return existing.some((file) => file.path.toLowerCase() === path.toLowerCase()) ? null : path;
+}
+
+/** What a new file begins with: the frame of what its name promises. */
+export function skeleton(path: string): string {
+  const name = path
+    .replace(/^.*\//, "")
+    .replace(/\.[^.]*$/, "")
+    .replace(/[^\p{L}\d_]/gu, "_");
+  if (/^fb/i.test(name)) {
+    return `FUNCTION_BLOCK ${name}\nVAR_INPUT\nEND_VAR\nVAR_OUTPUT\nEND_VAR\nVAR\nEND_VAR\n\nEND_FUNCTION_BLOCK\n`;
+  }
+  if (/^(fc|fn|f_)/i.test(name)) return `FUNCTION ${name} : INT\nVAR_INPUT\nEND_VAR\n\n${name} := 0;\nEND_FUNCTION\n`;
+  if (/^(st_|t_|e_)/i.test(name)) return `TYPE\n  ${name} : STRUCT\n    value : INT;\n  END_STRUCT;\nEND_TYPE\n`;
+  return `PROGRAM ${name}\nVAR\nEND_VAR\n\nEND_PROGRAM\n`;
+}

@@ -1,0 +1,31 @@
+/** Instance paths as they are read: the way to the variable is faint, the last name is bright. */
+
+export interface SplitPath {
+  own: string;
+  name: string;
+}
+
+/** `Main.belt[3].enable` to `Main.belt[3].` and `enable`; an address such as `A402.12` stays whole. */
+export function splitPath(path: string): SplitPath {
+  if (isAddress(path)) return { own: "", name: path };
+  const dot = path.lastIndexOf(".");
+  return { own: path.slice(0, dot + 1), name: path.slice(dot + 1) };
+}
+
+/** Raw addresses: `%MW3`, `D100`, `A402.12`, `W10:8`. */
+export function isAddress(path: string): boolean {
+  return path.startsWith("%") || /^[A-Za-z]{0,3}\d+(\.\d+)?(:\d+)?$/.test(path);
+}
+
+/** The paths in a dropped or pasted text: one a line, or separated by commas or blanks. */
+export function pathsIn(text: string): string[] {
+  return text
+    .split(/[\s,;]+/)
+    .map((part) => part.trim())
+    .filter((part) => /^%?[\p{L}_\d][\p{L}\d_.[\]:,%]*$/u.test(part));
+}
+
+/** `src/Main.st` to `Main.st`. */
+export function baseName(path: string): string {
+  return path.slice(path.lastIndexOf("/") + 1);
+}

@@ -1,0 +1,54 @@
+/** How a state of the PLC is shown: tone, icon and words. One table, so that bar, rail and status bar agree. */
+import type { InstanceState, RunState } from "../wire/types";
+import { interval } from "./numbers";
+import { t } from "./text";
+
+export type Tone = "running" | "halted" | "stopped" | "fatal" | "stale";
+
+/** Names of drawings in `ui/drawings.tsx`. */
+export type StateIcon = "running" | "halted" | "stopped" | "fatal" | "lost" | "wait" | "refresh" | "error";
+
+export interface ShownState {
+  tone: Tone;
+  icon: StateIcon;
+  word: string;
+  detail: string;
+}
+
+const LOOKS: Record<RunState, { tone: Tone; icon: StateIcon }> = {
+  starting: { tone: "stopped", icon: "wait" },
+  running: { tone: "running", icon: "running" },
+  paused: { tone: "halted", icon: "halted" },
+  stopped: { tone: "stopped", icon: "stopped" },
+  fatal: { tone: "fatal", icon: "fatal" },
+  trapped: { tone: "fatal", icon: "fatal" },
+  restarting: { tone: "halted", icon: "refresh" },
+  failed: { tone: "fatal", icon: "error" },
+};
+
+export function showState(state: InstanceState | null, connected: boolean): ShownState {
+  if (!connected || !state) {
+    return { tone: "stale", icon: "lost", word: t("state.unknown"), detail: t("state.noconnection") };
+  }
+  const fallback = state.state === "running" ? t("state.cyclic", { interval: interval(state.interval_ns) }) : "";
+  return {
+    ...LOOKS[state.state],
+    word: t(`state.${state.state}`),
+    detail: detailOf(state) || state.message || fallback,
+  };
+}
+
+function detailOf(state: InstanceState): string {
+  switch (state.state) {
+    case "running":
+      return t("state.cyclic", { interval: interval(state.interval_ns) });
+    case "fatal":
+      return t("state.outputsoff");
+    case "trapped":
+      return state.trap ? `${state.trap.file}:${state.trap.line}` : "";
+    case "stopped":
+      return t("state.noprogram");
+    default:
+      return "";
+  }
+}

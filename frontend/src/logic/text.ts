@@ -1,0 +1,21 @@
+/** Everything the page says, by key. A new text goes into both catalogues; a key that is missing is a compile error. */
+import { english, type TextKey } from "./text.en";
+import { japanese } from "./text.ja";
+
+export const languages = ["en", "ja"] as const;
+export type Language = (typeof languages)[number];
+export const languageNames: Record<Language, string> = { en: "English", ja: "日本語" };
+
+const catalogues: Record<Language, Record<TextKey, string>> = { en: english, ja: japanese };
+let current: Language = "en";
+
+export function setLanguage(language: Language): void {
+  current = language;
+}
+
+/** The text of a key, with `{name}` replaced by the values given. */
+export function t(key: TextKey, values: object = {}): string {
+  const text = catalogues[current][key];
+  const known = values as Record<string, unknown>;
+  return text.replace(/\{(\w+)\}/g, (whole, name: string) => (name in known ? String(known[name]) : whole));
+}

@@ -1,0 +1,109 @@
+/** Raw bytes of a variable to the text that a programmer knows, by the symbol's kind. */
+import type { PlcSymbol } from "../wire/types";
+
+export type Format = "default" | "decimal" | "hex" | "binary";
+export type ValueShape = Pick<PlcSymbol, "kind" | "size">;
+
+/** True, false, or null for what is not a BOOL: decides about the lamp in front of the value. */
+export function lampOf(shape: ValueShape, view: DataView, offset: number): boolean | null {
+  return shape.kind === "bool" ? view.getUint8(offset) !== 0 : null;
+}
+
+/** The text of the value that stands in the eight bytes from `offset`. */
+export function formatValue(shape: ValueShape, view: DataView, offset: number, format: Format = "default"): string {
+  switch (shape.kind) {
+    case "bool":
+      return view.getUint8(offset) !== 0 ? "TRUE" : "FALSE";
+    case "int":
+      return format === "hex" || format === "binary"
+        ? based(unsigned(shape.size, view, offset), shape.size, format)
+        : signed(shape.size, view, offset).toString();
+    case "uint":
+      return format === "hex" || format === "binary"
+        ? based(unsigned(shape.size, view, offset), shape.size, format)
+        : unsigned(shape.size, view, offset).toString();
+    case "bits":
+      return format === "decimal"
+        ? unsigned(shape.size, view, offset).toString()
+        : based(unsigned(shape.size, view, offset), shape.size, format === "binary" ? "binary" : "hex");
+    case "real":
+      return shape.size === 4 ? formatReal32(view.getFloat32(offset, true)) : formatReal(view.getFloat64(offset, true));
+    case "time":
+      return formatTime(view.getBigInt64(offset, true));
+    default:
+      return "";
+  }
+}
+
+function signed(size: number, view: DataView, offset: number): bigint {
+  return BigInt.asIntN(size * 8, view.getBigUint64(offset, true));
+}
+
+function unsigned(size: number, view: DataView, offset: number): bigint {
+  return BigInt.asUintN(size * 8, view.getBigUint64(offset, true));
+}
+
+function based(value: bigint, size: number, format: "hex" | "binary"): string {
+  return format === "hex"
+    ? `16#${value
+        .toString(16)
+        .toUpperCase()
+        .padStart(size * 2, "0")}`
+    : `2#${value.toString(2).padStart(size * 8, "0")}`;
+}
+
+/** Four hex digits without a prefix, as status words are written: 80F4. */
+export function hexWord(view: DataView, offset: number): string {
+  return view.getUint16(offset, true).toString(16).toUpperCase().padStart(4, "0");
+}
+
+function formatReal(value: number): string {
+  if (Number.isNaN(value)) return "NaN";
+  if (!Number.isFinite(value)) return value > 0 ? "+Inf" : "-Inf";
+  const text = value.toString();
+  return /[.e]/.test(text) ? text : `${text}.0`;
+}
+
+// The shortest text that reads back as the same single-precision number: 0.1, not 0.10000000149011612.
+function formatReal32(value: number): string {
+  if (!Number.isFinite(value)) return formatReal(value);
+  for (let digits = 1; digits <= 9; digits += 1) {
+    const text = Number(value.toPrecision(digits));
+    if (Math.fround(text) === value) return formatReal(text);
+  }
+  return formatReal(value);
+}
+
+const UNITS: [string, bigint][] = [
+  ["d", 86_400_000_000_000n],
+  ["h", 3_600_000_000_000n],
+  ["m", 60_000_000_000n],
+  ["s", 1_000_000_000n],
+  ["ms", 1_000_000n],
+  ["us", 1_000n],
+  ["ns", 1n],
+];
+
+/** T#1m5s250ms: the units that are not zero, as IEC 61131-3 writes durations. */
+export function formatTime(ns: bigint): string {
+  if (ns === 0n) return "T#0s";
+  let rest = ns < 0n ? -ns : ns;
+  let text = ns < 0n ? "T#-" : "T#";
+  for (const [unit, size] of UNITS) {
+    const count = rest / size;
+    if (count > 0n) text += `${count}${unit}`;
+    rest %= size;
+  }
+  return text;
+}
+
+/** 'it''s' the IEC way: $-escapes for quotes, control characters and the dollar itself. */
+export function formatString(text: string): string {
+  const names: Record<string, string> = { "'": "$'", $: "$$", "\n": "$L", "\r": "$R", "\t": "$T", "\f": "$P" };
+  let out = "'";
+  for (const c of text) {
+    const code = c.charCodeAt(0);
+    out += names[c] ?? (code < 0x20 ? `$${code.toString(16).toUpperCase().padStart(2, "0")}` : c);
+  }
+  return `${out}'`;
+}

@@ -1,0 +1,16 @@
+import { createRoot } from "react-dom/client";
+import { App } from "./app/App";
+import { connectStores } from "./app/dispatch";
+import { start } from "./store/bench";
+import "./ui/tokens.css";
+import "./ui/base.css";
+import "./ui/controls.css";
+import "./ui/grid.css";
+import "./app/shell.css";
+import "./app/dock.css";
+import "./panels/panels.css";
+
+connectStores();
+void start();
+const root = document.getElementById("root");
+if (root) createRoot(root).render(<App />);

@@ -1,0 +1,23 @@
+import { t } from "../../logic/text";
+import { runAction } from "../../store/run";
+import { Icon } from "../../ui/Icon";
+import type { InstanceState } from "../../wire/types";
+
+/** The process of the PLC died: it is being started again, or that did not work either. */
+export function RestartingBanner({ state }: { state: InstanceState }) {
+  const failed = state.state === "failed";
+  return (
+    <div className={`banner ${failed ? "fatal" : "stale"}`} role="alert">
+      <Icon name={failed ? "error" : "refresh"} />
+      <span className="grow">
+        <b>{failed ? t("failed.title") : t("restarting.title")}</b>{" "}
+        <span className="muted">{state.message || t("restarting.about")}</span>
+      </span>
+      {failed && (
+        <button type="button" className="btn danger sm" onClick={() => void runAction("restart")}>
+          {t("run.restart")}
+        </button>
+      )}
+    </div>
+  );
+}

@@ -1,0 +1,30 @@
+import { grouped } from "../../logic/numbers";
+import { t } from "../../logic/text";
+import { openFile } from "../../store/navigate";
+import { runAction } from "../../store/run";
+import { Icon } from "../../ui/Icon";
+import type { InstanceState } from "../../wire/types";
+
+/** The program stopped itself: why, where, and how to go on. */
+export function TrapBanner({ state }: { state: InstanceState }) {
+  const { trap } = state;
+  return (
+    <div className="banner fatal" role="alert">
+      <Icon name="fatal" />
+      <span className="grow">
+        <b>{t("trap.title")}</b> {trap?.message ?? state.message}{" "}
+        {trap && (
+          <>
+            <button type="button" className="link mono" onClick={() => openFile(trap.file, trap.line, trap.column)}>
+              {`${trap.file}:${trap.line}`}
+            </button>{" "}
+            <span className="muted">{t("trap.about", { scan: grouped(trap.scan) })}</span>
+          </>
+        )}
+      </span>
+      <button type="button" className="btn danger sm" onClick={() => void runAction("restart")}>
+        {t("run.restart")}
+      </button>
+    </div>
+  );
+}

@@ -1,0 +1,104 @@
+import { useEffect, useRef } from "react";
+import { pouAt } from "../../logic/explorer";
+import { t } from "../../logic/text";
+import { build, save, useDocuments } from "../../store/documents";
+import { useNavigation } from "../../store/navigate";
+import { addToWatch } from "../../store/watchlist";
+import { modelOf } from "./models";
+import { editor, KeyCode, KeyMod, monospaceFont, options } from "./monaco";
+
+/** The text of one file in Monaco. */
+export default function CodeView({ path }: { path: string }) {
+  const host = useRef<HTMLDivElement>(null);
+  const view = useRef<editor.IStandaloneCodeEditor | null>(null);
+
+  useEffect(() => {
+    const document = useDocuments.getState().open[path];
+    if (!host.current || !document) return;
+    const code = editor.create(host.current, {
+      ...options,
+      fontFamily: monospaceFont(),
+      model: modelOf(path, document.text),
+      ariaLabel: t("editor.of", { path }),
+    });
+    view.current = code;
+    addActions(code, path);
+    const caret = () => {
+      const position = code.getPosition();
+      if (position)
+        useDocuments.setState({ cursor: { line: position.lineNumber, column: position.column }, active: path });
+    };
+    code.onDidChangeCursorPosition(caret);
+    code.onDidFocusEditorText(caret);
+    caret();
+    const stop = useNavigation.subscribe(({ place }) => go(code, path, place));
+    go(code, path, useNavigation.getState().place);
+    return () => {
+      stop();
+      code.dispose();
+      view.current = null;
+    };
+  }, [path]);
+
+  return <div ref={host} className="codehost" />;
+}
+
+let handledTurn = 0;
+
+function go(
+  code: editor.IStandaloneCodeEditor,
+  path: string,
+  place: ReturnType<typeof useNavigation.getState>["place"],
+): void {
+  if (!place || place.path !== path || place.turn === handledTurn) return;
+  handledTurn = place.turn;
+  const position = { lineNumber: place.line, column: place.column };
+  code.setPosition(position);
+  code.revealPositionInCenterIfOutsideViewport(position);
+  code.focus();
+}
+
+function addActions(code: editor.IStandaloneCodeEditor, path: string): void {
+  code.addAction({
+    id: "scanbench.save",
+    label: t("save"),
+    keybindings: [KeyMod.CtrlCmd | KeyCode.KeyS],
+    run: () => void save(path),
+  });
+  code.addAction({
+    id: "scanbench.build",
+    label: t("build"),
+    keybindings: [KeyMod.CtrlCmd | KeyMod.Shift | KeyCode.KeyB],
+    run: () => void build(),
+  });
+  code.addAction({
+    id: "scanbench.watch",
+    label: t("watch.addone"),
+    contextMenuGroupId: "navigation",
+    run: () => {
+      const expression = expressionAt(code);
+      if (expression) addToWatch([instancePath(path, code.getPosition()?.lineNumber ?? 1, expression)]);
+    },
+  });
+}
+
+/** The selected text, or the path of names around the caret: `belt[1].run`. */
+function expressionAt(code: editor.IStandaloneCodeEditor): string | null {
+  const model = code.getModel();
+  const position = code.getPosition();
+  const selection = code.getSelection();
+  if (!model || !position) return null;
+  if (selection && !selection.isEmpty()) return model.getValueInRange(selection).trim();
+  const line = model.getLineContent(position.lineNumber);
+  for (const match of line.matchAll(/%?[\p{L}_][\p{L}\d_]*(?:\[[\d, ]+\]|\.[\p{L}\d_]+)*/gu)) {
+    const from = match.index + 1;
+    if (from <= position.column && position.column <= from + match[0].length) return match[0];
+  }
+  return null;
+}
+
+// In a program the name is the program's; elsewhere it is taken as it stands, and the row says when it is not known.
+function instancePath(path: string, line: number, expression: string): string {
+  const pou = pouAt(useDocuments.getState().pous, path, line);
+  return pou?.kind === "program" && !expression.startsWith("%") ? `${pou.name}.${expression}` : expression;
+}

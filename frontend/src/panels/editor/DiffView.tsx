@@ -1,0 +1,28 @@
+import { useEffect, useRef } from "react";
+import { useDocuments } from "../../store/documents";
+import { modelOf } from "./models";
+import { editor, monospaceFont, options } from "./monaco";
+import { LANGUAGE } from "./st";
+
+/** Theirs at the left, mine at the right, still editable. */
+export default function DiffView({ path, theirs }: { path: string; theirs: string }) {
+  const host = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    const mine = useDocuments.getState().open[path];
+    if (!host.current || !mine) return;
+    const original = editor.createModel(theirs, LANGUAGE);
+    const view = editor.createDiffEditor(host.current, {
+      ...options,
+      fontFamily: monospaceFont(),
+      originalEditable: false,
+      renderSideBySide: true,
+      useInlineViewWhenSpaceIsLimited: false,
+    });
+    view.setModel({ original, modified: modelOf(path, mine.text) });
+    return () => {
+      view.dispose();
+      original.dispose();
+    };
+  }, [path, theirs]);
+  return <div ref={host} className="codehost" />;
+}

@@ -1,0 +1,60 @@
+/** One Monaco model for each open file, in step with the document store both ways; diagnostics become markers. */
+import { edit, useDocuments } from "../../store/documents";
+import type { Problem } from "../../wire/types";
+import { editor, MarkerSeverity, Uri } from "./monaco";
+import { LANGUAGE } from "./st";
+
+const models = new Map<string, editor.ITextModel>();
+const OWNER = "scanbench";
+
+const SEVERITY: Record<Problem["severity"], MarkerSeverity> = {
+  error: MarkerSeverity.Error,
+  warning: MarkerSeverity.Warning,
+  info: MarkerSeverity.Info,
+};
+
+export function modelOf(path: string, text: string): editor.ITextModel {
+  const known = models.get(path);
+  if (known && !known.isDisposed()) return known;
+  const model = editor.createModel(text, LANGUAGE, Uri.from({ scheme: "scanbench", path: `/${path}` }));
+  model.setEOL(editor.EndOfLineSequence.LF);
+  model.onDidChangeContent(() => edit(path, model.getValue()));
+  models.set(path, model);
+  markModel(path, model);
+  return model;
+}
+
+function markModel(path: string, model: editor.ITextModel): void {
+  const { problems } = useDocuments.getState();
+  editor.setModelMarkers(
+    model,
+    OWNER,
+    problems
+      .filter((problem) => problem.file === path)
+      .map((problem) => ({
+        severity: SEVERITY[problem.severity],
+        message: problem.message,
+        code: problem.code,
+        startLineNumber: problem.line,
+        startColumn: problem.column,
+        endLineNumber: problem.end_line,
+        endColumn: Math.max(problem.end_column, problem.line === problem.end_line ? problem.column + 1 : 1),
+      })),
+  );
+}
+
+// A text that changed in the store but not by typing (theirs was taken, or a colleague saved) goes into the model.
+useDocuments.subscribe((now, before) => {
+  for (const [path, model] of models) {
+    const document = now.open[path];
+    if (!document) {
+      model.dispose();
+      models.delete(path);
+      continue;
+    }
+    if (document.text !== before.open[path]?.text && document.text !== model.getValue()) {
+      model.pushEditOperations([], [{ range: model.getFullModelRange(), text: document.text }], () => null);
+    }
+    if (now.problems !== before.problems) markModel(path, model);
+  }
+});

@@ -1,0 +1,97 @@
+/** Structured Text for Monaco: tokens and the editing habits of the language. */
+import type { languages } from "monaco-editor/editor";
+
+export const LANGUAGE = "iecst";
+
+const keywords =
+  `AND ARRAY AT BY CASE CONFIGURATION CONSTANT DO ELSE ELSIF END_CASE END_CONFIGURATION END_FOR END_FUNCTION
+END_FUNCTION_BLOCK END_IF END_PROGRAM END_REPEAT END_RESOURCE END_STRUCT END_TYPE END_VAR END_WHILE EXIT CONTINUE FOR FUNCTION
+FUNCTION_BLOCK IF MOD NOT OF ON OR PROGRAM REPEAT RESOURCE RETAIN NON_RETAIN RETURN STRUCT TASK THEN TO TYPE UNTIL VAR
+VAR_ACCESS VAR_CONFIG VAR_EXTERNAL VAR_GLOBAL VAR_IN_OUT VAR_INPUT VAR_OUTPUT VAR_TEMP WHILE WITH XOR R_EDGE F_EDGE
+INTERVAL PRIORITY SINGLE`.split(/\s+/);
+
+const types = `BOOL BYTE WORD DWORD LWORD SINT INT DINT LINT USINT UINT UDINT ULINT REAL LREAL TIME LTIME DATE TOD DT
+TIME_OF_DAY DATE_AND_TIME STRING WSTRING CHAR WCHAR TON TOF TP CTU CTD CTUD R_TRIG F_TRIG SR RS`.split(/\s+/);
+
+export const tokenizer: languages.IMonarchLanguage = {
+  ignoreCase: true,
+  defaultToken: "",
+  keywords,
+  types,
+  constants: ["TRUE", "FALSE"],
+  tokenizer: {
+    root: [
+      [/\(\*/, "comment", "@comment"],
+      [/\/\*/, "comment", "@ccomment"],
+      [/\/\/.*$/, "comment"],
+      [/\{[^}]*\}/, "annotation"],
+      [/'/, "string", "@string"],
+      [/"/, "string", "@wstring"],
+      [/%[IQM][XBWDL]?[\d.*]+/, "variable.predefined"],
+      [/[A-Z_]\w*_TO_[A-Z_]\w*(?=\s*\()/, "type"],
+      [/(T|TIME|LT|LTIME|D|DATE|TOD|DT|TIME_OF_DAY|DATE_AND_TIME)#[\w.+\-:]+/, "number"],
+      [/([A-Z_]\w*#)?(2#[01_]+|8#[0-7_]+|16#[\dA-F_]+)/, "number"],
+      [/(BYTE|WORD|DWORD|LWORD|[US]?S?I?D?L?INT|L?REAL|BOOL)#/, "type"],
+      [/\d[\d_]*(\.\d[\d_]*)?(E[+-]?\d+)?/, "number"],
+      [
+        /[A-Za-z_\u00c0-\uffff][\w\u00c0-\uffff]*/,
+        { cases: { "@keywords": "keyword", "@types": "type", "@constants": "number", "@default": "identifier" } },
+      ],
+      [/[;,.()[\]:=<>+\-*/&]+/, "delimiter"],
+    ],
+    comment: [
+      [/[^*(]+/, "comment"],
+      [/\*\)/, "comment", "@pop"],
+      [/\(\*/, "comment", "@push"],
+      [/[*(]/, "comment"],
+    ],
+    ccomment: [
+      [/[^*]+/, "comment"],
+      [/\*\//, "comment", "@pop"],
+      [/\*/, "comment"],
+    ],
+    string: [
+      [/\$./, "string.escape"],
+      [/'/, "string", "@pop"],
+      [/[^'$]+/, "string"],
+      [/$/, "string", "@pop"],
+    ],
+    wstring: [
+      [/\$./, "string.escape"],
+      [/"/, "string", "@pop"],
+      [/[^"$]+/, "string"],
+      [/$/, "string", "@pop"],
+    ],
+  },
+};
+
+const opens =
+  /^\s*(IF|CASE|FOR|WHILE|REPEAT|PROGRAM|FUNCTION(_BLOCK)?|TYPE|VAR(_\w+)?|CONFIGURATION|RESOURCE)\b(?!.*\bEND_\w+)|:\s*STRUCT\s*$|^\s*(ELSE|ELSIF)\b/i;
+const closes = /^\s*(END_\w+|ELSE|ELSIF|UNTIL)\b/i;
+
+export const configuration: languages.LanguageConfiguration = {
+  comments: { lineComment: "//", blockComment: ["(*", "*)"] },
+  brackets: [
+    ["(", ")"],
+    ["[", "]"],
+  ],
+  autoClosingPairs: [
+    { open: "(", close: ")" },
+    { open: "[", close: "]" },
+    { open: "'", close: "'", notIn: ["string", "comment"] },
+    { open: "(*", close: " *)", notIn: ["string"] },
+  ],
+  surroundingPairs: [
+    { open: "(", close: ")" },
+    { open: "[", close: "]" },
+    { open: "'", close: "'" },
+  ],
+  indentationRules: { increaseIndentPattern: opens, decreaseIndentPattern: closes },
+  folding: {
+    markers: {
+      start:
+        /^\s*(IF|CASE|FOR|WHILE|REPEAT|PROGRAM|FUNCTION(_BLOCK)?|TYPE|VAR(_\w+)?|CONFIGURATION|RESOURCE)\b(?!.*\bEND_)/i,
+      end: /^\s*(END_(IF|CASE|FOR|WHILE|REPEAT|PROGRAM|FUNCTION|FUNCTION_BLOCK|TYPE|VAR|CONFIGURATION|RESOURCE))\b/i,
+    },
+  },
+};

@@ -1,0 +1,46 @@
+import { t } from "../../logic/text";
+import { useOnline, usePlc } from "../../store/plc";
+import { generate, recover, targets, useSimulator } from "../../store/simulator";
+import { Icon } from "../../ui/Icon";
+import type { ModelInfo } from "../../wire/types";
+
+/** Generate what is ticked (or selected), recover it, or clear everything that is generated. */
+export function Actions({ model }: { model: ModelInfo }) {
+  const state = useSimulator();
+  const errors = usePlc((plc) => plc.errors);
+  const online = useOnline();
+  const chosen = targets(state);
+  const raised = chosen.filter((id) => errors.get(id)?.status === "generated").length;
+  const any = [...errors.values()].some((row) => row.status === "generated");
+  const { outcome } = state;
+  return (
+    <>
+      {outcome && !outcome.ok && (
+        <p className="trouble st fatal" role="alert">
+          <Icon name="error" small />
+          <span>{outcome.message || t("notsent.about")}</span>
+        </p>
+      )}
+      <div className="acts">
+        <button
+          type="button"
+          className="btn primary sm"
+          disabled={!online || chosen.length === 0}
+          onClick={() => void generate(model)}
+        >
+          <Icon name="generated" small />
+          {chosen.length > 1 ? t("errors.generate.many", { count: chosen.length }) : t("errors.generate")}
+        </button>
+        <button type="button" className="btn sm" disabled={!online || raised === 0} onClick={() => void recover(false)}>
+          {raised > 1 ? t("errors.recover.many", { count: raised }) : t("errors.recover")}
+        </button>
+        <span className="grow outcome muted cut" role="status" title={outcome?.message}>
+          {outcome?.ok ? outcome.message : ""}
+        </span>
+        <button type="button" className="btn quiet sm" disabled={!online || !any} onClick={() => void recover(true)}>
+          {t("errors.clearall")}
+        </button>
+      </div>
+    </>
+  );
+}

@@ -1,0 +1,40 @@
+import { useEffect, useRef } from "react";
+import { t } from "../../logic/text";
+import { bindCell } from "../../store/values";
+import { useWatches, watch } from "../../store/watches";
+
+/** The words of the error memory, live: what the program sees. */
+export function StatusWords({ words }: { words: readonly string[] }) {
+  const key = words.join(" ");
+  // biome-ignore lint/correctness/useExhaustiveDependencies: the same words are the same watch
+  useEffect(() => watch(words), [key]);
+  if (words.length === 0) return null;
+  return (
+    <div className="mem" role="group" aria-label={t("errors.memory")}>
+      {words.map((word) => (
+        <Word key={word} word={word} />
+      ))}
+      <span className="grow" />
+      <span className="faint caption">{t("errors.memory")}</span>
+    </div>
+  );
+}
+
+function Word({ word }: { word: string }) {
+  const text = useRef<HTMLElement>(null);
+  const known = useWatches((state) => state.symbols.has(word));
+  // biome-ignore lint/correctness/useExhaustiveDependencies: when the symbol comes, what stands here is read again
+  useEffect(
+    () =>
+      bindCell(word, "word", (reading) => {
+        if (text.current) text.current.textContent = reading.text || "····";
+      }),
+    [word, known],
+  );
+  return (
+    <span>
+      {word}
+      <b ref={text} data-testid={`word:${word}`} />
+    </span>
+  );
+}

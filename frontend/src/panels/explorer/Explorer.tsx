@@ -1,0 +1,39 @@
+import { useState } from "react";
+import { t } from "../../logic/text";
+import { useDocuments } from "../../store/documents";
+import { IconButton } from "../../ui/IconButton";
+import { Menu, type MenuItem } from "../../ui/Menu";
+import { Tree } from "../../ui/Tree";
+import { DeleteFile } from "./DeleteFile";
+import { NewFile } from "./NewFile";
+import { useExplorerRows } from "./rows";
+
+export type OpenMenu = (items: readonly MenuItem[], at: { x: number; y: number }) => void;
+
+/** What there is: files by what they declare, the variables of the running program, memory, model. */
+export function Explorer() {
+  const [menu, setMenu] = useState<{ items: readonly MenuItem[]; at: { x: number; y: number } } | null>(null);
+  const [creating, setCreating] = useState(false);
+  const [deleting, setDeleting] = useState<string | null>(null);
+  const project = useDocuments((documents) => documents.project);
+  const openMenu: OpenMenu = (items, at) => setMenu({ items, at });
+  const rows = useExplorerRows(openMenu, setDeleting);
+  return (
+    <nav className="pane left" aria-label={t("explorer.label")} data-pane="explorer">
+      <div className="phead">
+        <h2 className="grow">{t("explorer.label")}</h2>
+        <IconButton
+          icon="plus"
+          label={t("file.new")}
+          small
+          disabled={project === null}
+          onClick={() => setCreating(true)}
+        />
+      </div>
+      <Tree label={t("explorer.label")} rows={rows} />
+      {menu && <Menu label={t("menu.label")} items={menu.items} at={menu.at} onClose={() => setMenu(null)} />}
+      {creating && <NewFile onClose={() => setCreating(false)} />}
+      {deleting !== null && <DeleteFile path={deleting} onClose={() => setDeleting(null)} />}
+    </nav>
+  );
+}

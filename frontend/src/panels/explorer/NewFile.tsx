@@ -1,0 +1,51 @@
+import { useState } from "react";
+import { newFilePath } from "../../logic/explorer";
+import { t } from "../../logic/text";
+import { createFile, messageOf, useDocuments } from "../../store/documents";
+import { openFile } from "../../store/navigate";
+import { Dialog } from "../../ui/Dialog";
+import { Field } from "../../ui/Field";
+
+/** Asks for a name and makes the file with the frame of what the name promises. */
+export function NewFile({ onClose }: { onClose: () => void }) {
+  const files = useDocuments((documents) => documents.files);
+  const [name, setName] = useState("");
+  const [refused, setRefused] = useState<string | null>(null);
+
+  async function create(): Promise<void> {
+    const path = newFilePath(name, files);
+    if (path === null) {
+      setRefused(t("file.badname"));
+      return;
+    }
+    try {
+      await createFile(path);
+      onClose();
+      openFile(path, 1);
+    } catch (error) {
+      setRefused(messageOf(error));
+    }
+  }
+
+  return (
+    <Dialog
+      title={t("file.new")}
+      about={t("file.new.about")}
+      onClose={onClose}
+      onSubmit={() => void create()}
+      footer={
+        <>
+          <span className="grow" />
+          <button type="button" className="btn quiet" onClick={onClose}>
+            {t("cancel")}
+          </button>
+          <button type="submit" className="btn primary">
+            {t("create")}
+          </button>
+        </>
+      }
+    >
+      <Field label={t("file.name")} value={name} onChange={setName} refused={refused} autoFocus />
+    </Dialog>
+  );
+}

@@ -1,0 +1,195 @@
+import { useEffect, useState } from "react";
+import { type PouGroup, type PouNode, pouGroups } from "../../logic/explorer";
+import { t } from "../../logic/text";
+import { useBench } from "../../store/bench";
+import { isDirty, useDocuments } from "../../store/documents";
+import { loadMembers, useMembers } from "../../store/members";
+import { openFile } from "../../store/navigate";
+import { addToWatch } from "../../store/watchlist";
+import type { IconName } from "../../ui/Icon";
+import { IconButton } from "../../ui/IconButton";
+import type { MenuItem } from "../../ui/Menu";
+import type { TreeRow } from "../../ui/Tree";
+import type { Area, ModelInfo, PlcSymbol, Problem } from "../../wire/types";
+import type { OpenMenu } from "./Explorer";
+import { PouLabel } from "./PouLabel";
+
+const POU_ICONS: Record<PouGroup["kind"], IconName> = {
+  program: "program",
+  function_block: "fb",
+  function: "fn",
+  type: "struct",
+  global: "globe",
+  file: "init",
+};
+
+const SYMBOL_ICONS: Partial<Record<PlcSymbol["kind"], IconName>> = { array: "array", struct: "struct", block: "fb" };
+
+interface Folding {
+  isOpen: (key: string) => boolean;
+  toggle: (key: string) => void;
+}
+
+/** The explorer's rows, top to bottom. */
+export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) => void): TreeRow[] {
+  const folding = useFolding(["program", "function_block", "function", "global", "file", "instances"]);
+  const { pous, files, active, problems } = useDocuments();
+  const { instance, model } = useBench();
+  const members = useMembers((state) => state.of);
+  const open = useDocuments((documents) => documents.open);
+
+  const { isOpen } = folding;
+  const showInstances = instance !== null && isOpen("instances");
+  useEffect(() => {
+    if (showInstances && !members.has("")) void loadMembers("");
+  }, [showInstances, members]);
+
+  const rows: TreeRow[] = [];
+  for (const group of pouGroups(pous, files)) {
+    rows.push(folder(folding, group.kind, t(`explorer.${group.kind}`), group.nodes.length));
+    if (!isOpen(group.kind)) continue;
+    for (const node of group.nodes) {
+      const line = node.kind === "pou" ? (node as PouNode).line : 1;
+      const menu: MenuItem[] = [
+        { label: t("open"), onSelect: () => openFile(node.file, line) },
+        { label: t("file.delete.menu", { path: node.file }), separated: true, onSelect: () => askDelete(node.file) },
+      ];
+      rows.push({
+        key: `${group.kind}:${node.file}:${node.name}`,
+        level: 1,
+        icon: POU_ICONS[group.kind],
+        label: <PouLabel node={node} />,
+        name: node.name,
+        meta: <FileMarks file={node.file} dirty={isDirty(open[node.file])} problems={problems} />,
+        selected: node.file === active,
+        title: node.kind === "pou" ? `${node.file}:${line}` : node.file,
+        onActivate: () => openFile(node.file, line),
+        onMenu: (at) => openMenu(menu, at),
+      });
+    }
+  }
+  if (instance) {
+    rows.push({ ...folder(folding, "instances", t("explorer.instances")), icon: "folder" });
+    if (isOpen("instances")) rows.push(...symbolRows("", 1, members, folding, openMenu));
+  }
+  if (model) rows.push(...modelRows(model, folding, openMenu));
+  return rows;
+}
+
+function useFolding(initial: string[]): Folding {
+  const [open, setOpen] = useState<ReadonlySet<string>>(() => new Set(initial));
+  return {
+    isOpen: (key) => open.has(key),
+    toggle: (key) =>
+      setOpen((before) => {
+        const next = new Set(before);
+        if (!next.delete(key)) next.add(key);
+        return next;
+      }),
+  };
+}
+
+function folder(folding: Folding, key: string, name: string, count?: number): TreeRow {
+  const open = folding.isOpen(key);
+  return {
+    key,
+    level: 0,
+    icon: "folder",
+    label: name,
+    name,
+    meta: open || count === undefined ? undefined : count,
+    open,
+    onToggle: () => folding.toggle(key),
+  };
+}
+
+function FileMarks({ file, dirty, problems }: { file: string; dirty: boolean; problems: readonly Problem[] }) {
+  const errors = problems.filter((problem) => problem.file === file && problem.severity === "error").length;
+  return (
+    <>
+      {errors > 0 && (
+        <span className="bad">{t(errors === 1 ? "explorer.errors.one" : "explorer.errors", { count: errors })}</span>
+      )}
+      {dirty && <span className="dirty" title={t("unsaved")} />}
+    </>
+  );
+}
+
+function symbolRows(
+  path: string,
+  level: number,
+  members: ReadonlyMap<string, readonly PlcSymbol[]>,
+  folding: Folding,
+  openMenu: OpenMenu,
+): TreeRow[] {
+  return (members.get(path) ?? []).flatMap((symbol) => {
+    const key = `symbol:${symbol.path}`;
+    const open = symbol.expandable ? folding.isOpen(key) : undefined;
+    const add = () => addToWatch([symbol.path]);
+    const toggle = () => {
+      folding.toggle(key);
+      void loadMembers(symbol.path);
+    };
+    const row: TreeRow = {
+      key,
+      level,
+      icon: SYMBOL_ICONS[symbol.kind] ?? "var",
+      label: symbol.name,
+      name: symbol.path,
+      meta: symbol.type,
+      title: [symbol.path, symbol.type, symbol.address, symbol.section].filter(Boolean).join(" · "),
+      open,
+      drag: symbol.path,
+      onToggle: symbol.expandable ? toggle : undefined,
+      onActivate: symbol.expandable ? toggle : add,
+      onMenu: (at) => openMenu([{ label: t("watch.addone"), icon: "eye", onSelect: add }], at),
+      actions: <AddButton path={symbol.path} onAdd={add} />,
+    };
+    return open ? [row, ...symbolRows(symbol.path, level + 1, members, folding, openMenu)] : [row];
+  });
+}
+
+function AddButton({ path, onAdd }: { path: string; onAdd: () => void }) {
+  return (
+    <span className="rowaction" onClick={(event) => event.stopPropagation()}>
+      <IconButton icon="plus" label={t("watch.add.path", { path })} small onClick={onAdd} />
+    </span>
+  );
+}
+
+function modelRows(model: ModelInfo, folding: Folding, openMenu: OpenMenu): TreeRow[] {
+  const memory: TreeRow = { ...folder(folding, "memory", t("explorer.memory"), model.areas.length), icon: "mem" };
+  const plc: TreeRow = { ...folder(folding, "model", t("explorer.model")), icon: "plc", meta: model.name };
+  const facts = [model.vendor, model.description, t("explorer.errorcount", { count: model.error_count })].filter(
+    Boolean,
+  );
+  return [
+    memory,
+    ...(folding.isOpen("memory") ? model.areas.map((area) => areaRow(area, openMenu)) : []),
+    plc,
+    ...(folding.isOpen("model") ? facts.map((fact) => factRow(fact)) : []),
+  ];
+}
+
+function areaRow(area: Area, openMenu: OpenMenu): TreeRow {
+  const add = () => addToWatch([area.first]);
+  return {
+    key: `area:${area.name}`,
+    level: 1,
+    icon: "mem",
+    label: (
+      <>
+        {area.name} <span className="faint">{area.description}</span>
+      </>
+    ),
+    name: `${area.name} ${area.description}`,
+    meta: `${area.first}–${area.last}`,
+    title: t("area.access", { program: area.program, tool: area.tool, engine: area.engine, words: area.words }),
+    drag: area.first,
+    onMenu: (at) => openMenu([{ label: t("watch.add.path", { path: area.first }), icon: "eye", onSelect: add }], at),
+  };
+}
+
+function factRow(fact: string): TreeRow {
+  return { key: `fact:${fact}`, level: 1, label: <span className="muted">{fact}</span>, name: fact, title: fact };
+}

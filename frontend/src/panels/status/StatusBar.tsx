@@ -1,0 +1,108 @@
+import { interval } from "../../logic/numbers";
+import { languageNames, languages, t } from "../../logic/text";
+import { isDirty, useDocuments } from "../../store/documents";
+import { showPanel } from "../../store/navigate";
+import { useOnline, usePlc } from "../../store/plc";
+import { chooseLanguage, usePrefs } from "../../store/prefs";
+import { speedName, useRun } from "../../store/run";
+import { Icon } from "../../ui/Icon";
+import { MenuButton } from "../../ui/Menu";
+import { StateWord } from "../../ui/StateWord";
+
+/** The strip along the bottom: facts that are worth a glance. */
+export function StatusBar() {
+  const online = useOnline();
+  const state = usePlc((plc) => plc.state);
+  return (
+    <footer className="status" data-pane="status" data-live>
+      {online ? (
+        <span>
+          <Icon name="check" />
+          {t("status.connected")}
+        </span>
+      ) : (
+        <StateWord tone="stale" icon="lost" word={t("status.notconnected")} />
+      )}
+      {state && (
+        <span>{t("status.task", { interval: interval(state.interval_ns), speed: speedName(state.speed) })}</span>
+      )}
+      {state && (
+        <span title={t("status.process", { pid: state.pid ?? "–" })}>
+          {t("status.program", { version: state.program_version })}
+        </span>
+      )}
+      {state !== null && state.restarts > 0 && <span>{t("status.restarts", { count: state.restarts })}</span>}
+      {state !== null && state.forces > 0 && (
+        <StateWord tone="forced" icon="forced" word={t("force.count", { count: state.forces })} />
+      )}
+      <Raised />
+      <RunRefusal />
+      <span className="right">
+        <FileState />
+      </span>
+      <Language />
+    </footer>
+  );
+}
+
+function Raised() {
+  const errors = usePlc((plc) => plc.errors);
+  const raised = [...errors.values()].filter((row) => row.status === "generated");
+  if (raised.length === 0) return null;
+  const fatal = raised.some((row) => row.severity === "fatal");
+  return (
+    <button type="button" className="link plain" onClick={() => showPanel("errors")}>
+      <StateWord
+        tone={fatal ? "fatal" : "generated"}
+        icon={fatal ? "fatal" : "generated"}
+        word={t(raised.length === 1 ? "status.errors.one" : "status.errors", { count: raised.length })}
+      />
+    </button>
+  );
+}
+
+function RunRefusal() {
+  const refused = useRun((run) => run.refused);
+  if (!refused) return null;
+  return (
+    <span className="st fatal" role="alert" title={refused}>
+      <Icon name="error" />
+      <span className="cut">{refused}</span>
+    </span>
+  );
+}
+
+function FileState() {
+  const cursor = useDocuments((documents) => documents.cursor);
+  const document = useDocuments((documents) => (documents.active ? documents.open[documents.active] : undefined));
+  if (!document) return null;
+  const saved = document.savedAt
+    ? t("status.saved", { at: new Date(document.savedAt).toLocaleTimeString("en-GB", { timeStyle: "short" }) })
+    : t("status.stored", { version: document.version });
+  return (
+    <>
+      {cursor && <span>{t("status.place", cursor)}</span>}
+      <span>ST</span>
+      <span>{isDirty(document) ? t("unsaved") : saved}</span>
+    </>
+  );
+}
+
+function Language() {
+  const language = usePrefs((prefs) => prefs.language);
+  return (
+    <MenuButton
+      label={t("language")}
+      className="link plain"
+      items={() =>
+        languages.map((known) => ({
+          label: languageNames[known],
+          checked: known === language,
+          onSelect: () => chooseLanguage(known),
+        }))
+      }
+    >
+      {languageNames[language]}
+    </MenuButton>
+  );
+}

@@ -1,0 +1,59 @@
+import { type KeyboardEvent, useState } from "react";
+import { t } from "../../logic/text";
+import { useOnline, usePlc } from "../../store/plc";
+import { send } from "../../wire/send";
+import type { Mode } from "../../wire/types";
+
+const MODES: readonly Mode[] = ["PROGRAM", "MONITOR", "RUN"];
+
+/** PROGRAM, MONITOR, RUN: what is chosen. What the PLC really does stands beside it. */
+export function ModeSwitch() {
+  const mode = usePlc((plc) => plc.state?.mode ?? null);
+  const online = useOnline();
+  const [refused, setRefused] = useState<string | null>(null);
+
+  async function choose(next: Mode): Promise<void> {
+    setRefused(null);
+    const answer = await send({ type: "mode", mode: next });
+    if (!answer.ok) setRefused(answer.message || t("notsent"));
+  }
+
+  function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
+    const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
+    if (step === undefined) return;
+    event.preventDefault();
+    const radios = [...event.currentTarget.querySelectorAll<HTMLElement>("[role=radio]")];
+    const now = radios.indexOf(document.activeElement as HTMLElement);
+    radios[(now + step + radios.length) % radios.length]?.focus();
+  }
+
+  return (
+    <div
+      className={`seg caps${online ? "" : " lock"}`}
+      role="radiogroup"
+      aria-label={t("mode.label")}
+      title={refused ?? undefined}
+      onKeyDown={onKeyDown}
+    >
+      {MODES.map((name) => (
+        <button
+          key={name}
+          type="button"
+          role="radio"
+          className={name === mode ? "on" : ""}
+          aria-checked={name === mode}
+          tabIndex={name === (mode ?? "PROGRAM") ? 0 : -1}
+          disabled={!online}
+          onClick={() => void choose(name)}
+        >
+          {name}
+        </button>
+      ))}
+      {refused && (
+        <span className="sr" role="alert">
+          {refused}
+        </span>
+      )}
+    </div>
+  );
+}

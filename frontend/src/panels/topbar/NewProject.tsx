@@ -1,0 +1,73 @@
+import { useEffect, useState } from "react";
+import { t } from "../../logic/text";
+import { createProject } from "../../store/bench";
+import { messageOf } from "../../store/documents";
+import { listModels } from "../../store/models";
+import { Dialog } from "../../ui/Dialog";
+import { Field } from "../../ui/Field";
+import type { ModelSummary } from "../../wire/types";
+
+/** Asks for the name, the PLC model and the first instance of a new project. */
+export function NewProject({ onClose }: { onClose: () => void }) {
+  const [models, setModels] = useState<readonly ModelSummary[]>([]);
+  const [name, setName] = useState("");
+  const [model, setModel] = useState("");
+  const [instance, setInstance] = useState("plc-1");
+  const [refused, setRefused] = useState<string | null>(null);
+
+  useEffect(() => {
+    listModels()
+      .then((all) => {
+        setModels(all);
+        setModel((chosen) => chosen || (all.find((known) => known.name === "GENERIC-IEC") ?? all[0])?.name || "");
+      })
+      .catch((error: unknown) => setRefused(messageOf(error)));
+  }, []);
+
+  async function create(): Promise<void> {
+    if (name.trim() === "" || instance.trim() === "") {
+      setRefused(t("name.missing"));
+      return;
+    }
+    try {
+      await createProject(name.trim(), model, instance.trim());
+      onClose();
+    } catch (error) {
+      setRefused(messageOf(error));
+    }
+  }
+
+  return (
+    <Dialog
+      title={t("newproject.title")}
+      about={t("newproject.about")}
+      onClose={onClose}
+      onSubmit={() => void create()}
+      footer={
+        <>
+          <span className="grow" />
+          <button type="button" className="btn quiet" onClick={onClose}>
+            {t("cancel")}
+          </button>
+          <button type="submit" className="btn primary">
+            {t("create")}
+          </button>
+        </>
+      }
+    >
+      <Field label={t("newproject.name")} value={name} onChange={setName} autoFocus />
+      <label className="field">
+        <span>{t("newproject.model")}</span>
+        <select className="inp" value={model} onChange={(event) => setModel(event.target.value)}>
+          {models.map((known) => (
+            <option key={known.name} value={known.name}>
+              {known.vendor ? `${known.vendor} ${known.name}` : known.name}
+            </option>
+          ))}
+        </select>
+        <span className="hint">{models.find((known) => known.name === model)?.description}</span>
+      </label>
+      <Field label={t("newproject.instance")} value={instance} onChange={setInstance} refused={refused} />
+    </Dialog>
+  );
+}

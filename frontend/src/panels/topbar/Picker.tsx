@@ -1,0 +1,76 @@
+import { useState } from "react";
+import { t } from "../../logic/text";
+import { chooseInstance, chooseProject, refreshApp, useBench } from "../../store/bench";
+import { Icon } from "../../ui/Icon";
+import { MenuButton, type MenuItem } from "../../ui/Menu";
+import type { AppInfo } from "../../wire/types";
+import { NewInstance } from "./NewInstance";
+import { NewProject } from "./NewProject";
+
+type Asking = "project" | "instance" | null;
+
+/** Which project and which virtual PLC this browser looks at. */
+export function Picker() {
+  const { app, project, instance } = useBench();
+  const [asking, setAsking] = useState<Asking>(null);
+  const model = instance?.model ?? project?.model ?? "";
+  return (
+    <>
+      <MenuButton
+        label={t("picker.label")}
+        className="picker"
+        items={() => {
+          void refreshApp();
+          return app ? itemsOf(app, project?.id, instance?.id, setAsking) : [];
+        }}
+      >
+        <span className="two">
+          <span className="cut">
+            {project ? `${project.name}${instance ? ` / ${instance.name}` : ""}` : t("picker.none")}
+          </span>
+          <span className="cut">{project ? t("picker.about", { model, version: project.version }) : ""}</span>
+        </span>
+        <Icon name="chev-d" />
+      </MenuButton>
+      {asking === "project" && <NewProject onClose={() => setAsking(null)} />}
+      {asking === "instance" && project && <NewInstance project={project} onClose={() => setAsking(null)} />}
+    </>
+  );
+}
+
+function itemsOf(
+  app: AppInfo,
+  project: number | undefined,
+  instance: number | undefined,
+  ask: (what: Asking) => void,
+): MenuItem[] {
+  const instances = app.instances.map(
+    (known): MenuItem => ({
+      label: `${known.project.name} / ${known.name}`,
+      hint: known.model,
+      checked: known.id === instance,
+      onSelect: () => void chooseInstance(known),
+    }),
+  );
+  const idle = app.projects.filter((known) => !app.instances.some((other) => other.project.id === known.id));
+  const projects = idle.map(
+    (known): MenuItem => ({
+      label: known.name,
+      hint: t("picker.noinstance"),
+      checked: known.id === project && instance === undefined,
+      onSelect: () => void chooseProject(known),
+    }),
+  );
+  return [
+    ...instances,
+    ...projects,
+    {
+      label: t("picker.newinstance"),
+      icon: "plc",
+      separated: true,
+      disabled: project === undefined,
+      onSelect: () => ask("instance"),
+    },
+    { label: t("picker.newproject"), icon: "plus", onSelect: () => ask("project") },
+  ];
+}

@@ -1,0 +1,36 @@
+import { useEffect, useRef } from "react";
+import { grouped, microseconds, plcTime } from "../../logic/numbers";
+import { t } from "../../logic/text";
+import { bindClock } from "../../store/clock";
+import { usePlc } from "../../store/plc";
+
+/** Scan number and PLC time follow the frames without React; the cycle time comes with the state. */
+export function Readings() {
+  const scan = useRef<HTMLSpanElement>(null);
+  const time = useRef<HTMLSpanElement>(null);
+  const cycle = usePlc((plc) => plc.state?.cycle_us ?? null);
+  useEffect(
+    () =>
+      bindClock((now) => {
+        if (scan.current) scan.current.textContent = grouped(now.scan);
+        if (time.current) time.current.textContent = plcTime(now.timeNs);
+      }),
+    [],
+  );
+  return (
+    <div className="reads">
+      <div className="read r-scan">
+        <span>{t("read.scan")}</span>
+        <span ref={scan} data-testid="scan" />
+      </div>
+      <div className="read r-time">
+        <span>{t("read.time")}</span>
+        <span ref={time} data-testid="plc-time" />
+      </div>
+      <div className="read r-cycle" title={t("read.cycle.about")}>
+        <span>{t("read.cycle")}</span>
+        <span data-testid="cycle">{cycle === null ? "–" : microseconds(cycle)}</span>
+      </div>
+    </div>
+  );
+}

@@ -1,0 +1,54 @@
+import type { KeyboardEvent } from "react";
+import { t } from "../../logic/text";
+import type { ValueRow } from "../../logic/watchrows";
+import { select, setDraft, useWatchList, write } from "../../store/watchlist";
+import { Icon } from "../../ui/Icon";
+import type { PlcSymbol } from "../../wire/types";
+
+/** Where a value is typed. Enter writes it; what was refused stays, with the reason below. */
+export function ChangeCell({ row, symbol, forced }: { row: ValueRow; symbol: PlcSymbol | null; forced: boolean }) {
+  const draft = useWatchList((list) => list.drafts.get(row.path)) ?? "";
+  const bad = useWatchList((list) => list.notes.get(row.path)?.kind === "refused");
+
+  if (!symbol || symbol.expandable) return <span className="edit" role="gridcell" />;
+  if (!symbol.writable) {
+    return (
+      <span className="edit" role="gridcell">
+        <span className="readonly">{t("watch.readonly")}</span>
+      </span>
+    );
+  }
+
+  function onKeyDown(event: KeyboardEvent<HTMLInputElement>): void {
+    if (event.key === "Enter" && draft !== "") void write(row.path, draft);
+    else if (event.key === "Escape") {
+      setDraft(row.path, "");
+      event.currentTarget.closest<HTMLElement>("[role=treegrid]")?.focus();
+    } else return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  return (
+    <span className={`edit${bad ? " bad" : ""}`} role="gridcell">
+      {bad && <Icon name="error" />}
+      {forced && draft === "" && (
+        <span className="st forced over">
+          <Icon name="forced" />
+          {t("forced")}
+        </span>
+      )}
+      <input
+        aria-label={t("watch.change.of", { path: row.path })}
+        aria-invalid={bad}
+        value={draft}
+        spellCheck={false}
+        autoComplete="off"
+        tabIndex={-1}
+        onFocus={() => select(row.path)}
+        onChange={(event) => setDraft(row.path, event.target.value)}
+        onKeyDown={onKeyDown}
+      />
+    </span>
+  );
+}

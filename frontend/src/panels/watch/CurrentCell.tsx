@@ -1,0 +1,82 @@
+import { useEffect, useRef } from "react";
+import { t } from "../../logic/text";
+import type { Format } from "../../logic/values";
+import { useMembers } from "../../store/members";
+import { bindCell } from "../../store/values";
+import { Icon } from "../../ui/Icon";
+import type { PlcSymbol, Refusal } from "../../wire/types";
+
+interface Props {
+  path: string;
+  symbol: PlcSymbol | null;
+  refusal: Refusal | null;
+  format: Format;
+}
+
+/** The live value. Frames write into this cell directly; React only places it. */
+export function CurrentCell({ path, symbol, refusal, format }: Props) {
+  if (refusal) {
+    return (
+      <span className="val sum bad" role="gridcell" title={refusal.message}>
+        {t("watch.notfound")}
+      </span>
+    );
+  }
+  if (symbol?.expandable) return <MemberCount path={path} />;
+  return <LiveCell path={path} known={symbol !== null} format={format} />;
+}
+
+function MemberCount({ path }: { path: string }) {
+  const count = useMembers((members) => members.of.get(path)?.length);
+  return (
+    <span className="val sum" role="gridcell">
+      {count === undefined ? "" : t("watch.members", { count })}
+    </span>
+  );
+}
+
+const FADE_AFTER = 120;
+const MARK_FOR = 1000;
+
+function LiveCell({ path, known, format }: { path: string; known: boolean; format: Format }) {
+  const cell = useRef<HTMLSpanElement>(null);
+  const lamp = useRef<HTMLSpanElement>(null);
+  const text = useRef<HTMLSpanElement>(null);
+
+  // biome-ignore lint/correctness/useExhaustiveDependencies: when the symbol comes, what stands here is read again
+  useEffect(() => {
+    let fade: ReturnType<typeof setTimeout> | undefined;
+    let unmark: ReturnType<typeof setTimeout> | undefined;
+    const unbind = bindCell(path, format, (reading) => {
+      if (text.current) text.current.textContent = reading.text;
+      lamp.current?.classList.toggle("on", reading.lamp === true);
+      lamp.current?.toggleAttribute("hidden", reading.lamp === null);
+      text.current?.classList.toggle("bw", reading.lamp !== null);
+      if (!reading.changed) return;
+      cell.current?.classList.add("flash", "changed");
+      clearTimeout(fade);
+      clearTimeout(unmark);
+      fade = setTimeout(() => cell.current?.classList.remove("flash"), FADE_AFTER);
+      unmark = setTimeout(() => cell.current?.classList.remove("changed"), MARK_FOR);
+    });
+    return () => {
+      unbind();
+      clearTimeout(fade);
+      clearTimeout(unmark);
+    };
+  }, [path, format, known]);
+
+  return (
+    <span
+      ref={cell}
+      className="val"
+      role="gridcell"
+      aria-label={t("watch.current.of", { path })}
+      data-testid={`current:${path}`}
+    >
+      <Icon name="changed" />
+      <span ref={lamp} className="lamp" hidden />
+      <span ref={text} className="txt" />
+    </span>
+  );
+}

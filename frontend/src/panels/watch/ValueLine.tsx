@@ -1,0 +1,110 @@
+import type { CSSProperties } from "react";
+import { splitPath } from "../../logic/paths";
+import { t } from "../../logic/text";
+import type { ValueRow } from "../../logic/watchrows";
+import { useForces } from "../../store/forces";
+import { useWatches } from "../../store/watches";
+import { releaseForce, removeFromWatch, select, toggleOpen, useWatchList } from "../../store/watchlist";
+import { Icon } from "../../ui/Icon";
+import { IconButton } from "../../ui/IconButton";
+import { ChangeCell } from "./ChangeCell";
+import { CurrentCell } from "./CurrentCell";
+
+interface Props {
+  row: ValueRow;
+  style: CSSProperties;
+  index: number;
+  selected: boolean;
+  onMenu: (at: { x: number; y: number }) => void;
+}
+
+/** One variable or address of the watch table. */
+export function ValueLine({ row, style, index, selected, onMenu }: Props) {
+  const answered = useWatches((state) => state.symbols.get(row.path));
+  const refusal = useWatches((state) => state.refusals.get(row.path));
+  const forced = useForces((forces) => forces.paths.has(row.path));
+  const by = useForces((forces) => forces.written.get(row.path));
+  const format = useWatchList((list) => list.formats.get(row.path)) ?? "default";
+  const symbol = row.symbol ?? answered ?? null;
+  const { own, name } = row.level === 0 ? splitPath(row.path) : { own: "", name: memberName(row) };
+  const title = [row.path, by ? t("watch.writtenby", { author: by.author, scan: by.scan }) : ""]
+    .filter(Boolean)
+    .join("\n");
+
+  return (
+    <div
+      id={`watch-${index}`}
+      className={`gr${selected ? " on" : ""}`}
+      role="row"
+      style={style}
+      aria-rowindex={index + 2}
+      aria-level={row.level + 1}
+      aria-expanded={symbol?.expandable ? row.open : undefined}
+      aria-selected={selected}
+      data-path={row.path}
+      onClick={() => select(row.path)}
+      onContextMenu={(event) => {
+        event.preventDefault();
+        select(row.path);
+        onMenu({ x: event.clientX, y: event.clientY });
+      }}
+    >
+      <span className="gut" role="gridcell">
+        {forced && (
+          <button
+            type="button"
+            className="lock st forced"
+            tabIndex={-1}
+            aria-label={t("force.release.path", { path: row.path })}
+            title={t("force.release")}
+            onClick={() => void releaseForce(row.path)}
+          >
+            <Icon name="forced" small />
+          </button>
+        )}
+      </span>
+      <span className="name" role="gridcell" title={title}>
+        {symbol?.expandable ? (
+          <button
+            type="button"
+            className="twist"
+            tabIndex={-1}
+            aria-label={t(row.open ? "watch.fold" : "watch.unfold", { path: row.path })}
+            onClick={() => void toggleOpen(row.path)}
+          >
+            <Icon name={row.open ? "chev-d" : "chev-r"} className="tw" />
+          </button>
+        ) : (
+          <span className="tw" />
+        )}
+        <span className="cut">
+          <span className="own">{own}</span>
+          {name}
+        </span>
+      </span>
+      <CurrentCell path={row.path} symbol={symbol} refusal={refusal ?? null} format={format} />
+      <ChangeCell row={row} symbol={symbol} forced={forced} />
+      <span className="mono muted c-type" role="gridcell" title={symbol?.type}>
+        {symbol?.type ?? ""}
+      </span>
+      <span className="mono muted" role="gridcell">
+        {symbol ? (symbol.address ?? "–") : ""}
+      </span>
+      <span className="end" role="gridcell">
+        {row.level === 0 && (
+          <IconButton
+            icon="x"
+            small
+            label={t("watch.remove.path", { path: row.path })}
+            onClick={() => removeFromWatch(row.root)}
+          />
+        )}
+      </span>
+    </div>
+  );
+}
+
+// A member shows only what it adds to its owner: `[1]` or `run`.
+function memberName(row: ValueRow): string {
+  return row.symbol?.name || splitPath(row.path).name;
+}

@@ -1,0 +1,104 @@
+/** What there is on this server, and what this browser looks at: project, instance, model. */
+import { create } from "zustand";
+import { skeleton } from "../logic/explorer";
+import { Refused, rest } from "../wire/rest";
+import { link } from "../wire/socket";
+import type { AppInfo, Instance, ModelInfo, Project } from "../wire/types";
+import { loadProject, messageOf } from "./documents";
+import { resetForces } from "./forces";
+import { keep, recall } from "./keep";
+import { resetMembers } from "./members";
+import { resetPlc } from "./plc";
+import { resetSimulator } from "./simulator";
+import { loadWatchList } from "./watchlist";
+
+interface Bench {
+  phase: "loading" | "ready" | "locked" | "failed";
+  problem: string;
+  app: AppInfo | null;
+  project: Project | null;
+  instance: Instance | null;
+  model: ModelInfo | null;
+}
+
+export const useBench = create<Bench>(() => ({
+  phase: "loading",
+  problem: "",
+  app: null,
+  project: null,
+  instance: null,
+  model: null,
+}));
+
+const get = useBench.getState;
+const set = useBench.setState;
+
+/** First thing on the page: what is here, then what was looked at last time, else the first instance. */
+export async function start(): Promise<void> {
+  try {
+    const app = await rest.app();
+    set({ app, phase: "ready" });
+    const last = recall<number | null>("instance", null);
+    const instance = app.instances.find((known) => known.id === last) ?? app.instances[0];
+    if (instance) await chooseInstance(instance);
+    else if (app.projects[0]) await chooseProject(app.projects[0]);
+  } catch (error) {
+    const locked = error instanceof Refused && (error.status === 401 || error.status === 403);
+    set({ phase: locked ? "locked" : "failed", problem: messageOf(error) });
+  }
+}
+
+export async function chooseInstance(instance: Instance): Promise<void> {
+  keep("instance", instance.id);
+  await look(instance.project, instance);
+}
+
+/** A project without an instance can be edited and built, not run. */
+export async function chooseProject(project: Project): Promise<void> {
+  await look(project, null);
+}
+
+async function look(project: Project, instance: Instance | null): Promise<void> {
+  const other = get().project?.id !== project.id;
+  set({ project, instance, model: null });
+  link.connect(null);
+  resetPlc();
+  resetForces();
+  resetSimulator();
+  resetMembers(instance?.id ?? null);
+  link.connect(instance?.id ?? null);
+  loadWatchList(instance?.id ?? null, instance?.project.watch ?? []);
+  await Promise.all([other ? loadProject(project.id) : null, loadModel(instance?.model ?? project.model)]);
+}
+
+async function loadModel(name: string): Promise<void> {
+  const model = await rest.model(name);
+  set({ model });
+}
+
+/** Makes a project with a first program and an instance that runs it. Throws what the server said when it refuses. */
+export async function createProject(name: string, model: string, instanceName: string): Promise<void> {
+  const project = await rest.createProject(name, model);
+  if ((await rest.files(project.id)).length === 0) await rest.save(project.id, "Main.st", skeleton("Main.st"), 0);
+  const built = await rest.build(project.id);
+  if (built.ok) await createInstance(built.project, instanceName);
+  else {
+    await refreshApp();
+    await chooseProject(project);
+  }
+}
+
+export async function createInstance(project: Project, name: string): Promise<void> {
+  const instance = await rest.createInstance(project.id, name);
+  await refreshApp();
+  await chooseInstance(instance);
+}
+
+export async function refreshApp(): Promise<void> {
+  set({ app: await rest.app() });
+}
+
+/** A build was accepted: the version in the top bar moves on. */
+export function onProject(project: Project): void {
+  if (get().project?.id === project.id) set({ project });
+}

@@ -1,0 +1,27 @@
+/** Paths that begin with what is typed. An answer that fails is no offer; the entry itself will say why. */
+import { rest } from "../wire/rest";
+import type { PlcSymbol } from "../wire/types";
+import { useBench } from "./bench";
+import { loadMembers } from "./members";
+
+export async function complete(text: string): Promise<readonly PlcSymbol[]> {
+  const instance = useBench.getState().instance;
+  if (!instance) return [];
+  try {
+    return await rest.complete(instance.id, text);
+  } catch {
+    return [];
+  }
+}
+
+/** Every variable of the programs and the globals: what one wants to see first. */
+export async function topVariables(): Promise<string[]> {
+  const top = await loadMembers("");
+  const paths: string[] = [];
+  for (const symbol of top) {
+    const isProgram = symbol.kind === "block" && symbol.expandable;
+    if (isProgram) paths.push(...(await loadMembers(symbol.path)).map((member) => member.path));
+    else paths.push(symbol.path);
+  }
+  return paths;
+}

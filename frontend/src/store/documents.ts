@@ -1,0 +1,259 @@
+/** The files of the project being edited: texts, what is not saved yet, live diagnostics and builds. */
+import { create } from "zustand";
+import { skeleton } from "../logic/explorer";
+import { rest } from "../wire/rest";
+import type { BuildResult, FileInfo, FileText, Pou, Problem } from "../wire/types";
+import { forget, keep, recall } from "./keep";
+
+export interface Document {
+  path: string;
+  text: string;
+  savedText: string;
+  /** The stored version that the text began from. */
+  version: number;
+  savedAt: number | null;
+  /** Somebody saved meanwhile: theirs, to be shown beside mine. */
+  conflict: FileText | null;
+}
+
+interface Draft {
+  text: string;
+  version: number;
+}
+
+export type BuildState =
+  | { phase: "idle" }
+  | { phase: "running" }
+  | { phase: "done"; ok: boolean; message: string; author: string | null };
+
+interface Documents {
+  project: number | null;
+  files: readonly FileInfo[];
+  open: Readonly<Record<string, Document>>;
+  active: string | null;
+  cursor: { line: number; column: number } | null;
+  pous: readonly Pou[];
+  problems: readonly Problem[];
+  build: BuildState;
+  /** Something that failed and is not about one line: shown at the top of the problem list. */
+  trouble: string | null;
+}
+
+const nothing: Omit<Documents, "project"> = {
+  files: [],
+  open: {},
+  active: null,
+  cursor: null,
+  pous: [],
+  problems: [],
+  build: { phase: "idle" },
+  trouble: null,
+};
+
+export const useDocuments = create<Documents>(() => ({ project: null, ...nothing }));
+
+const get = useDocuments.getState;
+const set = useDocuments.setState;
+
+export const isDirty = (document: Document | undefined) =>
+  document !== undefined && document.text !== document.savedText;
+
+const draftKey = (project: number, path: string) => `draft.${project}.${path}`;
+
+function patch(path: string, change: Partial<Document>): void {
+  set(({ open }) => {
+    const document = open[path];
+    return document ? { open: { ...open, [path]: { ...document, ...change } } } : {};
+  });
+}
+
+/** Shows another project: its files, and what the compiler says about them. */
+export async function loadProject(project: number): Promise<void> {
+  set({ project, ...nothing });
+  await refreshFiles();
+  await check();
+}
+
+export async function refreshFiles(): Promise<void> {
+  const { project } = get();
+  if (project === null) return;
+  const files = await rest.files(project);
+  if (get().project === project) set({ files });
+}
+
+/** Fetches a file for editing; an unsaved text of last time is taken up again. */
+export async function openDocument(path: string): Promise<void> {
+  const { project, open } = get();
+  if (project === null || open[path]) return;
+  const stored = await rest.file(project, path);
+  if (get().project !== project || get().open[path]) return;
+  const draft = recall<Draft | null>(draftKey(project, path), null);
+  const document: Document = {
+    path,
+    text: draft?.text ?? stored.text,
+    savedText: stored.text,
+    version: draft?.version ?? stored.version,
+    savedAt: null,
+    conflict: null,
+  };
+  set((state) => ({ open: { ...state.open, [path]: document } }));
+  if (draft) scheduleCheck();
+}
+
+/** An unsaved text stays in the browser and comes back when the file is opened again. */
+export function closeDocument(path: string): void {
+  if (isDirty(get().open[path])) scheduleCheck();
+  set(({ open, active }) => {
+    const { [path]: _closed, ...rest } = open;
+    return { open: rest, active: active === path ? null : active };
+  });
+}
+
+export function edit(path: string, text: string): void {
+  const { project, open } = get();
+  const document = open[path];
+  if (project === null || !document || document.text === text) return;
+  patch(path, { text });
+  if (text === document.savedText) forget(draftKey(project, path));
+  else keep(draftKey(project, path), { text, version: document.version } satisfies Draft);
+  scheduleCheck();
+}
+
+/** Saves one file. False when it was not saved, because somebody else saved first or the server refused. */
+export async function save(path: string): Promise<boolean> {
+  const { project, open } = get();
+  const document = open[path];
+  if (project === null || !document) return false;
+  if (!isDirty(document)) return true;
+  const { text } = document;
+  try {
+    const result = await rest.save(project, path, text, document.version);
+    if ("conflict" in result) {
+      patch(path, { conflict: result.conflict.theirs });
+      return false;
+    }
+    stored(path, text, result.saved);
+    set({ trouble: null });
+    return true;
+  } catch (error) {
+    set({ trouble: `${path}: ${messageOf(error)}` });
+    return false;
+  }
+}
+
+function stored(path: string, text: string, file: FileInfo): void {
+  const { project, open, files } = get();
+  patch(path, { savedText: text, version: file.version, savedAt: Date.now(), conflict: null });
+  if (project !== null && open[path]?.text === text) forget(draftKey(project, path));
+  const others = files.filter((known) => known.path !== path);
+  set({ files: [...others, file].sort((a, b) => a.path.localeCompare(b.path)) });
+}
+
+/** Ends a conflict: mine is based on theirs and saved again, or theirs replaces mine. */
+export async function resolveConflict(path: string, choice: "mine" | "theirs"): Promise<void> {
+  const { project, open } = get();
+  const theirs = open[path]?.conflict;
+  if (project === null || !theirs) return;
+  if (choice === "theirs") {
+    patch(path, { text: theirs.text, savedText: theirs.text, version: theirs.version, conflict: null });
+    forget(draftKey(project, path));
+    scheduleCheck();
+    return;
+  }
+  patch(path, { savedText: theirs.text, version: theirs.version, conflict: null });
+  await save(path);
+}
+
+/** Saves what is not saved, then builds; the running instances get the new program in their seams. */
+export async function build(): Promise<void> {
+  const { project, open } = get();
+  if (project === null || get().build.phase === "running") return;
+  set({ build: { phase: "running" } });
+  try {
+    for (const document of Object.values(open)) {
+      if (!(await save(document.path))) {
+        set({ build: { phase: "idle" } });
+        return;
+      }
+    }
+    onBuilt(await rest.build(project), null);
+  } catch (error) {
+    set({ build: { phase: "done", ok: false, message: messageOf(error), author: null } });
+  }
+}
+
+export function onBuilt(result: BuildResult, author: string | null): void {
+  if (get().project !== result.project.id) return;
+  set({ build: { phase: "done", ok: result.ok, message: result.message, author } });
+  const dirty = Object.values(get().open).some(isDirty);
+  if (dirty) scheduleCheck();
+  else set({ problems: result.problems, ...(result.pous.length > 0 ? { pous: result.pous } : {}) });
+}
+
+/** Somebody (perhaps this browser) saved: a clean text follows, an edited one waits for its own save to show both. */
+export async function onSaved(file: FileInfo): Promise<void> {
+  const { project, open, files } = get();
+  const document = open[file.path];
+  if (!files.some((known) => known.path === file.path)) await refreshFiles();
+  if (project === null || !document || isDirty(document) || file.version <= document.version) {
+    scheduleCheck();
+    return;
+  }
+  const fresh = await rest.file(project, file.path);
+  const now = get().open[file.path];
+  if (now && !isDirty(now) && fresh.version > now.version) {
+    patch(file.path, { text: fresh.text, savedText: fresh.text, version: fresh.version });
+  }
+  scheduleCheck();
+}
+
+/** Makes a new file with the frame of what its name promises. Throws what the server said when it refuses. */
+export async function createFile(path: string): Promise<void> {
+  const { project } = get();
+  if (project === null) return;
+  const result = await rest.save(project, path, skeleton(path), 0);
+  if ("conflict" in result) throw new Error(result.conflict.message);
+  await refreshFiles();
+  scheduleCheck();
+}
+
+export async function deleteFile(path: string): Promise<void> {
+  const { project } = get();
+  if (project === null) return;
+  await rest.deleteFile(project, path);
+  forget(draftKey(project, path));
+  closeDocument(path);
+  await refreshFiles();
+  scheduleCheck();
+}
+
+const CHECK_DELAY = 120;
+let checkTimer: ReturnType<typeof setTimeout> | undefined;
+let checkTurn = 0;
+
+function scheduleCheck(): void {
+  clearTimeout(checkTimer);
+  checkTimer = setTimeout(() => void check(), CHECK_DELAY);
+}
+
+/** Asks the compiler about the texts as they stand; an answer that was overtaken is dropped. */
+async function check(): Promise<void> {
+  const { project, open } = get();
+  if (project === null) return;
+  checkTurn += 1;
+  const turn = checkTurn;
+  const dirty = Object.values(open).filter(isDirty);
+  try {
+    const result = await rest.check(
+      project,
+      Object.fromEntries(dirty.map((document) => [document.path, document.text])),
+    );
+    if (turn === checkTurn && get().project === project) set({ problems: result.problems, pous: result.pous });
+  } catch (error) {
+    if (turn === checkTurn) set({ trouble: messageOf(error) });
+  }
+}
+
+export function messageOf(error: unknown): string {
+  return error instanceof Error ? error.message : String(error);
+}

@@ -1,0 +1,37 @@
+/** The members of structures, arrays and blocks of the running program, fetched when something is unfolded. */
+import { create } from "zustand";
+import { rest } from "../wire/rest";
+import type { PlcSymbol } from "../wire/types";
+
+interface Members {
+  instance: number | null;
+  of: ReadonlyMap<string, readonly PlcSymbol[]>;
+  /** Why a path could not be unfolded. */
+  refused: ReadonlyMap<string, string>;
+}
+
+export const useMembers = create<Members>(() => ({ instance: null, of: new Map(), refused: new Map() }));
+
+/** Another instance, or another program in it: nothing that was fetched holds any more. */
+export function resetMembers(instance: number | null): void {
+  useMembers.setState({ instance, of: new Map(), refused: new Map() });
+}
+
+/** Fetches the members below a path ('' is the top: programs and globals), once. */
+export async function loadMembers(path: string): Promise<readonly PlcSymbol[]> {
+  const { instance, of } = useMembers.getState();
+  const known = of.get(path);
+  if (known) return known;
+  if (instance === null) return [];
+  try {
+    const symbols = await rest.symbols(instance, path);
+    if (useMembers.getState().instance === instance) {
+      useMembers.setState((state) => ({ of: new Map(state.of).set(path, symbols) }));
+    }
+    return symbols;
+  } catch (error) {
+    const message = error instanceof Error ? error.message : String(error);
+    useMembers.setState((state) => ({ refused: new Map(state.refused).set(path, message) }));
+    return [];
+  }
+}

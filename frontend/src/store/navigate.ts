@@ -1,0 +1,36 @@
+/** Going to places: panels ask, the shell (which knows the docking) does it. */
+import { create } from "zustand";
+
+export type PanelName = "watch" | "problems" | "log" | "errors" | "history";
+
+interface Place {
+  path: string;
+  line: number;
+  column: number;
+  /** Counts the requests, so that going to the same place twice works twice. */
+  turn: number;
+}
+
+interface Navigation {
+  /** Where the editor of a file shall put the caret. */
+  place: Place | null;
+}
+
+export const useNavigation = create<Navigation>(() => ({ place: null }));
+
+type Opener = { file: (path: string) => void; panel: (name: PanelName) => void };
+let opener: Opener = { file: () => undefined, panel: () => undefined };
+
+export function onNavigate(next: Opener): void {
+  opener = next;
+}
+
+export function openFile(path: string, line?: number, column = 1): void {
+  opener.file(path);
+  if (line === undefined) return;
+  useNavigation.setState(({ place }) => ({ place: { path, line, column, turn: (place?.turn ?? 0) + 1 } }));
+}
+
+export function showPanel(name: PanelName): void {
+  opener.panel(name);
+}

@@ -1,0 +1,65 @@
+/** The virtual PLC this browser is connected to: state, users, errors and log, as the server last told. */
+import { create } from "zustand";
+import type { LinkStatus } from "../wire/socket";
+import type { ErrorHistoryRow, Hello, InstanceState, LogLine, User } from "../wire/types";
+import { setClock } from "./clock";
+
+export type { LinkStatus } from "../wire/socket";
+
+const LOG_LIMIT = 5000;
+
+interface Plc {
+  link: LinkStatus;
+  state: InstanceState | null;
+  you: User | null;
+  users: User[];
+  errors: ReadonlyMap<string, ErrorHistoryRow>;
+  log: readonly LogLine[];
+}
+
+const nothing: Plc = {
+  link: { state: "none", lostAt: null, attempt: 0, nextTryAt: null },
+  state: null,
+  you: null,
+  users: [],
+  errors: new Map(),
+  log: [],
+};
+
+export const usePlc = create<Plc>(() => nothing);
+
+/** True when commands can be given. */
+export const useOnline = () => usePlc((plc) => plc.link.state === "open");
+
+export function resetPlc(): void {
+  usePlc.setState({ ...nothing, link: usePlc.getState().link });
+}
+
+export function onHello(hello: Hello): void {
+  const { state } = hello.instance;
+  setClock(state.scan, state.time_ns);
+  usePlc.setState({
+    state,
+    you: hello.you,
+    users: hello.users,
+    errors: new Map(hello.errors.map((row) => [row.id, row])),
+    log: hello.log,
+  });
+}
+
+export function onState(state: InstanceState): void {
+  setClock(state.scan, state.time_ns);
+  usePlc.setState({ state });
+}
+
+export function onErrors(rows: readonly ErrorHistoryRow[]): void {
+  usePlc.setState(({ errors }) => {
+    const next = new Map(errors);
+    for (const row of rows) next.set(row.id, row);
+    return { errors: next };
+  });
+}
+
+export function onLog(lines: readonly LogLine[]): void {
+  usePlc.setState(({ log }) => ({ log: [...log, ...lines].slice(-LOG_LIMIT) }));
+}

@@ -1,0 +1,48 @@
+/** What this browser prefers: theme and language. `public/theme.js` reads the same entry before the first paint. */
+import { create } from "zustand";
+import { type Language, languages, setLanguage } from "../logic/text";
+import { keep, recall } from "./keep";
+
+export const themes = ["dark", "light", "contrast"] as const;
+export type Theme = (typeof themes)[number];
+
+interface Prefs {
+  theme: Theme;
+  language: Language;
+}
+
+function systemLanguage(): Language {
+  const first = navigator.language.slice(0, 2);
+  return languages.find((language) => language === first) ?? "en";
+}
+
+function initial(): Prefs {
+  const kept = recall<Partial<Prefs>>("prefs", {});
+  const painted = document.documentElement.dataset.theme as Theme | undefined;
+  return {
+    theme: painted ?? "dark",
+    language: languages.find((language) => language === kept.language) ?? systemLanguage(),
+  };
+}
+
+export const usePrefs = create<Prefs>(initial);
+
+function apply({ theme, language }: Prefs): void {
+  document.documentElement.dataset.theme = theme;
+  document.documentElement.lang = language;
+  setLanguage(language);
+}
+
+apply(usePrefs.getState());
+usePrefs.subscribe((prefs) => {
+  apply(prefs);
+  keep("prefs", prefs);
+});
+
+export function nextTheme(): void {
+  usePrefs.setState(({ theme }) => ({ theme: themes[(themes.indexOf(theme) + 1) % themes.length] ?? "dark" }));
+}
+
+export function chooseLanguage(language: Language): void {
+  usePrefs.setState({ language });
+}

@@ -1,0 +1,155 @@
+/**
+ * The live values: one typed array, written by frames, read by cells. Cells are functions that write to the page
+ * themselves; React does not see twenty frames a second.
+ */
+import { type Format, formatString, formatValue, hexWord, lampOf } from "../logic/values";
+import type { Frame } from "../wire/frames";
+import type { PlcSymbol } from "../wire/types";
+
+export interface Reading {
+  text: string;
+  lamp: boolean | null;
+  changed: boolean;
+}
+
+export type CellFormat = Format | "word";
+type Cell = { show: (reading: Reading) => void; format: CellFormat };
+
+interface Entry {
+  slot: number;
+  symbol: PlcSymbol | null;
+  string: string | null;
+  /** False until the first value arrives: a first value is no change. */
+  known: boolean;
+  changed: boolean;
+  cells: Set<Cell>;
+}
+
+let bytes = new Uint8Array(8 * 256);
+let view = new DataView(bytes.buffer);
+const freeSlots: number[] = [];
+let slots = 0;
+const entries = new Map<string, Entry>();
+const byId = new Map<number, Entry>();
+const dirty = new Set<Entry>();
+let scheduled = false;
+
+function entryOf(path: string): Entry {
+  let entry = entries.get(path);
+  if (!entry) {
+    entry = { slot: takeSlot(), symbol: null, string: null, known: false, changed: false, cells: new Set() };
+    entries.set(path, entry);
+  }
+  return entry;
+}
+
+function takeSlot(): number {
+  const free = freeSlots.pop();
+  if (free !== undefined) return free;
+  if ((slots + 1) * 8 > bytes.length) {
+    const wider = new Uint8Array(bytes.length * 2);
+    wider.set(bytes);
+    bytes = wider;
+    view = new DataView(bytes.buffer);
+  }
+  slots += 1;
+  return slots - 1;
+}
+
+/** The server's id for a path, as long as the program stays the same. */
+export function assign(path: string, id: number, symbol: PlcSymbol): void {
+  const entry = entryOf(path);
+  if (entry.symbol?.type !== symbol.type) entry.known = false;
+  entry.symbol = symbol;
+  byId.set(id, entry);
+}
+
+/** No id is valid any more: the connection or the program changed. Values stay, they are the last known ones. */
+export function forgetIds(): void {
+  byId.clear();
+}
+
+/** Nobody watches this path any more. */
+export function drop(path: string): void {
+  const entry = entries.get(path);
+  if (!entry || entry.cells.size > 0) return;
+  entries.delete(path);
+  dirty.delete(entry);
+  freeSlots.push(entry.slot);
+}
+
+export function apply(frame: Frame): void {
+  for (let i = 0; i < frame.ids.length; i += 1) {
+    const entry = byId.get(frame.ids[i] ?? -1);
+    if (entry) take(entry, frame.values, i * 8);
+  }
+  for (const { id, text } of frame.strings) {
+    const entry = byId.get(id);
+    if (!entry) continue;
+    mark(entry, entry.known && entry.string !== text);
+    entry.string = text;
+  }
+  schedule();
+}
+
+function take(entry: Entry, values: Uint8Array, from: number): void {
+  const to = entry.slot * 8;
+  let differs = false;
+  for (let b = 0; b < 8; b += 1) {
+    const byte = values[from + b] ?? 0;
+    if (bytes[to + b] !== byte) {
+      bytes[to + b] = byte;
+      differs = true;
+    }
+  }
+  if (differs || !entry.known) mark(entry, entry.known && differs);
+}
+
+function mark(entry: Entry, changed: boolean): void {
+  entry.changed ||= changed;
+  entry.known = true;
+  dirty.add(entry);
+}
+
+function schedule(): void {
+  if (scheduled || dirty.size === 0) return;
+  scheduled = true;
+  requestAnimationFrame(flush);
+}
+
+function flush(): void {
+  scheduled = false;
+  for (const entry of dirty) {
+    for (const cell of entry.cells) cell.show(read(entry, cell.format));
+    entry.changed = false;
+  }
+  dirty.clear();
+}
+
+function read(entry: Entry, format: CellFormat): Reading {
+  const { symbol } = entry;
+  const offset = entry.slot * 8;
+  if (!entry.known || !symbol) return { text: "", lamp: null, changed: false };
+  if (symbol.kind === "string") {
+    return { text: formatString(entry.string ?? ""), lamp: null, changed: entry.changed };
+  }
+  const text = format === "word" ? hexWord(view, offset) : formatValue(symbol, view, offset, format);
+  return { text, lamp: lampOf(symbol, view, offset), changed: entry.changed };
+}
+
+/** Shows the value of a path in a cell from now on, until the returned function is called. */
+export function bindCell(path: string, format: CellFormat, show: (reading: Reading) => void): () => void {
+  const entry = entryOf(path);
+  const cell: Cell = { show, format };
+  entry.cells.add(cell);
+  show({ ...read(entry, format), changed: false });
+  return () => {
+    entry.cells.delete(cell);
+  };
+}
+
+/** The text of a value as last seen, for copying and for forcing what stands there. */
+export function currentText(path: string): string {
+  const entry = entries.get(path);
+  return entry ? read(entry, "default").text : "";
+}

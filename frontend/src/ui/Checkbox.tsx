@@ -1,0 +1,30 @@
+import { useEffect, useRef } from "react";
+import type { Check } from "../logic/catalogue";
+
+interface Props {
+  label: string;
+  check: Check;
+  onToggle: () => void;
+  disabled?: boolean;
+}
+
+/** A box that is on, off, or half: some of what it stands for. */
+export function Checkbox({ label, check, onToggle, disabled }: Props) {
+  const box = useRef<HTMLInputElement>(null);
+  useEffect(() => {
+    if (box.current) box.current.indeterminate = check === "some";
+  }, [check]);
+  return (
+    <input
+      ref={box}
+      type="checkbox"
+      className="box"
+      aria-label={label}
+      checked={check === "all"}
+      disabled={disabled}
+      tabIndex={-1}
+      onClick={(event) => event.stopPropagation()}
+      onChange={onToggle}
+    />
+  );
+}

@@ -1,0 +1,54 @@
+import { type FormEvent, type ReactNode, useEffect, useId, useRef } from "react";
+import { t } from "../logic/text";
+import { Icon } from "./Icon";
+
+interface Props {
+  title: string;
+  /** The consequence, in one sentence. */
+  about?: string;
+  width?: number;
+  children: ReactNode;
+  footer: ReactNode;
+  onClose: () => void;
+  /** Enter in a field, or the primary button. */
+  onSubmit?: () => void;
+}
+
+/** A modal dialog: the browser traps the focus, Escape closes. */
+export function Dialog({ title, about, width = 460, children, footer, onClose, onSubmit }: Props) {
+  const dialog = useRef<HTMLDialogElement>(null);
+  const id = useId();
+  useEffect(() => {
+    dialog.current?.showModal();
+  }, []);
+  const submit = (event: FormEvent) => {
+    event.preventDefault();
+    onSubmit?.();
+  };
+  return (
+    <dialog
+      ref={dialog}
+      className="dialog"
+      style={{ width }}
+      aria-labelledby={id}
+      onCancel={(event) => {
+        event.preventDefault();
+        onClose();
+      }}
+    >
+      <form onSubmit={submit} method="dialog">
+        <header>
+          <div className="grow">
+            <h2 id={id}>{title}</h2>
+            {about && <p>{about}</p>}
+          </div>
+          <button type="button" className="ib" aria-label={t("close")} title={t("close")} onClick={onClose}>
+            <Icon name="x" />
+          </button>
+        </header>
+        <div className="page">{children}</div>
+        <footer>{footer}</footer>
+      </form>
+    </dialog>
+  );
+}

@@ -1,0 +1,39 @@
+import { useEffect, useRef } from "react";
+import { Icon } from "./Icon";
+
+interface Props {
+  label: string;
+  value: string;
+  onChange: (value: string) => void;
+  /** Why the entry was not taken; it stays as typed. */
+  refused?: string | null;
+  autoFocus?: boolean;
+}
+
+/** A line of text with its name above and, when refused, the reason below. */
+export function Field({ label, value, onChange, refused = null, autoFocus = false }: Props) {
+  const input = useRef<HTMLInputElement>(null);
+  useEffect(() => {
+    if (autoFocus) input.current?.focus();
+  }, [autoFocus]);
+  return (
+    <label className="field">
+      <span>{label}</span>
+      <input
+        ref={input}
+        className={`inp${refused ? " bad" : ""}`}
+        value={value}
+        spellCheck={false}
+        autoComplete="off"
+        aria-invalid={refused !== null}
+        onChange={(event) => onChange(event.target.value)}
+      />
+      {refused && (
+        <span className="hint bad" role="alert">
+          <Icon name="error" small />
+          {refused}
+        </span>
+      )}
+    </label>
+  );
+}

@@ -1,0 +1,9 @@
+import "react";
+
+// The design's rows carry their level, and grids their columns, as custom properties.
+declare module "react" {
+  interface CSSProperties {
+    "--lv"?: number;
+    "--cols"?: string;
+  }
+}

@@ -1,0 +1,57 @@
+/** Binary value frames: what the watch tap of the PLC's process sends. The layout is the backend's `web/frames.py`. */
+
+export const VALUES = 1;
+const HEADER_BYTES = 24;
+
+export interface Frame {
+  /** A snapshot of every watched value; otherwise only what changed. */
+  full: boolean;
+  scan: number;
+  /** PLC time in nanoseconds; exact up to 104 days, which is enough to show it. */
+  timeNs: number;
+  ids: Uint32Array;
+  /** Eight bytes for each id, in the order of `ids`: the raw little-endian bytes of the variable, zero padded. */
+  values: Uint8Array;
+  strings: { id: number; text: string }[];
+}
+
+/** Reads one frame without copying the values; throws on a frame that is not ours. */
+export function parseFrame(buffer: ArrayBuffer): Frame {
+  const view = new DataView(buffer);
+  if (buffer.byteLength < HEADER_BYTES) throw new Error(`value frame of ${buffer.byteLength} bytes is too short`);
+  const kind = view.getUint8(0);
+  if (kind !== VALUES) throw new Error(`unknown frame kind ${kind}`);
+  const count = view.getUint32(4, true);
+  const valuesAt = HEADER_BYTES + Math.ceil((count * 4) / 8) * 8;
+  const stringsAt = valuesAt + count * 8;
+  if (buffer.byteLength < stringsAt + 4) throw new Error(`value frame is cut off: ${count} values announced`);
+  return {
+    full: view.getUint8(1) === 1,
+    scan: Number(view.getBigUint64(8, true)),
+    timeNs: Number(view.getBigInt64(16, true)),
+    ids: new Uint32Array(buffer, HEADER_BYTES, count),
+    values: new Uint8Array(buffer, valuesAt, count * 8),
+    strings: parseStrings(buffer, view, stringsAt),
+  };
+}
+
+function parseStrings(buffer: ArrayBuffer, view: DataView, start: number): { id: number; text: string }[] {
+  const strings: { id: number; text: string }[] = [];
+  const count = view.getUint32(start, true);
+  let at = start + 4;
+  for (let i = 0; i < count; i += 1) {
+    const id = view.getUint32(at, true);
+    const length = view.getUint32(at + 4, true);
+    const bytes = new Uint8Array(buffer, at + 8, length);
+    strings.push({ id, text: latin1(bytes) });
+    at += 8 + length;
+  }
+  return strings;
+}
+
+// Not TextDecoder: its "latin1" is windows-1252, which differs in 0x80 to 0x9F.
+function latin1(bytes: Uint8Array): string {
+  let text = "";
+  for (const byte of bytes) text += String.fromCharCode(byte);
+  return text;
+}

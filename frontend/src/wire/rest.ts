@@ -1,0 +1,83 @@
+/** The REST routes of the backend (`web/README.md` there), typed and thin. */
+import type {
+  AppInfo,
+  BuildResult,
+  CheckResult,
+  FileInfo,
+  FileText,
+  Instance,
+  ModelInfo,
+  ModelSummary,
+  PlcSymbol,
+  Project,
+  Refusal,
+  SaveConflict,
+} from "./types";
+
+/** A request that the server refused: what, and what to do next, in the server's words. */
+export class Refused extends Error {
+  constructor(
+    readonly status: number,
+    readonly refusal: Refusal,
+  ) {
+    super(refusal.message);
+  }
+}
+
+async function request(method: string, path: string, body?: unknown, alsoFine: number[] = []): Promise<Response> {
+  const response = await fetch(`/api${path}`, {
+    method,
+    credentials: "same-origin",
+    ...(body === undefined ? {} : { headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) }),
+  });
+  if (response.ok || alsoFine.includes(response.status)) return response;
+  throw new Refused(response.status, await readRefusal(response));
+}
+
+async function readRefusal(response: Response): Promise<Refusal> {
+  const plain = { message: `${response.status} ${response.statusText}`, near: [] };
+  try {
+    const body = (await response.json()) as Partial<Refusal>;
+    return typeof body.message === "string" ? { message: body.message, near: body.near ?? [] } : plain;
+  } catch {
+    return plain;
+  }
+}
+
+async function json<T>(method: string, path: string, body?: unknown): Promise<T> {
+  return (await (await request(method, path, body)).json()) as T;
+}
+
+const filePath = (project: number, path: string) =>
+  `/projects/${project}/files/${path.split("/").map(encodeURIComponent).join("/")}`;
+
+export type SaveResult = { saved: FileInfo } | { conflict: SaveConflict };
+
+export const rest = {
+  app: () => json<AppInfo>("GET", ""),
+
+  createProject: (name: string, model: string) => json<Project>("POST", "/projects", { name, model }),
+  files: (project: number) => json<FileInfo[]>("GET", `/projects/${project}/files`),
+  file: (project: number, path: string) => json<FileText>("GET", filePath(project, path)),
+  save: async (project: number, path: string, text: string, version: number): Promise<SaveResult> => {
+    const response = await request("PUT", filePath(project, path), { text, version }, [409]);
+    if (response.status === 409) return { conflict: (await response.json()) as SaveConflict };
+    return { saved: (await response.json()) as FileInfo };
+  },
+  deleteFile: async (project: number, path: string): Promise<void> => {
+    await request("DELETE", filePath(project, path));
+  },
+  check: (project: number, files: Record<string, string>) =>
+    json<CheckResult>("POST", `/projects/${project}/check`, { files }),
+  build: (project: number) => json<BuildResult>("POST", `/projects/${project}/build`),
+
+  models: () => json<ModelSummary[]>("GET", "/models"),
+  model: (name: string) => json<ModelInfo>("GET", `/models/${encodeURIComponent(name)}`),
+
+  instances: () => json<Instance[]>("GET", "/instances"),
+  createInstance: (project: number, name: string) => json<Instance>("POST", "/instances", { project, name }),
+  symbols: (instance: number, path: string) =>
+    json<PlcSymbol[]>("GET", `/instances/${instance}/symbols?path=${encodeURIComponent(path)}`),
+  complete: (instance: number, text: string) =>
+    json<PlcSymbol[]>("GET", `/instances/${instance}/complete?text=${encodeURIComponent(text)}`),
+};

@@ -1,0 +1,122 @@
+/** The one connection to a virtual PLC: connects, reconnects by itself with back-off, and hands messages on. */
+import { type Frame, parseFrame } from "./frames";
+import type { ClientMessage, ServerMessage } from "./types";
+
+export interface LinkStatus {
+  state: "none" | "connecting" | "open" | "lost";
+  /** Wall time (ms) of the loss, and how often a reconnection was tried since. */
+  lostAt: number | null;
+  attempt: number;
+  /** Wall time (ms) of the next try. */
+  nextTryAt: number | null;
+}
+
+export interface LinkListener {
+  onStatus(status: LinkStatus): void;
+  onMessage(message: ServerMessage): void;
+  onFrame(frame: Frame): void;
+}
+
+const FIRST_DELAY = 500;
+const LONGEST_DELAY = 8000;
+/** The server answers pings of the protocol itself; a socket that opens but stays silent is given up after this. */
+const HELLO_TIMEOUT = 5000;
+
+export class Link {
+  private socket: WebSocket | null = null;
+  private instance: number | null = null;
+  private retry: ReturnType<typeof setTimeout> | undefined;
+  private helloTimer: ReturnType<typeof setTimeout> | undefined;
+  private listener: LinkListener | null = null;
+  private status: LinkStatus = { state: "none", lostAt: null, attempt: 0, nextTryAt: null };
+
+  listen(listener: LinkListener): void {
+    this.listener = listener;
+  }
+
+  /** Opens the connection to an instance, closing the one before; null closes only. */
+  connect(instance: number | null): void {
+    this.close();
+    this.instance = instance;
+    if (instance === null) {
+      this.report({ state: "none", lostAt: null, attempt: 0, nextTryAt: null });
+      return;
+    }
+    this.report({ state: "connecting", lostAt: null, attempt: 0, nextTryAt: null });
+    this.open();
+  }
+
+  /** Tries at once instead of waiting for the next turn. */
+  tryNow(): void {
+    if (this.status.state !== "lost") return;
+    clearTimeout(this.retry);
+    this.open();
+  }
+
+  get isOpen(): boolean {
+    return this.status.state === "open";
+  }
+
+  /** False when there is no connection; nothing is queued, because a write of a minute ago is not what was meant. */
+  post(message: ClientMessage): boolean {
+    if (!this.isOpen || this.socket?.readyState !== WebSocket.OPEN) return false;
+    this.socket.send(JSON.stringify(message));
+    return true;
+  }
+
+  private open(): void {
+    const scheme = location.protocol === "https:" ? "wss:" : "ws:";
+    const socket = new WebSocket(`${scheme}//${location.host}/api/instances/${this.instance}/socket`);
+    socket.binaryType = "arraybuffer";
+    this.socket = socket;
+    this.helloTimer = setTimeout(() => socket.close(), HELLO_TIMEOUT);
+    socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => {
+      if (socket === this.socket) this.receive(event.data);
+    };
+    socket.onclose = () => {
+      if (socket === this.socket) this.lose();
+    };
+  }
+
+  private receive(data: string | ArrayBuffer): void {
+    if (typeof data !== "string") {
+      this.listener?.onFrame(parseFrame(data));
+      return;
+    }
+    const message = JSON.parse(data) as ServerMessage;
+    if (message.type === "hello") {
+      clearTimeout(this.helloTimer);
+      this.report({ state: "open", lostAt: null, attempt: 0, nextTryAt: null });
+    }
+    this.listener?.onMessage(message);
+  }
+
+  private lose(): void {
+    clearTimeout(this.helloTimer);
+    this.socket = null;
+    const attempt = this.status.attempt + 1;
+    const delay = Math.min(LONGEST_DELAY, FIRST_DELAY * 2 ** (attempt - 1));
+    this.report({
+      state: "lost",
+      lostAt: this.status.lostAt ?? Date.now(),
+      attempt,
+      nextTryAt: Date.now() + delay,
+    });
+    this.retry = setTimeout(() => this.open(), delay);
+  }
+
+  private close(): void {
+    clearTimeout(this.retry);
+    clearTimeout(this.helloTimer);
+    const socket = this.socket;
+    this.socket = null;
+    socket?.close();
+  }
+
+  private report(status: LinkStatus): void {
+    this.status = status;
+    this.listener?.onStatus(status);
+  }
+}
+
+export const link = new Link();

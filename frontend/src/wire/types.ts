@@ -1,0 +1,42 @@
+/** Short names for the wire shapes; the shapes themselves are generated (`messages.gen.ts`). */
+import type { components } from "./messages.gen";
+
+type Shapes = components["schemas"];
+
+export type AppInfo = Shapes["AppInfo"];
+export type Area = Shapes["Area"];
+export type BuildResult = Shapes["BuildResult"];
+export type CheckResult = Shapes["CheckResult"];
+export type Done = Shapes["Done"];
+export type ErrorDetail = Shapes["ErrorDetail"];
+export type ErrorGroup = Shapes["ErrorGroup"];
+export type ErrorHistoryRow = Shapes["ErrorHistoryRow"];
+export type ErrorInfo = Shapes["ErrorInfo"];
+export type FileInfo = Shapes["FileInfo"];
+export type FileText = Shapes["FileText"];
+export type GenerateOne = Shapes["GenerateOne"];
+export type Hello = Shapes["Hello"];
+export type Instance = Shapes["Instance"];
+export type InstanceState = Shapes["InstanceState"];
+export type LogLine = Shapes["LogLine"];
+export type Mode = InstanceState["mode"];
+export type ModelInfo = Shapes["ModelInfo"];
+export type ModelSummary = Shapes["ModelSummary"];
+export type Pou = Shapes["Pou"];
+export type Problem = Shapes["Problem"];
+export type Project = Shapes["Project"];
+export type Refusal = Shapes["Refusal"];
+export type RunState = InstanceState["state"];
+export type SaveConflict = Shapes["SaveConflict"];
+export type PlcSymbol = Shapes["Symbol"];
+export type User = Shapes["User"];
+export type Watched = Shapes["Watched"];
+
+export type ServerMessage = Shapes["ServerMessage"];
+
+export type ClientMessage = Shapes["ClientMessage"];
+
+type WithoutRef<T> = T extends { ref: number } ? Omit<T, "ref"> : never;
+
+/** What a panel may send: answered by one `Done`, so the reference is added on the way out. */
+export type Command = WithoutRef<Exclude<ClientMessage, { type: "watch" } | { type: "unwatch" }>>;
