@@ -1,5 +1,7 @@
 """Literals before they have a type: `7` becomes INT, REAL or WORD by what stands beside it."""
 
+from functools import cache
+
 from scanbench.check.program import Const, Expr
 from scanbench.check.types import (
     DINT,
@@ -70,6 +72,7 @@ def widens(source: Type, target: Type) -> bool:
     return False
 
 
+@cache
 def common(left: Elementary, right: Elementary) -> Elementary | None:
     """The smallest type that both widen to."""
     for type in sorted(ELEMENTARY.values(), key=lambda type: type.size):

@@ -5,17 +5,12 @@ from scanbench.syntax import literals, tree
 from scanbench.syntax.cursor import Cursor
 from scanbench.syntax.lexer import Lex, span_of
 
-BINARY: tuple[dict[str, str], ...] = (
-    {"OR": "or"},
-    {"XOR": "xor"},
-    {"AND": "and", "&": "and"},
-    {"=": "eq", "<>": "ne"},
-    {"<": "lt", ">": "gt", "<=": "le", ">=": "ge"},
-    {"+": "add", "-": "sub"},
-    {"*": "mul", "/": "div", "MOD": "mod"},
-    {"**": "pow"},
-)
-"""Operators from the weakest to the strongest (IEC 61131-3, table 71); all are left-associative."""
+BINARY: dict[str, tuple[int, str]] = {
+    "OR": (0, "or"), "XOR": (1, "xor"), "AND": (2, "and"), "&": (2, "and"), "=": (3, "eq"), "<>": (3, "ne"),
+    "<": (4, "lt"), ">": (4, "gt"), "<=": (4, "le"), ">=": (4, "ge"), "+": (5, "add"), "-": (5, "sub"),
+    "*": (6, "mul"), "/": (6, "div"), "MOD": (6, "mod"), "**": (7, "pow"),
+}  # fmt: skip
+"""Strength of the operators, 0 the weakest (IEC 61131-3, table 71); all are left-associative."""
 
 MAX_CHAIN = 1000
 
@@ -27,19 +22,22 @@ class ExpressionParser(Cursor):
         self.leave()
         return result
 
-    def _binary(self, level: int) -> tree.Expression:
-        if level == len(BINARY):
-            return self._unary()
-        left = self._binary(level + 1)
-        operators, count = BINARY[level], 0
-        while self.token.kind in (Lex.OPERATOR, Lex.KEYWORD) and self.token.text in operators:
-            op = operators[self.take().text]
-            right = self._binary(level + 1)
+    def _binary(self, weakest: int) -> tree.Expression:
+        """Operands joined by operators that are no weaker than this."""
+        left, count = self._unary(), 0
+        while True:
+            token = self.token
+            if token.kind is not Lex.OPERATOR and token.kind is not Lex.KEYWORD:
+                return left
+            strength, op = BINARY.get(token.text, (-1, ""))
+            if strength < weakest:
+                return left
+            self.take()
+            right = self._binary(strength + 1)
             left = tree.BinaryOp(op, left, right, left.span.to(right.span))
             count += 1
             if count > MAX_CHAIN:
                 self.fail(f"more than {MAX_CHAIN} operands in one expression; split it up")
-        return left
 
     def _unary(self) -> tree.Expression:
         if not self.is_("-", "+", "NOT"):
