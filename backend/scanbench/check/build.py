@@ -127,6 +127,8 @@ class Checker:
         user = []
         for file in self.parsed:
             for declaration in file.types:
+                if isinstance(declaration.type, tree.UnsupportedSpec):
+                    self.declarations.broken |= {("GLOBAL", name.upper()) for name in declaration.type.values}
                 if self._first(declaration.name, declaration.span, seen):
                     self.declarations.type_trees[declaration.name.upper()] = declaration
             for pou in file.pous:

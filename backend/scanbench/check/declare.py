@@ -51,6 +51,8 @@ class Declarations:
     """Start values of directly derived types that state one."""
     located: dict[int, bytes] = field(default_factory=dict)
     """Start values of located variables, by offset in the image."""
+    broken: set[tuple[str, str]] = field(default_factory=set)
+    """(owner, name) in upper case of variables whose declaration is wrong: reported once, not at every use."""
     owners: list[Record] = field(default_factory=list)
     """What is being declared: constants declared above can stand in bounds and initial values."""
     _open: list[str] = field(default_factory=list)
@@ -65,6 +67,8 @@ class Declarations:
                 return self._string(length, span)
             case tree.ArraySpec():
                 return self._array(spec)
+            case tree.UnsupportedSpec():
+                raise Rejected  # reported by the parser
             case tree.StructSpec():
                 return self.struct(f"STRUCT of line {spec.span.line}", spec)
 
@@ -202,6 +206,7 @@ class Declarations:
         try:
             made = self.type_of(variable.type)
         except Rejected:
+            self.broken.add((owner.name.upper(), key))
             return None
         if section is not Section.IN_OUT and isinstance(made, Record) and made.name.upper() == owner.name.upper():
             self.report.error("D003", f"`{owner.name}` contains itself, so it has no size.", variable.span)

@@ -3,7 +3,7 @@
 from abc import ABC, abstractmethod
 
 from scanbench.check import fold
-from scanbench.check.context import Report, did_you_mean
+from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare import Declarations
 from scanbench.check.program import (
     Base,
@@ -303,6 +303,8 @@ class ExpressionChecker(ABC):
     def _named(self, name: str, span: Span) -> tuple[Place, Member | None]:
         found = self.scope.find(name)
         if found is None:
+            if {(owner, name.upper()) for owner in (self.scope.pou.upper(), "GLOBAL")} & self.declarations.broken:
+                raise Rejected
             if name.upper() in self.pous.functions:
                 raise self.report.reject("T010", f"`{name}` is a FUNCTION; call it with `{name}(...)`.", span)
             if name.upper() in self.declarations.block_trees:

@@ -75,10 +75,14 @@ class DeclarationParser(StatementParser):
         if self.is_("STRUCT"):
             return self._struct()
         if self.is_("("):
-            self.fail("enumerations are not supported yet; a type expected", start)
+            return self._enumeration()
         if self.is_("REF_TO", "POINTER"):
             self.report("X001", f"{start.text} is not supported yet.", self.here())
-            raise Unexpected
+            self.take()
+            if self.token.text.upper() == "TO":
+                self.take()
+            self.type_spec()
+            return tree.UnsupportedSpec(self.span_from(start))
         name = self.name("a type")
         if name.text.upper() == "STRING":
             return self._string_type(name.start)
@@ -87,8 +91,26 @@ class DeclarationParser(StatementParser):
             self.take()
         if self.is_("("):
             self.report("X001", "Subranges are not supported yet; use the plain type.", self.here())
-            raise Unexpected
+            self._skip_parentheses()
         return tree.NamedType(name.text, self.span_from(name))
+
+    def _enumeration(self) -> tree.TypeSpec:
+        start = self.token
+        self.report("X001", "Enumerations are not supported yet; use INT and CONSTANTs.", self.here())
+        names = self._skip_parentheses()
+        return tree.UnsupportedSpec(self.span_from(start), names)
+
+    def _skip_parentheses(self) -> tuple[str, ...]:
+        """To behind the closing one; gives the names on the way."""
+        names, depth = [], 0
+        while self.token.kind is not Lex.END:
+            token = self.take()
+            depth += {"(": 1, ")": -1}.get(token.text, 0)
+            if token.kind is Lex.NAME:
+                names.append(token.text)
+            if depth == 0:
+                break
+        return tuple(names)
 
     def _string_type(self, start: int) -> tree.TypeSpec:
         length = None
@@ -102,6 +124,7 @@ class DeclarationParser(StatementParser):
     def _array(self) -> tree.TypeSpec:
         start = self.take()
         self.expect("[", "behind ARRAY")
+        variable = self.is_("*")
         ranges = [self._range()]
         while self.accept(","):
             ranges.append(self._range())
@@ -110,12 +133,15 @@ class DeclarationParser(StatementParser):
         self.enter()
         element = self.type_spec()
         self.leave()
-        return tree.ArraySpec(tuple(ranges), element, self.span_from(start))
+        span = self.span_from(start)
+        return tree.UnsupportedSpec(span) if variable else tree.ArraySpec(tuple(ranges), element, span)
 
     def _range(self) -> tuple[tree.Expression, tree.Expression]:
         if self.is_("*"):
-            self.report("X001", "ARRAY[*] is not supported yet; give the bounds.", self.here())
-            raise Unexpected
+            star = self.take()
+            self.report("X001", "ARRAY[*] is not supported yet; give the bounds.", span_of(self.source, star))
+            nothing = tree.Literal("int", 0, None, span_of(self.source, star))
+            return nothing, nothing
         low = self.expression()
         self.expect("..", "between the bounds of the array")
         return low, self.expression()

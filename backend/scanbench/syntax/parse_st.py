@@ -67,9 +67,14 @@ class StParser(DeclarationParser):
         result = self.type_spec() if kind == "FUNCTION" and self.accept(":") else None
         if self.is_(";"):
             self.take()
+        self._inheritance()
         sections = list(self.sections())
         body = list(self.statements())
-        while self.is_("VAR_GLOBAL", *POU_BODY_STRAYS):
+        while self.is_("VAR_GLOBAL", "METHOD", *POU_BODY_STRAYS):
+            if self.is_("METHOD"):
+                self._method()
+                body += self.statements()
+                continue
             # what cannot stand here is reported, and the POU goes on
             if self.is_("VAR_GLOBAL") and not self._end_follows(kind):
                 break
@@ -86,6 +91,21 @@ class StParser(DeclarationParser):
         return tree.PouDeclaration(
             kind.lower(), name.text, result, tuple(sections), tuple(body), span_of(self.source, name)
         )
+
+    def _inheritance(self) -> None:
+        """EXTENDS and IMPLEMENTS, with the names behind them."""
+        while self.token.kind is Lex.NAME and self.token.text.upper() in ("EXTENDS", "IMPLEMENTS"):
+            self.report("X001", f"{self.token.text.upper()} is not supported yet.", self.here())
+            self.take()
+            self.name("a name")
+            while self.accept(","):
+                self.name("a name")
+
+    def _method(self) -> None:
+        self.report("X001", "METHOD is not supported yet; write a FUNCTION or FUNCTION_BLOCK.", self.here())
+        while self.token.kind is not Lex.END and not self.accept("END_METHOD"):
+            self.take()
+        self.accept(";")
 
     def _end_follows(self, kind: str) -> bool:
         """Whether this POU's end comes before the next POU begins."""

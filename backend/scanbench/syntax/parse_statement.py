@@ -34,7 +34,7 @@ class StatementParser(ExpressionParser):
         return tuple(found)
 
     def _at_end(self) -> bool:
-        return self.token.kind is Lex.END or self.is_(*BLOCK_ENDS, *POU_ENDS, *POU_STARTS)
+        return self.token.kind is Lex.END or self.is_(*BLOCK_ENDS, *POU_ENDS, *POU_STARTS, "METHOD")
 
     def _skip(self, before: int) -> None:
         """To the beginning of what may be the next statement; always at least one token on."""

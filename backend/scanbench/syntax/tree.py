@@ -109,7 +109,16 @@ class StructSpec:
     span: Span
 
 
-TypeSpec = NamedType | StringSpec | ArraySpec | StructSpec
+@dataclass(frozen=True, slots=True)
+class UnsupportedSpec:
+    """A type that was reported as not supported; what is declared with it is known, but has no type."""
+
+    span: Span
+    values: tuple[str, ...] = ()
+    """Names that an enumeration would declare."""
+
+
+TypeSpec = NamedType | StringSpec | ArraySpec | StructSpec | UnsupportedSpec
 
 
 @dataclass(frozen=True, slots=True)
