@@ -225,8 +225,8 @@ def _checked(program: Program, symbol: Symbol) -> Symbol:
     if found is None:
         return symbol
     area, byte = found
-    bits = 1 if symbol.bit is not None else 8 * min(symbol.type.size, 2)
-    address = symbol.address or layout.model.format(area, byte, symbol.bit, bits)
+    bits = 1 if symbol.bit is not None else 8 * symbol.type.size
+    address = layout.model.format(area, byte, symbol.bit, bits if bits in RAW_TYPES else 16)
     return replace(symbol, address=address, tool=area.access(byte // 2, "tool"))
 
 

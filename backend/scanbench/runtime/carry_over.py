@@ -15,13 +15,14 @@ _HEADER = ((Layout.CLOCK, 8), (Layout.SCAN, 8), (Layout.BUDGET_LIMIT, 8), (Layou
 
 @dataclass(slots=True)
 class CarryOver:
-    """How many variables were kept, and which were not (first come first named)."""
+    """How many variables were kept, and how many were not."""
 
     kept: int = 0
     lost: int = 0
 
     def __str__(self) -> str:
-        return f"{self.kept} variables kept, {self.lost} new or changed and initialised"
+        new = f", {self.lost} new or changed: initialised" if self.lost else ""
+        return f"{self.kept} variables kept{new}"
 
 
 def carry_over(old: Program, old_memory: bytearray, new: Program, new_memory: bytearray) -> CarryOver:

@@ -42,7 +42,7 @@ class Force(Command):
             table[index] = (old_mask | mask, old_value & ~mask | value & mask)
         if len(table) > Layout.FORCE_LIMIT:
             return Refusal(f"no room for more forces: at most {Layout.FORCE_LIMIT} bytes. Release some first")
-        return Plan((*table_patches(table), patch), f"{target.symbol.path} forced to {self.value.strip()}")
+        return Plan((*table_patches(view, table), patch), f"{target.symbol.path} forced to {self.value.strip()}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,7 +57,7 @@ class Release(Command):
             return Refusal("in RUN mode forces cannot be changed: change to MONITOR first")
         if self.path is None:
             count = len(forced(view.entries))
-            return Plan(table_patches({}), f"{count} force{'s' * (count != 1)} released")
+            return Plan(table_patches(view, {}), f"{count} force{'s' * (count != 1)} released")
         symbol = find(view, self.path)
         if isinstance(symbol, Refusal):
             return symbol
@@ -74,7 +74,7 @@ class Release(Command):
                     table[index] = (keep, value & keep)
         if not held:
             return Refusal(f"{symbol.path} is not forced", tuple(forced(view.entries)))
-        return Plan(table_patches(table), f"{symbol.path} released")
+        return Plan(table_patches(view, table), f"{symbol.path} released")
 
 
 def read_table(memory: bytearray | bytes | memoryview) -> dict[int, tuple[int, int]]:
@@ -87,10 +87,10 @@ def read_table(memory: bytearray | bytes | memoryview) -> dict[int, tuple[int, i
     return table
 
 
-def table_patches(table: dict[int, tuple[int, int]]) -> tuple[Patch, ...]:
-    """Patches that make this the force table; what lies behind it is cleared, so that equal forces give equal images."""
+def table_patches(view: View, table: dict[int, tuple[int, int]]) -> tuple[Patch, ...]:
+    """Patches that make this the force table; rows that fall free are cleared, so that equal forces give equal images."""
     rows = b"".join(_ENTRY.pack(offset, mask, value, 0) for offset, (mask, value) in sorted(table.items()))
-    rows = rows.ljust(Layout.FORCE_LIMIT * _ENTRY.size, b"\0")
+    rows = rows.ljust(view.header.force_count * _ENTRY.size, b"\0")
     return (Patch.whole(Layout.FORCE_COUNT, _COUNT.pack(len(table))), Patch.whole(Layout.FORCES, rows))
 
 

@@ -26,5 +26,8 @@ def _apply(memory: bytearray, patch: Patch) -> None:
     end = patch.offset + len(patch.data)
     if end > len(memory) or patch.offset <= 0:
         raise ValueError(f"plan reaches byte {end} of an image of {len(memory)}")
+    if patch.mask.count(0xFF) == len(patch.mask):
+        memory[patch.offset : end] = patch.data
+        return
     for index, (mask, data) in enumerate(zip(patch.mask, patch.data, strict=True), patch.offset):
         memory[index] = memory[index] & ~mask | data & mask

@@ -27,7 +27,7 @@ _CLASSES: dict[str, type] = {
     cls.__name__: cls
     for cls in (
         Entry, Force, Generate, Patch, Plan, ErrorRef, ProgramChange, Recover, Release, SetMode, TrapInfo, Trapped, Write,
-        protocol.Ack, protocol.Build, protocol.Checkpoint, protocol.Drive, protocol.Entered, protocol.Found,
+        protocol.Ack, protocol.Build, protocol.Checkpoint, protocol.ColdStart, protocol.Drive, protocol.Entered, protocol.Found,
         protocol.Frame, protocol.HostState, protocol.Lookup, protocol.Quit, protocol.Ready, protocol.Sources,
         protocol.Start, protocol.StartFailed, protocol.Submit, protocol.SymbolInfo, protocol.UnwatchIds,
         protocol.WantSnapshot, protocol.WatchItem, protocol.WatchPaths, protocol.Watching,

@@ -38,7 +38,6 @@ class Memory:
     paused: bool = False
     checkpoint: protocol.Checkpoint | None = None
     journal: list[Entry] = field(default_factory=list)
-    run: int = 0
     scan: int = 0
 
     def start(self) -> protocol.Start:
@@ -46,15 +45,16 @@ class Memory:
         journal = tuple(self.journal) if self.checkpoint is not None else ()
         return protocol.Start(self.sources, self.speed, self.paused, self.checkpoint, journal, self.scan)
 
+    def forget_run(self) -> None:
+        """A cold start: nothing of what was has any meaning."""
+        self.journal.clear()
+        self.checkpoint, self.scan = None, 0
+
     def keep(self, checkpoint: protocol.Checkpoint, offered: protocol.Sources | None) -> None:
-        """Takes a checkpoint; the first one of a new program or a new run also ends what came before."""
-        if checkpoint.run != self.run:
-            self.run = checkpoint.run
-            del self.journal[: len(self.journal) - checkpoint.entries]
-            self.scan = checkpoint.scan
+        """Takes a checkpoint; the first one of a new program takes over its sources too."""
         if offered is not None and offered.version == checkpoint.version:
             self.sources = offered
-        self.checkpoint = replace(checkpoint, run=0)
+        self.checkpoint = checkpoint
         self.scan = max(self.scan, checkpoint.scan)
 
 
@@ -127,7 +127,6 @@ class Instance:
         theirs.close()
         reader, writer = await asyncio.open_unix_connection(sock=ours, limit=1 << 20)
         self._writer = writer
-        self._memory.run = 0
         writer.write(pack(self._memory.start()))
         if self.state.state != "restarting":
             self._set_state(state="starting", message="starting", pid=process.pid)
@@ -157,13 +156,11 @@ class Instance:
             case protocol.HostState():
                 self._see(message)
             case protocol.Entered():
-                if message.run != self._memory.run:  # of a run whose first checkpoint follows
-                    self._memory.run = message.run
-                    self._memory.journal.clear()
-                    self._memory.checkpoint = None
-                    self._memory.scan = 0
                 self._memory.journal.append(message.entry)
                 self._memory.scan = max(self._memory.scan, message.entry.scan)
+                self._on_message(message)
+            case protocol.ColdStart():
+                self._memory.forget_run()
                 self._on_message(message)
             case protocol.Checkpoint():
                 self._memory.keep(message, self._offered)
@@ -208,6 +205,7 @@ class Instance:
     async def revive(self, sources: protocol.Sources | None) -> protocol.Ack:
         """A cold start after the process was given up."""
         self._memory = Memory(sources or self._memory.sources)
+        self._on_message(protocol.ColdStart())
         self._deaths = 0
         self._set_state(state="starting", message="starting", trap=None, version=self._memory.sources.version)
         self.start()

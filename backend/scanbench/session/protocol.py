@@ -25,12 +25,8 @@ class Sources:
 
 @dataclass(frozen=True, slots=True)
 class Checkpoint:
-    """A copy of the state before `scan`; the first `entries` entries of the run's journal are in it.
+    """A copy of the state before `scan` of program `version`; the journal's first `entries` entries are in it."""
 
-    `run` counts cold starts: a new run begins with an empty journal. `version` is the program's.
-    """
-
-    run: int
     scan: int
     entries: int
     version: int
@@ -160,8 +156,12 @@ class Frame:
 class Entered:
     """A new entry of the journal."""
 
-    run: int
     entry: Entry
+
+
+@dataclass(frozen=True, slots=True)
+class ColdStart:
+    """A new run begins: fresh image, empty journal, no error present, no force. Its first `Checkpoint` follows."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -221,4 +221,4 @@ class Found:
 
 
 ToHost = Start | Submit | Drive | Build | WatchPaths | UnwatchIds | WantSnapshot | Lookup | Quit
-FromHost = Ready | StartFailed | HostState | Frame | Entered | Checkpoint | Ack | Watching | Found
+FromHost = Ready | StartFailed | HostState | Frame | Entered | ColdStart | Checkpoint | Ack | Watching | Found

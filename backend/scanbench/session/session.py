@@ -90,8 +90,6 @@ class Session:
         """Pace of the run: continue, pause, scan, restart."""
         ack = await self._refusing(self._instance.drive(action, speed, author))
         if ack.ok:
-            if action == "restart":
-                self._cleared_by_cold_start()
             self._add_line(LogEntry(wall_time(), ack.scan, author, ack.message, "run"))
         return ack
 
@@ -174,6 +172,8 @@ class Session:
                 self._on_frame(message)
             case protocol.Entered():
                 self._on_entry(message.entry)
+            case protocol.ColdStart():
+                self._cleared_by_cold_start()
             case protocol.Ready():
                 self._on_ready(message)
             case protocol.Watching():

@@ -2,6 +2,7 @@
 
 import socket
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import uvicorn
@@ -52,8 +53,12 @@ def serve(
         server_header=False,
         timeout_graceful_shutdown=3,
     )
-    _Server(config, lambda: announce(f"Scanbench is ready: {address}")).run([sock])
-    store.close()
+    try:
+        # uvicorn ends everything in order at Ctrl-C, and then raises it again.
+        with suppress(KeyboardInterrupt):
+            _Server(config, lambda: announce(f"Scanbench is ready: {address}")).run([sock])
+    finally:
+        store.close()
 
 
 class _Server(uvicorn.Server):

@@ -55,7 +55,7 @@ function dispatch(message: ServerMessage): void {
       usePlc.setState({ users: message.users });
       return;
     case "built":
-      onBuilt(message.result, message.author);
+      onBuilt(message.result, message.author === usePlc.getState().you?.name ? null : message.author);
       if (message.result.ok) newProgram(message.result.project);
       return;
     case "saved":

@@ -12,17 +12,18 @@ export function splitPath(path: string): SplitPath {
   return { own: path.slice(0, dot + 1), name: path.slice(dot + 1) };
 }
 
-/** Raw addresses: `%MW3`, `D100`, `A402.12`, `W10:8`. */
+/** Raw addresses: `%MW3`, `D100`, `A402.12`, `CIO 0.00`, `W10:8`. */
 export function isAddress(path: string): boolean {
-  return path.startsWith("%") || /^[A-Za-z]{0,3}\d+(\.\d+)?(:\d+)?$/.test(path);
+  return path.startsWith("%") || /^[A-Za-z]{0,3} ?\d+(\.\d+)?(:\d+)?$/.test(path);
 }
 
-/** The paths in a dropped or pasted text: one a line, or separated by commas or blanks. */
+/** The paths in a dropped or typed text: one a line, or separated by commas or blanks; `CIO 0.00` is one address. */
 export function pathsIn(text: string): string[] {
   return text
-    .split(/[\s,;]+/)
+    .split(/[,;\t\n]+/)
+    .flatMap((part) => (isAddress(part.trim()) ? [part] : part.split(/\s+/)))
     .map((part) => part.trim())
-    .filter((part) => /^%?[\p{L}_\d][\p{L}\d_.[\]:,%]*$/u.test(part));
+    .filter((part) => isAddress(part) || /^%?[\p{L}_\d][\p{L}\d_.[\]:%]*$/u.test(part));
 }
 
 /** `src/Main.st` to `Main.st`. */

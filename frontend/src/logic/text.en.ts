@@ -209,6 +209,7 @@ export const english = {
   "status.process": "Process {pid}",
   "status.program": "Program version {version}",
   "status.restarts": "{count} restarts",
+  "status.restarts.one": "1 restart",
   "status.saved": "Saved {at}",
   "status.stored": "Saved, version {version}",
   "status.task": "Task {interval}, {speed}",

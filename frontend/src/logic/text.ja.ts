@@ -211,6 +211,7 @@ export const japanese: Record<TextKey, string> = {
   "status.process": "プロセス {pid}",
   "status.program": "プログラム版 {version}",
   "status.restarts": "再起動 {count} 回",
+  "status.restarts.one": "再起動 1 回",
   "status.saved": "{at} に保存",
   "status.stored": "保存済み、版 {version}",
   "status.task": "タスク {interval}、{speed}",

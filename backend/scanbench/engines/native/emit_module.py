@@ -27,8 +27,7 @@ class ModuleText:
             variable = "@"
         tag = self._tags.get(variable)
         if tag is None:
-            escaped = "".join(c if c.isalnum() or c in " ._@#" else f"\\{ord(c):02X}" for c in variable)
-            leaf = self._node(f'!{{!"{escaped}", !2, i64 0}}')
+            leaf = self._node(f'!{{!"{_escape(variable.encode())}", !2, i64 0}}')
             tag = self._tags[variable] = f", !tbaa {self._node(f'!{{{leaf}, {leaf}, i64 0}}')}"
         return tag
 
@@ -69,4 +68,5 @@ class ModuleText:
 
 
 def _escape(data: bytes) -> str:
-    return "".join(f"\\{byte:02X}" for byte in data)
+    plain = b"ABCDEFGHIJKLMNOPQRSTUVWXYZabcdefghijklmnopqrstuvwxyz0123456789 ._@#"
+    return "".join(chr(byte) if byte in plain else f"\\{byte:02X}" for byte in data)

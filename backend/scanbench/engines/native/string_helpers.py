@@ -5,7 +5,7 @@ Characters are given as a pointer and an i64 count; the length before them is th
 
 COPY = """\
 declare ptr @memmove(ptr, ptr, i64)
-define internal void @s.copy(ptr %to, ptr %from, i64 %n) alwaysinline #0 {
+define internal void @s.copy(ptr %to, ptr %from, i64 %n) noinline #0 {
 ; all loads come before the stores, so that the two may overlap
   %small = icmp ule i64 %n, 16
   br i1 %small, label %upto16, label %over16
@@ -63,13 +63,9 @@ from16:
   store <16 x i8> %b16, ptr %t16, align 1
   ret void
 large:
-  call void @s.copylarge(ptr %to, ptr %from, i64 %n)
+  call ptr @memmove(ptr %to, ptr %from, i64 %n)
   ret void
 done:
-  ret void
-}
-define internal void @s.copylarge(ptr %to, ptr %from, i64 %n) noinline cold #0 {
-  call ptr @memmove(ptr %to, ptr %from, i64 %n)
   ret void
 }"""
 

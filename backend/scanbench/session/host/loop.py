@@ -56,7 +56,6 @@ class Loop:
     def __init__(self, resource: Resource, link: Link, version: int, speed: float, paused: bool, note: str) -> None:
         self.resource = resource
         self._link, self._version, self._note = link, version, note
-        self._run_number = 0
         self._inbox: deque[object] = deque()
         self._wake = threading.Event()
         self._tick = True
@@ -69,7 +68,7 @@ class Loop:
         self._plan = WatchPlan({}, len(resource.memory))
         self._last_state: protocol.HostState | None = None
         self._state_at = self._checkpoint_at = 0
-        self._checkpointed = (-1, -1, -1)
+        self._checkpointed = (-1, -1)
         self._sent_entries = len(resource.journal)
         self._set_pace()
 
@@ -148,7 +147,7 @@ class Loop:
         """Sends the journal's new entries."""
         journal = self.resource.journal
         for entry in journal[self._sent_entries :]:
-            self._link.post(protocol.Entered(self._run_number, entry))
+            self._link.post(protocol.Entered(entry))
         self._sent_entries = len(journal)
 
     # ---- pace -----------------------------------------------------------------------------------------------------
@@ -189,8 +188,8 @@ class Loop:
 
     def _new_run(self) -> None:
         """The journal begins anew; a replay must never look before this point."""
-        self._run_number += 1
-        self._sent_entries = 0
+        self._link.post(protocol.ColdStart())
+        self._sent_entries, self._checkpointed = 0, (-1, -1)
         self._enter_new()
         self._checkpoint()
 
@@ -237,14 +236,14 @@ class Loop:
         """Copies the state; it is packed in the link's thread."""
         self._checkpoint_at = monotonic_ns() + CHECKPOINT_NS
         scan, entries = self.resource.header.scan, len(self.resource.journal)
-        if self._checkpointed == (self._run_number, scan, entries):
+        if self._checkpointed == (scan, entries):
             return
-        self._checkpointed = (self._run_number, scan, entries)
-        run, version, state = self._run_number, self._version, self.resource.state
+        self._checkpointed = (scan, entries)
+        version, state = self._version, self.resource.state
 
         def packed() -> protocol.Checkpoint:
             image = zstandard.ZstdCompressor(level=1).compress(state)
-            return protocol.Checkpoint(run, scan, entries, version, image)
+            return protocol.Checkpoint(scan, entries, version, image)
 
         self._link.post(packed)
 

@@ -2,7 +2,6 @@
 
 from random import Random
 
-import pytest
 from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
@@ -18,10 +17,11 @@ SCANS = 4
 BUDGET = 300
 
 
-@settings(max_examples=40)
-@given(st.randoms(use_true_random=False), st.sampled_from([0, 2, 2, 2]))
-def test_the_engines_agree(choices: Random, opt_level: int) -> None:
-    source = program_text(choices)
+@settings(max_examples=80)
+@given(st.integers(0, (1 << 32) - 1), st.sampled_from([0, 2, 2, 2]))
+def test_the_engines_agree(seed: int, opt_level: int) -> None:
+    """A seed, as programs made of hypothesis' own choices come out too plain to go wrong."""
+    source = program_text(Random(seed))
     program = check_sources({"random.st": source}, MODEL, 1_000_000).program
     assume(program is not None)
     assert program is not None
@@ -33,17 +33,3 @@ def test_the_engines_agree(choices: Random, opt_level: int) -> None:
         stops = [engine.run(1) for engine in engines]
         assert stops[0] == stops[1], f"scan {scan} of\n{source}"
         assert first_difference(program, *memories) == "", f"scan {scan} of\n{source}"
-
-
-@pytest.mark.parametrize("seed", range(10))
-def test_the_engines_agree_on_fixed_programs(seed: int) -> None:
-    """Without hypothesis' liking for small choices: long programs."""
-    text = program_text(Random(seed))
-    program = check_sources({"random.st": text}, MODEL, 1_000_000).program
-    if program is None:
-        return
-    memories = bytearray(program.initial_image), bytearray(program.initial_image)
-    engines = ReferenceEngine(program, memories[0]), NativeEngine(program, memories[1])
-    for _ in range(SCANS):
-        assert engines[0].run(1) == engines[1].run(1)
-        assert first_difference(program, *memories) == ""

@@ -123,3 +123,19 @@ def test_a_wrong_image_is_refused() -> None:
     program = check(COUNT)
     with pytest.raises(ValueError, match="the program needs"):
         NativeEngine(program, bytearray(10))
+
+
+def test_names_in_any_script() -> None:
+    made = plc("""
+FUNCTION 合計 : INT VAR_INPUT 値, größe : INT; 文 : STRING[10]; END_VAR 合計 := 値 + größe + LEN(文); END_FUNCTION
+PROGRAM Main VAR 数 : INT := 3; x : INT; END_VAR x := 合計(数, 4, 'abc'); END_PROGRAM""")
+    made.engine.run(1)
+    assert made.value("Main.x") == 3 + 4 + 3
+
+
+def test_long_and_deep_expressions() -> None:
+    long = " + ".join(["n"] * 400)
+    deep = "(" * 100 + "n" + " + 1)" * 100
+    made = plc(f"PROGRAM Main VAR n : DINT := 2; a, b : DINT; END_VAR a := {long}; b := {deep}; END_PROGRAM")
+    made.engine.run(1)
+    assert (made.value("Main.a"), made.value("Main.b")) == (800, 102)

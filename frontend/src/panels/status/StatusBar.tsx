@@ -31,7 +31,9 @@ export function StatusBar() {
           {t("status.program", { version: state.program_version })}
         </span>
       )}
-      {state !== null && state.restarts > 0 && <span>{t("status.restarts", { count: state.restarts })}</span>}
+      {state !== null && state.restarts > 0 && (
+        <span>{t(state.restarts === 1 ? "status.restarts.one" : "status.restarts", { count: state.restarts })}</span>
+      )}
       {state !== null && state.forces > 0 && (
         <StateWord tone="forced" icon="forced" word={t("force.count", { count: state.forces })} />
       )}
