@@ -71,8 +71,10 @@ def _real(op: str, a: float, b: float) -> float | None:
             return a - b
         case "mul":
             return a * b
-        case "div" if b != 0:
-            return a / b
+        case "div":
+            if b != 0:
+                return a / b
+            return math.nan if a == 0 else math.copysign(math.inf, a) * math.copysign(1, b)
     return None
 
 

@@ -10,10 +10,12 @@ The contract of the two engines; no behaviour here. Semantics that both must kee
 - `Convert`: between integers, bit strings, BOOL and TIME: sign or zero extension by the *source*, then truncation; to
   BOOL: value <> 0. Integer to REAL: nearest, ties to even, in one rounding. REAL to integer: ties to even, saturated
   at the target's bounds, NaN is 0. LREAL to REAL: nearest. To or from STRING: only STRING to STRING (cut at capacity).
-- AND, OR on BOOL evaluate both sides. Operands and arguments are evaluated from left to right.
+- AND, OR on BOOL evaluate both sides. Operands and arguments are evaluated from left to right; an assignment evaluates
+  the value, then the address of its target; the address of an output's target is taken after the call.
 - FOR: bounds and step are evaluated once, in the order start, end, step; the counter is a value of its own that is
   stored to the variable at the start of every round, and once more when the loop ends normally (the value that failed
   the test, wrapped at the width of the variable). A loop over the full range of its type ends. Step 0 gives no round.
+  Budget is taken before the counter is stored; the place of the variable is evaluated at each store.
 - Loop budget: `Layout.BUDGET` (i64 in the image) counts down one a round of WHILE and REPEAT, and of FOR loops with
   `exits`; a FOR without `exits` takes all its rounds from it at once before the first (saturating at i64). Where it
   falls below zero the loop traps with kind `loop` (before the round's body).

@@ -65,7 +65,8 @@ class Engine(ABC):
 
     @abstractmethod
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
-        """Runs up to `scans` scans, as fast as possible or at a pace; returns at once after a knock or a trap.
+        """Runs up to `scans` scans, as fast as possible (no pace, or period 0) or at a pace; returns at once after a
+        knock or a trap. A knock that is pending when the last scan is done is reported as KNOCKED.
 
         A knock that came before the call makes it return without running a scan; returning clears the knock.
         While waiting for a deadline it looks for a knock at least every 2 ms.

@@ -151,7 +151,7 @@ def _round(body: Body, loop: For, run: Run, counter: str, inner: tuple[int, int]
     outer = body.counters
     written = body.unit.effects.written(loop.body)
     body.counters = {key: known for key, known in outer.items() if key != (place.base, place.offset)}
-    if True:
+    if keeps(written, place):
         body.counters[place.base, place.offset] = value
     with _exit_to(body, after):
         run(body, loop.body)

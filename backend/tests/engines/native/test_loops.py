@@ -106,3 +106,15 @@ IF a[j] > a[j + 1] THEN t := a[j]; a[j] := a[j + 1]; a[j + 1] := t; END_IF; END_
 END_PROGRAM""")
     found = [made.value(f"Main.a[{n}]") for n in range(16)]
     assert found == sorted(found, key=int)  # type: ignore[arg-type]
+
+
+def test_a_counter_that_a_callee_writes() -> None:
+    """A global counter is not what the loop made it, once something that may write it has run."""
+    made = plc("""
+VAR_GLOBAL g : INT; END_VAR
+FUNCTION Spoil : INT VAR_INPUT x : INT; END_VAR g := x; Spoil := x; END_FUNCTION
+PROGRAM Main VAR a : ARRAY[0..3] OF INT; n, seen : INT; END_VAR
+FOR g := 0 TO 3 DO n := n + 1; seen := Spoil(1000 + n) + seen; a[g] := 1; END_FOR;
+END_PROGRAM""")
+    assert made.trapped().kind is TrapKind.BOUNDS
+    assert (made.value("g"), made.value("Main.n"), made.value("Main.seen")) == (1001, 1, 1001)
