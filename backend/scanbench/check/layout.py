@@ -30,7 +30,7 @@ class Layout:
     MODE: ClassVar[int] = 40
     """u8 0 PROGRAM, 1 MONITOR, 2 RUN."""
     FATAL: ClassVar[int] = 41
-    """u8 1 while a fatal error or a trap keeps the program stopped."""
+    """u8 bits that keep the program stopped: 1 a fatal error, 2 a trap."""
     FORCE_COUNT: ClassVar[int] = 44
     """u32 entries in use of the force table."""
     FORCES: ClassVar[int] = 48

@@ -5,6 +5,7 @@ from datetime import datetime
 from typing import Protocol
 
 from scanbench.faults.history import ErrorRow
+from scanbench.runtime.forces import Force
 from scanbench.runtime.trap import TrapInfo
 from scanbench.session.builds import BuildOutcome
 from scanbench.session.protocol import WatchItem
@@ -103,6 +104,13 @@ class ValueWritten:
 
 
 @dataclass(frozen=True, slots=True)
+class ForcesChanged:
+    """All forces that hold now."""
+
+    forces: tuple[Force, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class Watching:
     """Answer to the `watch` of a subscriber; with ref None what all ids mean now that the variables moved."""
 
@@ -110,7 +118,17 @@ class Watching:
     items: tuple[WatchItem, ...]
 
 
-Event = StateChanged | ErrorsChanged | Logged | UsersChanged | ProgramBuilt | FileSaved | ValueWritten | Watching
+Event = (
+    StateChanged
+    | ErrorsChanged
+    | Logged
+    | UsersChanged
+    | ProgramBuilt
+    | FileSaved
+    | ValueWritten
+    | ForcesChanged
+    | Watching
+)
 
 
 class Subscriber(Protocol):

@@ -9,7 +9,7 @@ import logging
 import socket
 import subprocess
 import sys
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
 
 from scanbench.runtime.clock import monotonic_ns
@@ -77,6 +77,11 @@ class Instance:
         self._next_ref = 1
         self._deaths = 0
         self._stopping = False
+
+    @property
+    def entries(self) -> Sequence[Entry]:
+        """The journal of this run, as far as it is acknowledged."""
+        return self._memory.journal
 
     # ---- life -----------------------------------------------------------------------------------------------------
 

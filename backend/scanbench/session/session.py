@@ -7,7 +7,7 @@ from scanbench.faults.inject import Generate, Recover
 from scanbench.plcmodel.model import Model
 from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Command, Entry
-from scanbench.runtime.forces import Force, Release
+from scanbench.runtime.forces import Force, Release, forced
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.trap import Trapped
@@ -63,6 +63,11 @@ class Session:
     def lines(self) -> list[LogEntry]:
         """The last lines of the log."""
         return list(self._lines)
+
+    @property
+    def forces(self) -> tuple[Force, ...]:
+        """The forces that hold, in the order in which they were made."""
+        return tuple(forced(self._instance.entries).values())
 
     @property
     def users(self) -> tuple[User, ...]:
@@ -174,6 +179,7 @@ class Session:
                 self._on_entry(message.entry)
             case protocol.ColdStart():
                 self._cleared_by_cold_start()
+                self._publish(events.ForcesChanged(self.forces))
             case protocol.Ready():
                 self._on_ready(message)
             case protocol.Watching():
@@ -192,6 +198,8 @@ class Session:
         if isinstance(command, Write | Force):
             forced = isinstance(command, Force)
             self._publish(events.ValueWritten(command.path, command.author, entry.scan, forced))
+        if isinstance(command, Force | Release | ProgramChange):
+            self._publish(events.ForcesChanged(self.forces))
         kind = _LOG_KINDS.get(type(command), "system")
         self._add_line(LogEntry(entry.at, entry.scan, command.author, entry.plan.message, kind))
 

@@ -342,6 +342,14 @@ ClientMessage = Annotated[
 # ---- WebSocket: server to browser -------------------------------------------------------------------------------
 
 
+class ForceInfo(Wire):
+    """A force that holds: who keeps which variable at what."""
+
+    path: str
+    value: str
+    author: str
+
+
 class Hello(Wire):
     """First message after connecting, and after every reconnection: everything but the values."""
 
@@ -351,6 +359,7 @@ class Hello(Wire):
     instance: Instance
     errors: list[ErrorHistoryRow]
     log: list[LogLine]
+    forces: list[ForceInfo]
 
 
 class State(Wire):
@@ -419,6 +428,13 @@ class Saved(Wire):
     file: FileInfo
 
 
+class Forces(Wire):
+    """All forces that hold, whenever they change."""
+
+    type: Literal["forces"] = "forces"
+    forces: list[ForceInfo]
+
+
 class Written(Wire):
     """Somebody wrote a variable; shown in the tooltip of its row."""
 
@@ -430,5 +446,6 @@ class Written(Wire):
 
 
 ServerMessage = Annotated[
-    Hello | State | Watching | Done | Errors | Log | Users | Built | Saved | Written, Field(discriminator="type")
+    Hello | State | Watching | Done | Errors | Log | Users | Built | Saved | Forces | Written,
+    Field(discriminator="type"),
 ]

@@ -23,7 +23,7 @@ def no_token_page() -> str:
     return _PAGE.format(
         title="This bench has a key",
         body="<p>Open the address that was printed when the server started: it ends with <code>?token=…</code>. "
-        "It has to be done once for each browser and start of the server.</p>",
+        "It has to be done once in each browser.</p>",
     )
 
 

@@ -2,19 +2,19 @@
 
 import socket
 from collections.abc import Callable
-from contextlib import suppress
+from contextlib import closing, suppress
 from pathlib import Path
 
 import uvicorn
 
 from scanbench.plcmodel.load import NoModels
-from scanbench.runtime.clock import fresh_token
 from scanbench.session.workbench import Workbench
 from scanbench.store.database import database_url
 from scanbench.store.records import StoreError
 from scanbench.store.store import Store
 from scanbench.web.app import Config, create_app
 from scanbench.web.auth import Gate, known_hosts
+from scanbench.web.kept_token import kept_token
 
 DEFAULT_PORT = 8700
 
@@ -27,21 +27,20 @@ def serve(
     host: str, port: int | None, data_dir: Path, announce: Callable[[str], None], token: str | None = None
 ) -> None:
     """Serves until it is told to stop. `port` None: 8700, or a free one if that is taken; 0: any free one."""
-    sock = _bind(host, port, announce)
+    with _bind(host, port, announce) as sock:
+        try:
+            data_dir.mkdir(parents=True, exist_ok=True)
+            with closing(Store(database_url(data_dir))) as store:
+                _run(sock, host, Workbench(store), token or kept_token(data_dir), announce)
+        except (StoreError, NoModels) as error:
+            raise CannotServe(str(error)) from error
+
+
+def _run(sock: socket.socket, host: str, bench: Workbench, token: str, announce: Callable[[str], None]) -> None:
     port = sock.getsockname()[1]
-    try:
-        data_dir.mkdir(parents=True, exist_ok=True)
-        store = Store(database_url(data_dir))
-        bench = Workbench(store)
-    except (StoreError, NoModels) as error:
-        raise CannotServe(str(error)) from error
-    gate = Gate(token or fresh_token(), port, known_hosts([host]))
-    shown = f"[{host}]" if ":" in host else host
-    if host in ("0.0.0.0", "::"):
-        shown = "localhost"
-    address = f"http://{shown}:{port}/?token={gate.token}"
+    shown = "localhost" if host in ("0.0.0.0", "::") else f"[{host}]" if ":" in host else host
     config = uvicorn.Config(
-        create_app(Config(bench, gate)),
+        create_app(Config(bench, Gate(token, port, known_hosts([host])))),
         host=host,
         port=port,
         loop="uvloop",
@@ -53,12 +52,10 @@ def serve(
         server_header=False,
         timeout_graceful_shutdown=3,
     )
-    try:
-        # uvicorn ends everything in order at Ctrl-C, and then raises it again.
-        with suppress(KeyboardInterrupt):
-            _Server(config, lambda: announce(f"Scanbench is ready: {address}")).run([sock])
-    finally:
-        store.close()
+    server = _Server(config, lambda: announce(f"Scanbench is ready: http://{shown}:{port}/?token={token}"))
+    # uvicorn ends everything in order at Ctrl-C, and then raises it again.
+    with suppress(KeyboardInterrupt):
+        server.run([sock])
 
 
 class _Server(uvicorn.Server):

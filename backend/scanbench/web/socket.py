@@ -96,6 +96,7 @@ class Client:
             instance=instance,
             errors=list(map(translate.error_row, self._session.rows)),
             log=list(map(translate.log_line, self._session.lines)),
+            forces=list(map(translate.force, self._session.forces)),
         )
         self._texts.appendleft(hello.model_dump_json())
         writer = asyncio.get_running_loop().create_task(self._write())

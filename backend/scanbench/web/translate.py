@@ -7,6 +7,7 @@ from scanbench.faults.history import ErrorRow
 from scanbench.plcmodel import model as plc
 from scanbench.problems import Problem
 from scanbench.runtime.clock import iso
+from scanbench.runtime.forces import Force
 from scanbench.session import events
 from scanbench.session.builds import BuildOutcome, CheckOutcome
 from scanbench.session.events import LogEntry, PlcState, User
@@ -121,6 +122,11 @@ def log_line(line: LogEntry) -> wire.LogLine:
     )
 
 
+def force(held: Force) -> wire.ForceInfo:
+    """A force that holds."""
+    return wire.ForceInfo(path=held.path, value=held.value, author=held.author)
+
+
 def event(happened: events.Event) -> wire.ServerMessage:
     """What a session tells, as a message."""
     match happened:
@@ -138,6 +144,8 @@ def event(happened: events.Event) -> wire.ServerMessage:
             return wire.Saved(
                 author=happened.author, file=wire.FileInfo(path=happened.path, version=happened.version)
             )  # fmt: skip
+        case events.ForcesChanged():
+            return wire.Forces(forces=list(map(force, happened.forces)))
         case events.ValueWritten():
             return wire.Written(
                 path=happened.path, author=happened.author, scan=happened.scan, forced=happened.forced

@@ -8,6 +8,5 @@ from tests.web.server import Server
 @pytest.fixture(scope="session")
 def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
     """One server for all tests here; each test makes its own project and instance."""
-    server = Server(tmp_path_factory.mktemp("bench"))
-    yield server
-    server.close()
+    with Server(tmp_path_factory.mktemp("bench")) as server:
+        yield server

@@ -49,7 +49,7 @@ def test_watch_write_and_refusals(server: Server) -> None:
         assert items["motor"]["refusal"]["near"] == ["Main.motor"]
         assert items["Main.user"]["id"] is None
         assert items["Main.user"]["symbol"]["expandable"]
-        assert items["Main.start"]["symbol"]["address"] == "CIO 0.00"
+        assert items["Main.start"]["symbol"]["address"].replace(" ", "") == "CIO0.00"
         browser.wait(lambda: browser.number("Main.n") is not None)
         before = browser.number("Main.n") or 0
         browser.wait(lambda: (browser.number("Main.n") or 0) > before + 10)
@@ -156,7 +156,7 @@ def test_pause_scan_continue_and_speed(server: Server) -> None:
         first, at = server.state(instance)["scan"], time.monotonic()
         time.sleep(1)
         rate = (server.state(instance)["scan"] - first) / (time.monotonic() - at)
-        assert 600 < rate < 1400, rate
+        assert 300 < rate < 1400, rate  # x1 would be 100
         refused = browser.ask(type="run", action="continue", speed=-1)
         assert not refused["ok"]
 

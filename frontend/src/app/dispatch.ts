@@ -2,7 +2,7 @@
 import { onProject, useBench } from "../store/bench";
 import { setClock } from "../store/clock";
 import { onBuilt, onSaved } from "../store/documents";
-import { onForceCount, onWritten } from "../store/forces";
+import { onForces, onWritten } from "../store/forces";
 import { resetMembers } from "../store/members";
 import { onErrors, onHello, onLog, onState, usePlc } from "../store/plc";
 import { apply } from "../store/values";
@@ -30,14 +30,13 @@ function dispatch(message: ServerMessage): void {
   switch (message.type) {
     case "hello":
       onHello(message);
-      onForceCount(message.instance.state.forces);
+      onForces(message.forces);
       onProject(message.instance.project);
       useBench.setState({ instance: message.instance });
       watchAgain();
       return;
     case "state":
       onState(message.state);
-      onForceCount(message.state.forces);
       return;
     case "watching":
       onWatching(message.items, message.ref === null);
@@ -61,8 +60,11 @@ function dispatch(message: ServerMessage): void {
     case "saved":
       void onSaved(message.file);
       return;
+    case "forces":
+      onForces(message.forces);
+      return;
     case "written":
-      onWritten(message.path, message.author, message.scan, message.forced);
+      onWritten(message.path, message.author, message.scan);
       return;
     default:
       message satisfies never;

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { ErrorGroup, ErrorHistoryRow, ErrorInfo } from "../wire/types";
-import { type CatalogueView, catalogueRows, defaultDetails, outOfRange, toggleAll } from "./catalogue";
+import { type CatalogueView, catalogueRows, defaultDetails, detailsInWords, outOfRange, toggleAll } from "./catalogue";
 
 const error = (id: string, code: string, details: ErrorInfo["details"] = []): ErrorInfo => ({
   id,
@@ -94,6 +94,17 @@ describe("details", () => {
       { name: "slot", control: "Spin", minimum: 0, maximum: 9, default: "5" },
     ] as unknown as ErrorInfo["details"];
     expect(defaultDetails(error("x", "0001", details))).toEqual({ what: "table", rack: "2", slot: "5" });
+  });
+
+  it("are told in words where the catalogue has some", () => {
+    const details = [
+      { name: "part", description: "Part", choices: [{ id: "table", description: "I/O table", address: "" }] },
+      { name: "rack", description: "Rack number" },
+    ] as unknown as ErrorInfo["details"];
+    expect(detailsInWords(error("x", "0001", details), "part=table, rack=2")).toBe("I/O table, Rack number 2");
+    expect(detailsInWords(error("x", "0001", details), "part=gone, other=1")).toBe("Part gone, other=1");
+    expect(detailsInWords(undefined, "rack=2")).toBe("rack=2");
+    expect(detailsInWords(undefined, "")).toBe("");
   });
 
   it("know their range", () => {

@@ -35,6 +35,20 @@ export interface CatalogueView {
   history: ReadonlyMap<string, ErrorHistoryRow>;
 }
 
+/** The details of a generated error (`location=io-table-checksum, slot=3`) in the words of the catalogue. */
+export function detailsInWords(error: ErrorInfo | undefined, details: string): string {
+  return details
+    .split(", ")
+    .map((part) => {
+      const [name, value] = part.split("=", 2);
+      const detail = error?.details.find((known) => known.name === name);
+      if (!detail || value === undefined) return part;
+      const choice = detail.choices?.find((known) => known.id === value);
+      return choice ? choice.description : `${detail.description || name} ${value}`;
+    })
+    .join(", ");
+}
+
 /** All errors of a catalogue, in its order. */
 export function allErrors(groups: readonly ErrorGroup[]): ErrorInfo[] {
   return groups.flatMap((group) => [...allErrors(group.groups), ...group.errors]);

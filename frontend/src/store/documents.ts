@@ -227,7 +227,8 @@ export async function deleteFile(path: string): Promise<void> {
   scheduleCheck();
 }
 
-const CHECK_DELAY = 120;
+/** A check takes the server some 15 ms: a problem is to be seen while the finger leaves the key. */
+const CHECK_DELAY = 50;
 let checkTimer: ReturnType<typeof setTimeout> | undefined;
 let checkTurn = 0;
 

@@ -1,5 +1,6 @@
-/** Which rows are forced and who wrote last, as far as this browser was told. */
+/** Which rows are forced, by whom, and who wrote last. Paths are compared as the PLC does: case does not matter. */
 import { create } from "zustand";
+import type { ForceInfo } from "../wire/types";
 
 export interface WrittenBy {
   author: string;
@@ -7,32 +8,25 @@ export interface WrittenBy {
 }
 
 interface Forces {
-  paths: ReadonlySet<string>;
+  held: ReadonlyMap<string, ForceInfo>;
   written: ReadonlyMap<string, WrittenBy>;
 }
 
-export const useForces = create<Forces>(() => ({ paths: new Set(), written: new Map() }));
+export const useForces = create<Forces>(() => ({ held: new Map(), written: new Map() }));
 
-export function onWritten(path: string, author: string, scan: number, forced: boolean): void {
-  useForces.setState((state) => ({
-    paths: forced ? new Set(state.paths).add(path) : state.paths,
-    written: new Map(state.written).set(path, { author, scan }),
-  }));
+export function forceOf(forces: Forces, path: string): ForceInfo | undefined {
+  return forces.held.get(path.toUpperCase());
 }
 
-export function onReleased(path: string | null): void {
-  useForces.setState(({ paths }) => {
-    const next = new Set(path === null ? [] : paths);
-    if (path !== null) next.delete(path);
-    return { paths: next };
-  });
+/** All forces that hold now, as the PLC tells them. */
+export function onForces(forces: readonly ForceInfo[]): void {
+  useForces.setState({ held: new Map(forces.map((force) => [force.path.toUpperCase(), force])) });
 }
 
-/** The PLC counts its forces; at none, no row is forced, whoever released them. */
-export function onForceCount(count: number): void {
-  if (count === 0 && useForces.getState().paths.size > 0) useForces.setState({ paths: new Set() });
+export function onWritten(path: string, author: string, scan: number): void {
+  useForces.setState((state) => ({ written: new Map(state.written).set(path, { author, scan }) }));
 }
 
 export function resetForces(): void {
-  useForces.setState({ paths: new Set(), written: new Map() });
+  useForces.setState({ held: new Map(), written: new Map() });
 }

@@ -61,10 +61,10 @@ export function setDetail(error: ErrorInfo, name: string, value: string): void {
   }));
 }
 
-/** What the buttons work on: what is ticked, else the selected row. */
+/** What the buttons work on: what is ticked, else the selected error; the key of a group begins with a slash. */
 export function targets(state: Pick<Simulator, "checked" | "selected">): string[] {
   if (state.checked.size > 0) return [...state.checked];
-  return state.selected === null ? [] : [state.selected];
+  return state.selected === null || state.selected.startsWith("/") ? [] : [state.selected];
 }
 
 export async function generate(model: ModelInfo): Promise<void> {

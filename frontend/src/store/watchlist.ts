@@ -3,7 +3,6 @@ import { create } from "zustand";
 import type { Format } from "../logic/values";
 import { pathsToWatch, type WatchListView, type WatchNote, watchRows } from "../logic/watchrows";
 import { type Answer, send } from "../wire/send";
-import { onReleased, onWritten } from "./forces";
 import { keep, recall } from "./keep";
 import { loadMembers, useMembers } from "./members";
 import { useWatches, watch } from "./watches";
@@ -139,15 +138,12 @@ export async function write(path: string, value: string): Promise<void> {
 }
 
 export async function force(path: string, value: string): Promise<void> {
-  const answer = await send({ type: "force", path, value });
-  if (answer.ok) onWritten(path, "", answer.scan ?? 0, true);
-  landed(path, value, answer);
+  landed(path, value, await send({ type: "force", path, value }));
 }
 
 export async function releaseForce(path: string | null): Promise<void> {
   const answer = await send({ type: "release", path });
-  if (answer.ok) onReleased(path);
-  else if (path !== null) landed(path, "", answer);
+  if (!answer.ok && path !== null) landed(path, "", answer);
 }
 
 function landed(path: string, entry: string, answer: Answer): void {

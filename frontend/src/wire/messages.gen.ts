@@ -581,6 +581,31 @@ export interface components {
             /** Value */
             value: string;
         };
+        /**
+         * ForceInfo
+         * @description A force that holds: who keeps which variable at what.
+         */
+        ForceInfo: {
+            /** Author */
+            author: string;
+            /** Path */
+            path: string;
+            /** Value */
+            value: string;
+        };
+        /**
+         * Forces
+         * @description All forces that hold, whenever they change.
+         */
+        Forces: {
+            /** Forces */
+            forces: components["schemas"]["ForceInfo"][];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "forces";
+        };
         /** Generate */
         Generate: {
             /** Errors */
@@ -612,6 +637,8 @@ export interface components {
         Hello: {
             /** Errors */
             errors: components["schemas"]["ErrorHistoryRow"][];
+            /** Forces */
+            forces: components["schemas"]["ForceInfo"][];
             instance: components["schemas"]["Instance"];
             /** Log */
             log: components["schemas"]["LogLine"][];
@@ -917,7 +944,7 @@ export interface components {
             /** Version */
             version: number;
         };
-        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Written"];
+        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Forces"] | components["schemas"]["Written"];
         /** SetMode */
         SetMode: {
             /**

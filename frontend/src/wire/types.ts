@@ -14,6 +14,7 @@ export type ErrorHistoryRow = Shapes["ErrorHistoryRow"];
 export type ErrorInfo = Shapes["ErrorInfo"];
 export type FileInfo = Shapes["FileInfo"];
 export type FileText = Shapes["FileText"];
+export type ForceInfo = Shapes["ForceInfo"];
 export type GenerateOne = Shapes["GenerateOne"];
 export type Hello = Shapes["Hello"];
 export type Instance = Shapes["Instance"];

@@ -1,5 +1,7 @@
+import { allErrors, detailsInWords } from "../../logic/catalogue";
 import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
+import { useBench } from "../../store/bench";
 import { usePlc } from "../../store/plc";
 import { clearFatal } from "../../store/simulator";
 import { Icon } from "../../ui/Icon";
@@ -9,6 +11,9 @@ import type { InstanceState } from "../../wire/types";
 export function FatalBanner({ state }: { state: InstanceState }) {
   const errors = usePlc((plc) => plc.errors);
   const cause = [...errors.values()].find((row) => row.status === "generated" && row.severity === "fatal");
+  const model = useBench((bench) => bench.model);
+  const error = allErrors(model?.catalogue ?? []).find((known) => known.id === cause?.id);
+  const details = detailsInWords(error, cause?.details ?? "");
   const title = cause ? t("fatal.title", { code: cause.code, name: cause.name }) : t("fatal.plain");
   const scan = cause?.generated_scan ?? state.scan;
   return (
@@ -16,7 +21,7 @@ export function FatalBanner({ state }: { state: InstanceState }) {
       <Icon name="fatal" />
       <span className="grow">
         <b>{title}</b>
-        {cause?.details ? ` (${cause.details}). ` : ". "}
+        {details ? ` (${details}). ` : ". "}
         <span className="muted">{t("fatal.about", { scan: grouped(scan) })}</span>
       </span>
       <button type="button" className="btn danger sm" onClick={() => void clearFatal()}>

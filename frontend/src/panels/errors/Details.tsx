@@ -1,4 +1,4 @@
-import { defaultDetails, outOfRange } from "../../logic/catalogue";
+import { defaultDetails, detailsInWords, outOfRange } from "../../logic/catalogue";
 import { grouped, wallTime } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { usePlc } from "../../store/plc";
@@ -34,7 +34,7 @@ export function Details({ error }: { error: ErrorInfo }) {
             at: wallTime(raised.generated_at),
             scan: grouped(raised.generated_scan ?? 0),
           })}
-          {raised.details && ` ${raised.details}`}
+          {raised.details && ` ${detailsInWords(error, raised.details)}`}
         </p>
       )}
       <div className="row wrap apart">

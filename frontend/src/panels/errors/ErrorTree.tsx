@@ -60,7 +60,8 @@ export function ErrorTree({ rows, label }: { rows: readonly CatalogueRow[]; labe
       tabIndex={0}
       onKeyDown={onKeyDown}
       onFocus={(event) => {
-        if (now < 0 && event.target === event.currentTarget) move(0);
+        // A click brings the focus, too, and the rows must not move away below the pointer.
+        if (now < 0 && event.currentTarget.matches(":focus-visible")) move(0);
       }}
     >
       <div className="gr h" role="row">

@@ -1,5 +1,7 @@
+import { allErrors, detailsInWords } from "../../logic/catalogue";
 import { grouped, wallTime } from "../../logic/numbers";
 import { t } from "../../logic/text";
+import { useBench } from "../../store/bench";
 import { usePlc } from "../../store/plc";
 import { StateWord } from "../../ui/StateWord";
 import { STATUS_ICONS } from "../../ui/statuses";
@@ -8,7 +10,9 @@ import type { ErrorHistoryRow } from "../../wire/types";
 /** One row for each error of the catalogue: was the program ever tested against it? */
 export function HistoryPanel() {
   const errors = usePlc((plc) => plc.errors);
+  const model = useBench((bench) => bench.model);
   const rows = [...errors.values()];
+  const catalogue = new Map(allErrors(model?.catalogue ?? []).map((error) => [error.id, error]));
   return (
     <div className="pane flexcol" data-pane="history" data-live>
       {rows.length === 0 ? (
@@ -33,7 +37,7 @@ export function HistoryPanel() {
             </thead>
             <tbody>
               {rows.map((row) => (
-                <Row key={row.id} row={row} />
+                <Row key={row.id} row={row} details={detailsInWords(catalogue.get(row.id), row.details)} />
               ))}
             </tbody>
           </table>
@@ -43,7 +47,7 @@ export function HistoryPanel() {
   );
 }
 
-function Row({ row }: { row: ErrorHistoryRow }) {
+function Row({ row, details }: { row: ErrorHistoryRow; details: string }) {
   return (
     <tr data-error={row.id}>
       <th scope="row">{row.name}</th>
@@ -53,7 +57,7 @@ function Row({ row }: { row: ErrorHistoryRow }) {
       <Moment at={row.generated_at} scan={row.generated_scan} />
       <Moment at={row.recovered_at} scan={row.recovered_scan} />
       <td className="mono">{row.status === "never" ? "" : row.code}</td>
-      <td>{row.details}</td>
+      <td>{details}</td>
       <td title={row.origin ? t(`origin.${row.origin}`) : undefined}>{row.by ?? ""}</td>
       <td className="num">{row.count || ""}</td>
     </tr>

@@ -5,19 +5,12 @@ import { select, setDraft, useWatchList, write } from "../../store/watchlist";
 import { Icon } from "../../ui/Icon";
 import type { PlcSymbol } from "../../wire/types";
 
-/** Where a value is typed. Enter writes it; what was refused stays, with the reason below. */
+/** Where a value is typed. Enter writes it; what was refused stays, with the reason below: the PLC says why a read-only value is none. */
 export function ChangeCell({ row, symbol, forced }: { row: ValueRow; symbol: PlcSymbol | null; forced: boolean }) {
   const draft = useWatchList((list) => list.drafts.get(row.path)) ?? "";
   const bad = useWatchList((list) => list.notes.get(row.path)?.kind === "refused");
 
   if (!symbol || symbol.expandable) return <span className="edit" role="gridcell" />;
-  if (!symbol.writable) {
-    return (
-      <span className="edit" role="gridcell">
-        <span className="readonly">{t("watch.readonly")}</span>
-      </span>
-    );
-  }
 
   function onKeyDown(event: KeyboardEvent<HTMLInputElement>): void {
     if (event.key === "Enter" && draft !== "") void write(row.path, draft);
@@ -41,6 +34,7 @@ export function ChangeCell({ row, symbol, forced }: { row: ValueRow; symbol: Plc
       <input
         aria-label={t("watch.change.of", { path: row.path })}
         aria-invalid={bad}
+        placeholder={symbol.writable ? undefined : t("watch.readonly")}
         value={draft}
         spellCheck={false}
         autoComplete="off"

@@ -2,7 +2,7 @@ import type { CSSProperties } from "react";
 import { splitPath } from "../../logic/paths";
 import { t } from "../../logic/text";
 import type { ValueRow } from "../../logic/watchrows";
-import { useForces } from "../../store/forces";
+import { forceOf, useForces } from "../../store/forces";
 import { useWatches } from "../../store/watches";
 import { releaseForce, removeFromWatch, select, toggleOpen, useWatchList } from "../../store/watchlist";
 import { Icon } from "../../ui/Icon";
@@ -22,7 +22,7 @@ interface Props {
 export function ValueLine({ row, style, index, selected, onMenu }: Props) {
   const answered = useWatches((state) => state.symbols.get(row.path));
   const refusal = useWatches((state) => state.refusals.get(row.path));
-  const forced = useForces((forces) => forces.paths.has(row.path));
+  const forced = useForces((forces) => forceOf(forces, row.path) !== undefined);
   const by = useForces((forces) => forces.written.get(row.path));
   const format = useWatchList((list) => list.formats.get(row.path)) ?? "default";
   const symbol = row.symbol ?? answered ?? null;

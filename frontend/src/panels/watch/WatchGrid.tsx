@@ -84,7 +84,8 @@ export function WatchGrid({ rows }: { rows: readonly WatchRow[] }) {
       tabIndex={0}
       onKeyDown={onKeyDown}
       onFocus={(event) => {
-        if (now < 0 && event.target === event.currentTarget) step(1);
+        // A click brings the focus, too, and the rows must not move away below the pointer.
+        if (now < 0 && event.currentTarget.matches(":focus-visible")) step(1);
       }}
     >
       <div className="gr h" role="row" aria-rowindex={1}>

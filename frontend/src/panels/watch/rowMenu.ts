@@ -1,7 +1,7 @@
 import { t } from "../../logic/text";
 import type { Format } from "../../logic/values";
 import type { ValueRow } from "../../logic/watchrows";
-import { useForces } from "../../store/forces";
+import { forceOf, useForces } from "../../store/forces";
 import { usePlc } from "../../store/plc";
 import { currentText } from "../../store/values";
 import { useWatches } from "../../store/watches";
@@ -14,7 +14,7 @@ const FORMATS: readonly Format[] = ["default", "decimal", "hex", "binary"];
 export function rowMenu(row: ValueRow): MenuItem[] {
   const symbol = row.symbol ?? useWatches.getState().symbols.get(row.path) ?? null;
   const { drafts, formats } = useWatchList.getState();
-  const forced = useForces.getState().paths.has(row.path);
+  const forced = forceOf(useForces.getState(), row.path) !== undefined;
   const online = usePlc.getState().link.state === "open";
   const single = symbol !== null && !symbol.expandable;
   const value = drafts.get(row.path) || currentText(row.path);

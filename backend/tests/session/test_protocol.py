@@ -1,0 +1,113 @@
+"""The language between parent and hosts, and what both keep."""
+
+import dataclasses
+from datetime import UTC, datetime
+
+import msgpack  # type: ignore[import-untyped]
+import pytest
+from hypothesis import given
+from hypothesis import strategies as st
+
+from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.reference import ErrorRef
+from scanbench.runtime.command import Entry, Patch, Plan
+from scanbench.runtime.forces import Force, Release
+from scanbench.runtime.modes import SetMode
+from scanbench.runtime.trap import TrapInfo, Trapped
+from scanbench.runtime.write import Write
+from scanbench.session import protocol
+from scanbench.session.codec import LENGTH, BadMessage, Splitter, pack, unpack
+from scanbench.session.instance import Memory
+from scanbench.session.watches import Watches
+
+AT = datetime(2026, 11, 21, 12, 0, 0, 123456, UTC)
+COMMANDS = (
+    Write("Ada", "Main.n", "7"),
+    Force("Ada", "Main.n", "7"),
+    Release("Ada", None),
+    SetMode("Ada", "RUN"),
+    Generate("Ada", (ErrorRef("battery-error"), ErrorRef("io-bus-error", (("rack", "1"), ("slot", "3"))))),
+    Recover("Ada", ("battery-error",)),
+    Recover("Ada", None),
+    Trapped("PLC", TrapInfo("division", "division by zero", "main.st", 3, 8, 4711)),
+)
+SOURCES = protocol.Sources("CJ1M-CPU63", {"main.st": "PROGRAM é"}, 10_000_000, 3)
+CHECKPOINT = protocol.Checkpoint(1 << 40, 2, 3, b"\x00\xff" * 1000)
+
+
+def entry(command: object, scan: int = 5) -> Entry:
+    assert isinstance(command, Write | Force | Release | SetMode | Generate | Recover | Trapped)
+    return Entry(scan, AT, command, Plan((Patch(48, b"\xff\x0f", b"\1\2"),), "a text"))
+
+
+@pytest.mark.parametrize("command", COMMANDS, ids=lambda each: type(each).__name__)
+def test_entries_come_back_equal(command: object) -> None:
+    for message in (protocol.Entered(entry(command)), protocol.Submit(9, entry(command).command)):
+        assert unpack(pack(message)[LENGTH.size :]) == message
+
+
+def test_a_start_comes_back_equal_in_whatever_pieces() -> None:
+    journal = tuple(map(entry, COMMANDS))
+    messages = [protocol.Start(SOURCES, 0.5, True, CHECKPOINT, journal, 99), protocol.Quit(), protocol.Frame(b"x", 3)]
+    stream = b"".join(map(pack, messages))
+    for size in (1, 3, 1000, len(stream)):
+        splitter, found = Splitter(), []
+        for start in range(0, len(stream), size):
+            found += list(splitter.feed(stream[start : start + size]))
+        assert found == messages
+
+
+@pytest.mark.parametrize(
+    "body",
+    [
+        b"\xc1",
+        msgpack.packb(msgpack.ExtType(1, msgpack.packb(["Popen", "rm"]))),
+        msgpack.packb(msgpack.ExtType(7, b"")),
+        msgpack.packb(msgpack.ExtType(1, msgpack.packb(["Quit", 1, 2]))),
+    ],
+)
+def test_bytes_that_are_no_message(body: bytes) -> None:
+    with pytest.raises(BadMessage):
+        unpack(body)
+
+
+def test_what_is_not_in_the_protocol_cannot_be_sent() -> None:
+    with pytest.raises(TypeError, match="Stranger"):
+        pack(dataclasses.make_dataclass("Stranger", [])())
+
+
+def test_memory_starts_cold_without_a_checkpoint_and_goes_on_with_one() -> None:
+    memory = Memory(SOURCES, journal=[entry(COMMANDS[0])], scan=10)
+    assert (memory.start().checkpoint, memory.start().journal) == (None, ())
+    new = dataclasses.replace(SOURCES, version=4)
+    memory.keep(CHECKPOINT, new)
+    assert memory.sources is SOURCES  # version 3 is in the checkpoint, 4 is only offered
+    memory.keep(dataclasses.replace(CHECKPOINT, version=4), new)
+    assert memory.sources is new
+    start = memory.start()
+    assert (start.until, len(start.journal)) == (1 << 40, 1)
+    memory.forget_run()
+    assert (memory.start().until, memory.start().checkpoint) == (0, None)
+
+
+def test_paths_are_shared_whatever_their_case() -> None:
+    watches = Watches()
+    first = watches.add(1, ["Main.n", "D100"])
+    assert watches.add(2, ["main.N ", "D200"])[0][0] == first[0][0]
+    assert watches.forget(1, [id for id, _ in first]) == [first[1][0]]
+    assert watches.forget(1, [first[0][0]]) == []  # it does not watch that any more
+    assert len(watches.drop(2)) == 2
+    assert watches.all() == ()
+
+
+@given(st.lists(st.tuples(st.integers(1, 3), st.booleans(), st.sampled_from("abcd")), max_size=40))
+def test_watched_is_what_somebody_watches(steps: list[tuple[int, bool, str]]) -> None:
+    watches, expected, ids = Watches(), set[tuple[int, str]](), dict[str, int]()
+    for who, adds, path in steps:
+        if adds:
+            ids[path] = watches.add(who, [path])[0][0]
+            expected.add((who, path))
+        elif path in ids:
+            watches.forget(who, [ids[path]])
+            expected.discard((who, path))
+        assert {path for _, path in watches.all()} == {path for _, path in expected}
