@@ -28,7 +28,7 @@ help:
 	@echo "make run     set up what is missing, start the bench, print its address (ARGS=\"--port 9000\")"
 	@echo "make test    everything: lint, types, layers, unit and case tests, frontend, browser stories"
 	@echo "make check   lint, types and layers only"
-	@echo "make bench   time the native engine beside C"
+	@echo "make bench   time the native engine beside C, and what watched values cost"
 	@echo "make shots   take the README's screenshots again"
 	@echo "make wire    generate the browser's types from the backend's messages"
 	@echo "make lock    resolve the dependencies again and write the lock files"
@@ -50,6 +50,7 @@ check: $(VENV)/.stamp-runtime $(VENV)/.stamp-dev $(NODE_ROOTS:%=%/node_modules/.
 
 bench: $(VENV)/.stamp-runtime
 	@$(BIN)/scanbench bench $(ARGS)
+	@$(BIN)/python -m scanbench.bench.watch
 
 shots: setup-test
 	@cd e2e && $(NPM) run shots

@@ -1,7 +1,8 @@
-/** The run controls: what they send, and what was refused. */
+/** Mode and run controls: what they send, and what was refused. */
 import { create } from "zustand";
 import { t } from "../logic/text";
 import { send } from "../wire/send";
+import type { Mode } from "../wire/types";
 import { usePlc } from "./plc";
 
 export const SPEEDS = [0.1, 1, 10, 100, 0] as const;
@@ -29,6 +30,11 @@ export async function setSpeed(speed: number): Promise<void> {
 
 async function order(action: Action, speed: number | null): Promise<void> {
   const answer = await send({ type: "run", action, speed });
+  useRun.setState({ refused: answer.ok ? null : answer.message || t("notsent") });
+}
+
+export async function chooseMode(mode: Mode): Promise<void> {
+  const answer = await send({ type: "mode", mode });
   useRun.setState({ refused: answer.ok ? null : answer.message || t("notsent") });
 }
 

@@ -41,7 +41,7 @@ export function Details({ error }: { error: ErrorInfo }) {
         <span className="kv">
           <span>
             {t("errors.code")}
-            <b>{error.code}</b>
+            <b>{raised?.code ?? error.code}</b>
           </span>
           <span>
             {t("errors.flag")}

@@ -1,4 +1,4 @@
-import { type KeyboardEvent, useRef } from "react";
+import { type KeyboardEvent, useEffect, useRef } from "react";
 import type { CatalogueRow, GroupRow, LeafRow } from "../../logic/catalogue";
 import { t } from "../../logic/text";
 import { selectError, toggleChecked, toggleGroup, useSimulator } from "../../store/simulator";
@@ -13,11 +13,16 @@ export function ErrorTree({ rows, label }: { rows: readonly CatalogueRow[]; labe
   const selected = useSimulator((state) => state.selected);
   const now = rows.findIndex((row) => row.key === selected);
 
+  // The details of the selected error take room from the tree: it must not push its own row out of sight.
+  useEffect(() => {
+    if (selected === null) return;
+    grid.current?.querySelector(`[data-key="${CSS.escape(selected)}"]`)?.scrollIntoView({ block: "nearest" });
+  }, [selected]);
+
   function move(index: number): void {
     const row = rows[Math.max(0, Math.min(rows.length - 1, index))];
     if (!row) return;
     selectError(row.key);
-    grid.current?.querySelector(`[data-key="${CSS.escape(row.key)}"]`)?.scrollIntoView({ block: "nearest" });
   }
 
   function onKeyDown(event: KeyboardEvent): void {

@@ -1,7 +1,7 @@
-import { type KeyboardEvent, useState } from "react";
+import type { KeyboardEvent } from "react";
 import { t } from "../../logic/text";
 import { useOnline, usePlc } from "../../store/plc";
-import { send } from "../../wire/send";
+import { chooseMode } from "../../store/run";
 import type { Mode } from "../../wire/types";
 
 const MODES: readonly Mode[] = ["PROGRAM", "MONITOR", "RUN"];
@@ -10,13 +10,6 @@ const MODES: readonly Mode[] = ["PROGRAM", "MONITOR", "RUN"];
 export function ModeSwitch() {
   const mode = usePlc((plc) => plc.state?.mode ?? null);
   const online = useOnline();
-  const [refused, setRefused] = useState<string | null>(null);
-
-  async function choose(next: Mode): Promise<void> {
-    setRefused(null);
-    const answer = await send({ type: "mode", mode: next });
-    if (!answer.ok) setRefused(answer.message || t("notsent"));
-  }
 
   function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
     const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
@@ -32,7 +25,6 @@ export function ModeSwitch() {
       className={`seg caps${online ? "" : " lock"}`}
       role="radiogroup"
       aria-label={t("mode.label")}
-      title={refused ?? undefined}
       onKeyDown={onKeyDown}
     >
       {MODES.map((name) => (
@@ -44,16 +36,11 @@ export function ModeSwitch() {
           aria-checked={name === mode}
           tabIndex={name === (mode ?? "PROGRAM") ? 0 : -1}
           disabled={!online}
-          onClick={() => void choose(name)}
+          onClick={() => void chooseMode(name)}
         >
           {name}
         </button>
       ))}
-      {refused && (
-        <span className="sr" role="alert">
-          {refused}
-        </span>
-      )}
     </div>
   );
 }
