@@ -1,0 +1,77 @@
+import { expect, type Locator, type Page } from '@playwright/test';
+
+/** The text of one file, with its save and build. */
+export class Editor {
+  constructor(
+    private readonly page: Page,
+    private readonly file: string,
+  ) {}
+
+  get region(): Locator {
+    return this.page.getByRole('region', { name: `Editor, ${this.file}`, exact: true });
+  }
+
+  get tab(): Locator {
+    return this.page.getByRole('tab', { name: new RegExp(`^${this.file}`) });
+  }
+
+  get text(): Locator {
+    return this.region.getByRole('textbox', { name: `Editor, ${this.file}` }).first();
+  }
+
+  get squiggles(): Locator {
+    return this.region.locator('.squiggly-error');
+  }
+
+  get outcome(): Locator {
+    return this.region.getByRole('status');
+  }
+
+  /** The visible line that contains a text. Monaco draws blanks as non-breaking ones. */
+  line(part: string): Locator {
+    const pattern = part
+      .split(' ')
+      .map((word) => word.replace(/[.*+?^${}()|[\]\\]/g, '\\$&'))
+      .join('[\\s\\u00a0]+');
+    return this.region.locator('.view-line').filter({ hasText: new RegExp(pattern) });
+  }
+
+  get conflict(): Locator {
+    return this.region.getByRole('region', { name: 'Save conflict' });
+  }
+
+  async open(): Promise<void> {
+    await this.tab.click();
+    await expect(this.text).toBeAttached();
+  }
+
+  async caretAfter(part: string): Promise<void> {
+    await this.line(part).first().click();
+    await this.page.keyboard.press('End');
+  }
+
+  async type(text: string): Promise<void> {
+    await this.page.keyboard.type(text);
+  }
+
+  /** A line of its own below one that is there; pasted, so that no completion gets in between. */
+  async addBelow(part: string, text: string): Promise<void> {
+    await this.caretAfter(part);
+    await this.page.keyboard.insertText(`\n${text}`);
+  }
+
+  /** Another text instead of the one that is there, as by pasting. */
+  async replaceWith(text: string): Promise<void> {
+    await this.text.focus();
+    await this.page.keyboard.press('Control+A');
+    await this.page.keyboard.insertText(text);
+  }
+
+  async save(): Promise<void> {
+    await this.region.getByRole('button', { name: 'Save', exact: true }).click();
+  }
+
+  async build(): Promise<void> {
+    await this.region.getByRole('button', { name: 'Build', exact: true }).click();
+  }
+}

@@ -1,0 +1,66 @@
+import { expect, type Locator, type Page } from '@playwright/test';
+import { Editor } from './editor';
+import { Explorer } from './explorer';
+import { Problems } from './problems';
+import { Simulator } from './simulator';
+import { TopBar } from './topbar';
+import { Watch } from './watch';
+
+/** The whole window of one person. */
+export class Ide {
+  readonly top: TopBar;
+  readonly explorer: Explorer;
+  readonly watch: Watch;
+  readonly simulator: Simulator;
+  readonly problems: Problems;
+
+  constructor(readonly page: Page) {
+    this.top = new TopBar(page);
+    this.explorer = new Explorer(page);
+    this.watch = new Watch(page);
+    this.simulator = new Simulator(page);
+    this.problems = new Problems(page);
+  }
+
+  editor(file: string): Editor {
+    return new Editor(this.page, file);
+  }
+
+  /** The banner below the top bar: what is wrong, and the way back. */
+  get banner(): Locator {
+    return this.page
+      .getByRole('alert')
+      .filter({ has: this.page.getByRole('button') })
+      .first();
+  }
+
+  get statusBar(): Locator {
+    return this.page.getByRole('contentinfo');
+  }
+
+  /** Everything stands and lives: a program runs, and its scans are counted. */
+  async runs(): Promise<void> {
+    await expect(this.top.state).toContainText('Running');
+    await this.top.scansGoOn();
+  }
+
+  async showPanel(name: 'Watch' | 'Error log' | 'Error simulator' | 'History'): Promise<void> {
+    await this.page.getByRole('tab', { name, exact: true }).click();
+  }
+
+  /** Which pane has the focus; empty when none has. */
+  async focusedPane(): Promise<string> {
+    return this.page.evaluate(() => document.activeElement?.closest<HTMLElement>('[data-pane]')?.dataset.pane ?? '');
+  }
+
+  /** F6 until a pane has the focus. */
+  async goToPane(pane: string): Promise<void> {
+    for (let turn = 0; turn < 20 && (await this.focusedPane()) !== pane; turn += 1)
+      await this.page.keyboard.press('F6');
+    expect(await this.focusedPane()).toBe(pane);
+  }
+
+  history(error: string): Locator {
+    return this.page.getByRole('table', { name: 'Error history' }).getByRole('row').filter({ hasText: error });
+  }
+}

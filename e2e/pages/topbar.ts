@@ -1,0 +1,74 @@
+import { expect, type Locator, type Page } from '@playwright/test';
+
+/** The strip along the top: which PLC, its mode and state, and what makes it run. */
+export class TopBar {
+  constructor(private readonly page: Page) {}
+
+  get state(): Locator {
+    return this.page.getByRole('status', { name: 'PLC state' });
+  }
+
+  get picker(): Locator {
+    return this.page.getByRole('button', { name: 'Project and instance' });
+  }
+
+  get here(): Locator {
+    return this.page.getByRole('list', { name: 'Here now' });
+  }
+
+  mode(name: 'PROGRAM' | 'MONITOR' | 'RUN'): Locator {
+    return this.page.getByRole('radio', { name, exact: true });
+  }
+
+  async chooseMode(name: 'PROGRAM' | 'MONITOR' | 'RUN'): Promise<void> {
+    await this.mode(name).click();
+    await expect(this.mode(name)).toBeChecked();
+  }
+
+  async restart(): Promise<void> {
+    await this.page.getByRole('toolbar', { name: 'Run controls' }).getByRole('button', { name: 'Restart' }).click();
+  }
+
+  /** The number of the last scan that this browser was told. */
+  async scan(): Promise<number> {
+    const text = (await this.page.getByTestId('scan').textContent()) ?? '';
+    return Number(text.replace(/\D/g, '') || NaN);
+  }
+
+  async scansGoOn(from?: number): Promise<void> {
+    const before = from ?? (await this.scan());
+    await expect.poll(() => this.scan(), { message: `scans go on from ${before}` }).toBeGreaterThan(before || 0);
+  }
+
+  async chooseTheme(name: string): Promise<void> {
+    const button = this.page.getByRole('button', { name: /^Theme: / });
+    for (let turn = 0; turn < 3 && (await button.getAttribute('aria-label')) !== `Theme: ${name}`; turn += 1) {
+      await button.click();
+    }
+    await expect(button).toHaveAccessibleName(`Theme: ${name}`);
+  }
+
+  async newProject(name: string): Promise<void> {
+    await this.picker.click();
+    await this.page.getByRole('menuitem', { name: 'New project…' }).click();
+    const dialog = this.page.getByRole('dialog', { name: 'New project' });
+    await dialog.getByRole('textbox', { name: 'Name' }).fill(name);
+    await dialog.getByRole('button', { name: 'Create' }).click();
+    await expect(dialog).toBeHidden();
+    await expect(this.picker).toContainText(name);
+  }
+
+  /** Notes every change of the state with its time, because a restart may be over before one looks. */
+  async noteStates(): Promise<() => Promise<{ at: number; text: string }[]>> {
+    await this.state.evaluate((element) => {
+      const noted = [{ at: Date.now(), text: element.textContent ?? '' }];
+      new MutationObserver(() => noted.push({ at: Date.now(), text: element.textContent ?? '' })).observe(element, {
+        childList: true,
+        characterData: true,
+        subtree: true,
+      });
+      Object.assign(window, { notedStates: noted });
+    });
+    return () => this.page.evaluate(() => (window as unknown as { notedStates: [] }).notedStates);
+  }
+}

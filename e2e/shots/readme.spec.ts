@@ -1,0 +1,68 @@
+/** The pictures of the README: `make shots` takes them again. */
+import { resolve } from 'node:path';
+import { expect, test } from '../fixtures/test';
+import type { Ide } from '../pages/ide';
+
+const FOLDER = resolve(import.meta.dirname, '../../docs/shots');
+
+test('main window, dark: an error is raised and the program has reacted', async ({ openAs }) => {
+  const { mika } = await atWork(openAs);
+  await raise(mika);
+  await take(mika, 'main-dark');
+});
+
+test('main window, light', async ({ openAs }) => {
+  const { mika } = await atWork(openAs);
+  await mika.top.chooseTheme('light');
+  await mika.showPanel('History');
+  await mika.showPanel('Error simulator');
+  await raise(mika);
+  await take(mika, 'main-light');
+});
+
+test('a fatal error', async ({ openAs }) => {
+  const { mika } = await atWork(openAs);
+  await mika.simulator.select('Memory error');
+  await mika.simulator.choose('Part of the memory', /I\/O table checksum/);
+  await mika.simulator.generate('Memory error');
+  await expect(mika.banner).toContainText('80F4');
+  await expect(mika.simulator.word('A400')).toHaveText('80F4');
+  await take(mika, 'fatal');
+});
+
+test('a small window', async ({ openAs }) => {
+  const mika = await openAs('Mika');
+  await mika.page.setViewportSize({ width: 1024, height: 700 });
+  await mika.page.reload();
+  await mika.top.chooseTheme('dark');
+  await mika.runs();
+  await mika.watch.set('start', 'TRUE');
+  await raise(mika);
+  await take(mika, 'small');
+});
+
+/** The belt has run for a while, and two people look at it. */
+async function atWork(openAs: (name: string) => Promise<Ide>): Promise<{ mika: Ide; jo: Ide }> {
+  const mika = await openAs('Mika Lind');
+  await mika.top.chooseTheme('dark');
+  await mika.runs();
+  await expect(mika.editor('Main.st').line('PROGRAM Main').first()).toBeVisible();
+  const jo = await openAs('Jo Aoki');
+  await expect(mika.top.here.getByTitle('Jo Aoki')).toBeVisible();
+  await mika.watch.set('start', 'TRUE');
+  await expect.poll(() => mika.watch.number('Main.parts.total')).toBeGreaterThan(2);
+  return { mika, jo };
+}
+
+async function raise(ide: Ide): Promise<void> {
+  await ide.simulator.generate('Basic I/O Unit error');
+  await ide.watch.shows('lamp', 'TRUE');
+  await ide.watch.shows('motor', 'FALSE');
+  await expect(ide.simulator.word('A400')).toHaveText('009A');
+}
+
+/** The pointer is put away first, so that nothing is lit up below it. */
+async function take(ide: Ide, name: string): Promise<void> {
+  await ide.page.mouse.move(0, 0);
+  await ide.page.screenshot({ path: resolve(FOLDER, `${name}.png`), animations: 'disabled' });
+}

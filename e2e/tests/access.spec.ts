@@ -1,0 +1,87 @@
+import { expect, test } from '../fixtures/test';
+
+test('what must not be written is refused in its row, with the reason', async ({ openAs }) => {
+  const mika = await openAs('Mika');
+  await mika.runs();
+
+  await test.step('an error flag belongs to the CPU', async () => {
+    await mika.watch.write('A402.12', 'TRUE');
+    await expect(mika.watch.refusal).toContainText('Not written.');
+    await expect(mika.watch.refusal).toContainText('A402');
+    await expect(mika.watch.refusal).toContainText(/read|error simulator/);
+    await mika.watch.shows('A402.12', 'FALSE');
+    await mika.page.keyboard.press('Escape');
+    await expect(mika.watch.refusal).toHaveCount(0);
+  });
+
+  await test.step('letters are not an INT; the entry stays to be mended', async () => {
+    await mika.watch.write('Main.parts.total', 'abc');
+    await expect(mika.watch.refusal).toContainText('abc');
+    await expect(mika.watch.refusal).toContainText('INT');
+    await expect(mika.watch.entry('Main.parts.total')).toHaveValue('abc');
+    await mika.watch.write('Main.parts.total', '70000');
+    await expect(mika.watch.refusal).toContainText('32767');
+    await mika.watch.set('bufferLevel', '12');
+    await mika.page.keyboard.press('Escape');
+  });
+
+  await test.step('an unknown path offers what it may have meant', async () => {
+    await mika.watch.add('motr');
+    const unknown = mika.watch.refusal.filter({ hasText: 'Not known.' });
+    await expect(unknown).toContainText('motr');
+    await mika.watch.table.getByRole('button', { name: 'motor', exact: true }).click();
+    await expect(unknown).toHaveCount(0);
+  });
+});
+
+test('without the right token there is a page that says what to do', async ({ browser, server }) => {
+  const page = await (await browser.newContext()).newPage();
+  const { origin } = new URL(server.address);
+  for (const address of [`${origin}/?token=wrong`, `${origin}/`]) {
+    await page.goto(address);
+    await expect(page.getByRole('heading', { level: 1 })).toHaveText('This bench has a key');
+    await expect(page.getByRole('main').or(page.locator('body'))).toContainText('?token=');
+  }
+  const refused = await page.request.get(`${origin}/api/projects`);
+  expect(refused.status()).toBe(401);
+  await page.context().close();
+});
+
+test('two people save the same file: nothing is lost, and one chooses', async ({ openAs }) => {
+  test.setTimeout(120_000);
+  const mika = await openAs('Mika');
+  const jo = await openAs('Jo');
+  const [mine, theirs] = [mika.editor('Main.st'), jo.editor('Main.st')];
+
+  await test.step('Mika saves first, Jo is shown both texts', async () => {
+    await mine.addBelow('uptime : TIME;', '  mikas     : INT;');
+    await theirs.addBelow('uptime : TIME;', '  jos       : INT;');
+    await mine.save();
+    await expect(mika.statusBar).toContainText(/Saved \d\d:\d\d/);
+    await theirs.save();
+    await expect(theirs.conflict).toContainText('Somebody else saved Main.st first');
+    await expect(theirs.conflict.getByText('mikas')).toBeVisible();
+    await expect(theirs.conflict.getByText('jos')).toBeVisible();
+  });
+
+  await test.step('Jo keeps her own, and Mika sees it', async () => {
+    await theirs.conflict.getByRole('button', { name: 'Keep mine' }).click();
+    await expect(theirs.conflict).toBeHidden();
+    await expect(jo.statusBar).toContainText(/Saved \d\d:\d\d/);
+    await expect(mine.line('jos : INT;')).toBeVisible();
+    await expect(mine.line('mikas : INT;')).toHaveCount(0);
+  });
+
+  await test.step('another time Mika takes theirs', async () => {
+    await theirs.addBelow('jos : INT;', '  josToo    : INT;');
+    await mine.addBelow('uptime : TIME;', '  mikasToo  : INT;');
+    await theirs.save();
+    await expect(jo.statusBar).toContainText(/Saved \d\d:\d\d/);
+    await mine.save();
+    await mine.conflict.getByRole('button', { name: 'Take theirs' }).click();
+    await expect(mine.conflict).toBeHidden();
+    await expect(mine.line('josToo : INT;')).toBeVisible();
+    await expect(mine.line('mikasToo : INT;')).toHaveCount(0);
+    await expect(mika.statusBar).not.toContainText('Not saved');
+  });
+});

@@ -1,0 +1,86 @@
+import { expect, test } from '../fixtures/test';
+import type { Ide } from '../pages/ide';
+
+const CONFIGURATION = `
+CONFIGURATION Plant
+  RESOURCE Cpu ON PLC
+    TASK Cyclic(INTERVAL := T#10ms, PRIORITY := 1);
+    PROGRAM Main WITH Cyclic : Main;
+  END_RESOURCE
+END_CONFIGURATION
+`;
+
+/** A program whose line 9 is at fault as soon as `go` is on. */
+function program(fault: string): string {
+  return `PROGRAM Main
+VAR
+  go      : BOOL;
+  divisor : INT;
+  index   : INT := 7;
+  list    : ARRAY[0..4] OF INT;
+  result  : INT;
+END_VAR
+  IF go THEN ${fault} END_IF;
+  result := result + 1;
+END_PROGRAM
+${CONFIGURATION}`;
+}
+
+const FAULTS = [
+  { name: 'divides by zero', fault: 'result := 10 / divisor;', said: /zero/ },
+  { name: 'indexes outside of an array', fault: 'list[index] := 1;', said: /0\.\.4/ },
+  { name: 'loops for ever', fault: 'WHILE go DO result := 0; END_WHILE;', said: /does not end/ },
+];
+
+test('a program that goes wrong stops with file and line, and nothing else stops with it', async ({ openAs }) => {
+  test.setTimeout(120_000);
+  const jo = await openAs('Jo');
+  await jo.runs();
+  const mika = await openAs('Mika');
+  await mika.top.newProject('Traps');
+  const main = mika.editor('Main.st');
+  await ready(mika);
+
+  for (const { name, fault, said } of FAULTS) {
+    await test.step(name, async () => {
+      await main.replaceWith(program(fault));
+      await main.build();
+      await expect(main.outcome).toContainText('Built');
+      await mika.runs();
+      await watched(mika, 'Main.go');
+      await watched(mika, 'Main.result');
+      await mika.page.keyboard.press('Control+Home');
+      await mika.watch.write('Main.go', 'TRUE');
+
+      await expect(mika.top.state).toContainText('Trapped');
+      await expect(mika.banner).toContainText('The program was stopped.');
+      await expect(mika.banner).toContainText(said);
+      await mika.banner.getByRole('button', { name: 'Main.st:9' }).click();
+      await expect(mika.statusBar).toContainText('Ln 9,');
+
+      await expect(jo.top.state).toContainText('Running');
+      await jo.top.scansGoOn();
+      await expect(jo.banner).toBeHidden();
+    });
+
+    await test.step(`${name}: mended and restarted it runs again`, async () => {
+      await main.replaceWith(program('result := 5;'));
+      await main.build();
+      await expect(main.outcome).toContainText('Built');
+      await mika.top.restart();
+      await mika.runs();
+      await expect(mika.banner).toBeHidden();
+    });
+  }
+});
+
+/** A new project has something to edit, and its PLC is there. */
+async function ready(ide: Ide): Promise<void> {
+  const main = ide.editor('Main.st');
+  if (!(await main.region.isVisible())) await ide.page.screenshot({ path: 'test-results/new-project.png' });
+  await expect(main.region).toBeVisible();
+}
+
+async function watched(ide: Ide, path: string): Promise<void> {
+  if (!(await ide.watch.row(path).isVisible())) await ide.watch.add(path);
+}
