@@ -65,6 +65,7 @@ TABLE: dict[str, str] = {
     "D010": "configuration that names something unknown",
     "D011": "nothing to run: no program",
     "D012": "memory larger than the limit",
+    "D013": "calls that multiply beyond what a scan may take",
     # T: types and names in statements
     "T001": "unknown name",
     "T002": "types that do not fit",

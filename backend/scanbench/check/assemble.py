@@ -49,7 +49,7 @@ def assemble(
     where: Span,
 ) -> Program | None:
     """The program, or None when there is nothing that can run."""
-    tasks = _Tasks(report, declarations, pous, interval_ns)
+    tasks = _Tasks(report, declarations, pous, variables, interval_ns)
     planned = tasks.configured(configurations[0]) if configurations else tasks.free()
     for extra in configurations[1:]:
         report.error("D010", "A program has one CONFIGURATION; remove this one.", extra.span)
@@ -82,7 +82,7 @@ def _reachable(order: list[Pou], pous: Pous, roots: set[Pou]) -> list[Pou]:
     """What the programs call, in the order callees first."""
     found, open_ = set(roots), list(roots)
     while open_:
-        for callee in pous.uses.get(open_.pop(), []):
+        for callee in pous.uses.get(open_.pop(), {}):
             if callee not in found:
                 found.add(callee)
                 open_.append(callee)
@@ -100,9 +100,9 @@ def _initial_image(
     for instance in instances:
         data = instance.pou.instance.initial()
         image[instance.offset : instance.offset + len(data)] = data
-    for offset, data in declarations.located.items():
-        for index, byte in enumerate(data):
-            image[offset + index] |= byte
+    for offset, mask, data in declarations.located:
+        for index, byte in enumerate(data, offset):
+            image[index] = image[index] & ~mask | byte & mask
     return bytes(image)
 
 
@@ -111,8 +111,11 @@ Planned = list[tuple[str, int, int, list[tuple[str, Pou]]]]
 
 
 class _Tasks:
-    def __init__(self, report: Report, declarations: Declarations, pous: Pous, interval_ns: int) -> None:
+    def __init__(
+        self, report: Report, declarations: Declarations, pous: Pous, variables: Record, interval_ns: int
+    ) -> None:
         self.report = report
+        self.variables = variables
         self.declarations = declarations
         self.pous = pous
         self.interval_ns = interval_ns
@@ -120,6 +123,9 @@ class _Tasks:
     def free(self) -> Planned:
         """Without a CONFIGURATION every PROGRAM runs, in order of declaration, in one task."""
         programs = [(pou.name, pou) for pou in self.pous.blocks.values() if pou.kind == "program"]
+        for name, pou in programs:
+            if name.upper() in self.variables.members:
+                self.report.error("D001", f"`{name}` is a VAR_GLOBAL already; rename one.", pou.span)
         return [("Main", self.interval_ns, 0, programs)]
 
     def configured(self, configuration: tree.Configuration) -> Planned:
@@ -170,7 +176,7 @@ class _Tasks:
             hint = did_you_mean(program.type_name, programs)
             self.report.error("D010", f"There is no PROGRAM `{program.type_name}`.{hint}", program.span)
             return
-        if program.name.upper() in names:
+        if program.name.upper() in names or program.name.upper() in self.variables.members:
             self.report.error("D001", f"`{program.name}` is declared already; rename one.", program.span)
             return
         names.add(program.name.upper())

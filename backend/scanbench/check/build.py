@@ -17,7 +17,7 @@ from scanbench.check.declare import Declarations
 from scanbench.check.program import Const, Pou, Program
 from scanbench.check.scopes import Pous, Scope
 from scanbench.check.statements import StatementChecker
-from scanbench.check.types import Kind, Member, Record, Section, Type
+from scanbench.check.types import ELEMENTARY, Kind, Member, Record, Section, Type
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem, Severity, Span
 from scanbench.syntax import tree
@@ -25,6 +25,8 @@ from scanbench.syntax.parse_st import parse_st
 from scanbench.syntax.source import Source
 
 LIBRARY = ("timers", "counters", "bistable", "strings")
+MAX_CALLS = 1_000_000
+"""Calls that one call may lead to, loops not counted: those have a budget at run time, plain calls have none."""
 RECURSION_LIMIT = 20_000
 """Python frames for a deep expression: the parser bounds depth, the checks walk it with a few frames a level."""
 sys.setrecursionlimit(max(sys.getrecursionlimit(), RECURSION_LIMIT))
@@ -146,6 +148,9 @@ class Checker:
         table[pou.name.upper()] = pou
 
     def _first(self, name: str, span: Span, seen: dict[str, Span]) -> bool:
+        if name.upper() in ELEMENTARY:
+            self.report.error("D001", f"`{name}` is a standard type; choose another name.", span)
+            return False
         first = seen.setdefault(name.upper(), span)
         if first is not span:
             self.report.error("D001", f"`{name}` is declared already in {first}; rename one.", span)
@@ -178,7 +183,7 @@ class Checker:
                 made = self.declarations.named(declaration.name, declaration.span)
                 assert isinstance(made, Record)
                 instance = made
-            frame = self.declarations.frame(declaration)
+            frame = self.declarations.frame(declaration, instance)
         except Rejected:
             return
         parameters = tuple(
@@ -212,6 +217,12 @@ class Checker:
                 continue
             for variable in section.variables:
                 member = self.globals.members.get(variable.name.upper())
+                taken = [self.pous.blocks, self.pous.functions]
+                own = next(
+                    (table[declaration.name.upper()] for table in taken if declaration.name.upper() in table), None
+                )
+                if own is not None and variable.name.upper() in {*own.instance.members, *own.frame.members}:
+                    self.report.error("D001", f"`{variable.name}` is declared already; rename one.", variable.span)
                 if member is None:
                     hint = did_you_mean(variable.name, [each.name for each in self.globals.members.values()])
                     self.report.error("D007", f"There is no VAR_GLOBAL `{variable.name}`.{hint}", variable.span)
@@ -245,6 +256,7 @@ class Checker:
         """Callees before callers; a POU that calls itself, by whatever way, is refused."""
         order: list[Pou] = []
         state: dict[Pou, int] = {}
+        calls: dict[Pou, int] = {}
 
         def visit(pou: Pou, path: list[Pou]) -> None:
             if state.get(pou) == 2:
@@ -254,10 +266,17 @@ class Checker:
                 self.report.error("D009", f"Recursion is not allowed: {names}.", pou.span)
                 return
             state[pou] = 1
-            for callee in self.pous.uses.get(pou, []):
+            for callee in self.pous.uses.get(pou, {}):
                 visit(callee, [*path, pou])
             state[pou] = 2
             order.append(pou)
+            called = self.pous.uses.get(pou, {}).items()
+            calls[pou] = 1 + sum(calls.get(callee, 0) * places for callee, places in called)
+            if calls[pou] > MAX_CALLS:
+                self.report.error(
+                    "D013", f"One call of `{pou.name}` leads to {calls[pou]} calls; at most {MAX_CALLS}.", pou.span
+                )
+                calls[pou] = 0
 
         for pou in (*self.pous.functions.values(), *self.pous.blocks.values()):
             if not pou.inline:

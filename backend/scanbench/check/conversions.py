@@ -19,8 +19,10 @@ from scanbench.check.types import (
     StringType,
     Type,
 )
+from scanbench.check.untyped import bounds
 
 NAME = re.compile(r"(?:([A-Z]+)_)?TO_([A-Z]+)")
+UNSIGNED = {type.size: type for type in (ELEMENTARY["USINT"], ELEMENTARY["UINT"], ELEMENTARY["UDINT"], ULINT)}
 NS_PER_MS = 1_000_000
 NUMBER_TEXT = StringType(20)
 REAL_TEXT = StringType(32)
@@ -61,7 +63,7 @@ def convert(expr: Expr, target: Type) -> Expr | None:
     if target == TIME:
         return _to_time(expr, source)
     if {source.kind, target.kind} == {Kind.BITS, Kind.REAL} or {source.kind, target.kind} == {Kind.BOOL, Kind.REAL}:
-        whole = ULINT if source.kind is not Kind.REAL else LINT
+        whole = ULINT if source.kind is not Kind.REAL else UNSIGNED[target.size]
         return fold.convert(target, fold.convert(whole, expr))
     return fold.convert(target, expr)
 
@@ -105,4 +107,7 @@ def _from_string(expr: Expr, target: Type) -> Expr | None:
         return fold.convert(target, Intrinsic("STR_TO_REAL", LREAL, (expr,)))
     if target.kind is Kind.BOOL:
         return None
-    return fold.convert(target, Intrinsic("STR_TO_INT", LINT, (expr,)))
+    low, high = bounds(UNSIGNED[target.size] if target.kind is Kind.BITS else target)
+    number: Expr = Intrinsic("STR_TO_INT", LINT, (expr,))
+    number = Intrinsic("MAX", LINT, (number, Const(LINT, max(low, -(1 << 63)))))
+    return fold.convert(target, Intrinsic("MIN", LINT, (number, Const(LINT, min(high, (1 << 63) - 1)))))

@@ -18,6 +18,7 @@ from scanbench.check.types import (
     Section,
     StringType,
     Type,
+    has_instance,
     initial_of,
 )
 from scanbench.plcmodel.model import Model
@@ -49,8 +50,8 @@ class Declarations:
     types: dict[str, Type] = field(default_factory=dict)
     defaults: dict[str, bytes] = field(default_factory=dict)
     """Start values of directly derived types that state one."""
-    located: dict[int, bytes] = field(default_factory=dict)
-    """Start values of located variables, by offset in the image."""
+    located: list[tuple[int, int, bytes]] = field(default_factory=list)
+    """Start values of located variables in order of declaration: offset in the image, mask of each byte, bytes."""
     broken: set[tuple[str, str]] = field(default_factory=set)
     """(owner, name) in upper case of variables whose declaration is wrong: reported once, not at every use."""
     owners: list[Record] = field(default_factory=list)
@@ -119,6 +120,8 @@ class Declarations:
             low, high = self.constant_of(low_tree, None).value, self.constant_of(high_tree, None).value
             if not isinstance(low, int) or not isinstance(high, int):
                 raise self.report.reject("D006", "The bounds of an array are integers.", low_tree.span)
+            if not -(1 << 63) <= low <= high < 1 << 63 and low <= high:
+                raise self.report.reject("D006", "The bounds of an array fit LINT.", low_tree.span)
             if low > high:
                 raise self.report.reject(
                     "D006", f"The lower bound {low} is above the upper bound {high}.", low_tree.span
@@ -154,8 +157,15 @@ class Declarations:
         record.close()
         return record
 
-    def frame(self, declaration: tree.PouDeclaration) -> Record:
+    def frame(self, declaration: tree.PouDeclaration, instance: Record) -> Record:
         """Temporaries of a block; all variables of a FUNCTION, with the result under the function's name."""
+        self.owners.append(instance)
+        try:
+            return self._frame(declaration, instance)
+        finally:
+            self.owners.pop()
+
+    def _frame(self, declaration: tree.PouDeclaration, instance: Record) -> Record:
         record = Record(declaration.name, Kind.STRUCT)
         function = declaration.kind == "function"
         for section in declaration.sections:
@@ -169,8 +179,13 @@ class Declarations:
                 if variable.address is not None:
                     self.report.error("D008", "A temporary variable has no address.", variable.span)
                     continue
+                if variable.name.upper() in instance.members or (
+                    function and variable.name.upper() == declaration.name.upper()
+                ):
+                    self.report.error("D001", f"`{variable.name}` is declared already; rename one.", variable.span)
+                    continue
                 member = self.declare(record, variable, kind, "CONSTANT" in section.qualifiers)
-                if member and isinstance(member.type, Record) and member.type.kind is Kind.BLOCK:
+                if member and kind is not Section.IN_OUT and has_instance(member.type):
                     what = "FUNCTION" if function else "VAR_TEMP"
                     self.report.error(
                         "D008", f"An instance of {member.type.name} must keep its state; not in a {what}.", member.span
@@ -248,11 +263,12 @@ class Declarations:
         address, span = variable.address or "", variable.address_span or variable.span
         member.offset, member.bit = self.place_of(address, member.type, span)
         member.address = address
-        if variable.initial is not None and member.bit is None:
-            self.located[member.offset] = member.initial
-        elif variable.initial is not None and any(member.initial):
-            assert member.bit is not None
-            self.located[member.offset] = bytes([self.located.get(member.offset, b"\0")[0] | 1 << member.bit])
+        if variable.initial is None:
+            return
+        if member.bit is None:
+            self.located.append((member.offset, 0xFF, member.initial))
+        else:
+            self.located.append((member.offset, 1 << member.bit, bytes([member.initial[0] << member.bit])))
 
     def place_of(self, address: str, type: Type, span: Span) -> tuple[int, int | None]:
         """Offset in the image, and bit, of an address of the model for a variable of this type."""

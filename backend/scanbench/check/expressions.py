@@ -1,5 +1,6 @@
 """Expressions -> checked expressions: names to places, operators to typed operations, conversions written out."""
 
+import math
 from abc import ABC, abstractmethod
 
 from scanbench.check import fold
@@ -20,8 +21,10 @@ from scanbench.check.scopes import Pous, Scope, decode, place_of
 from scanbench.check.types import (
     BOOL,
     ELEMENTARY,
+    LINT,
     LREAL,
     TIME,
+    ULINT,
     ArrayType,
     Elementary,
     Kind,
@@ -91,7 +94,10 @@ class ExpressionChecker(ABC):
         value = expr.value
         assert not isinstance(value, bytes)
         if type.kind is Kind.REAL:
-            return Const(type, fold.round_real(float(value), type))
+            rounded = fold.round_real(float(value), type)
+            if math.isinf(rounded) and not math.isinf(value):
+                raise self.report.reject("S004", f"{value} does not fit {type}.", span)
+            return Const(type, rounded)
         if expr.type == ANY_REAL or type.kind is Kind.TIME:
             hint = " Write a duration, e.g. T#5s." if type.kind is Kind.TIME else f" Use TRUNC or LREAL_TO_{type}."
             raise self.report.reject("T002", f"{what} is {type}, but this is the number {value}.{hint}", span)
@@ -132,7 +138,7 @@ class ExpressionChecker(ABC):
             return self._typed_literal(node, node.type_name.upper())
         match node.kind:
             case "int":
-                return Const(ANY_INT, node.value)
+                return self._in_64_bits(Const(ANY_INT, node.value), node.span)
             case "real":
                 return Const(ANY_REAL, node.value)
             case "time":
@@ -141,6 +147,12 @@ class ExpressionChecker(ABC):
                 return Const(BOOL, node.value)
         assert isinstance(node.value, bytes)
         return Const(StringType(max(len(node.value), 1)), node.value)
+
+    def _in_64_bits(self, expr: Const, span: Span) -> Const:
+        """Refuses an integer constant that no type can hold."""
+        if not bounds(LINT)[0] <= int(expr.value) <= bounds(ULINT)[1]:
+            raise self.report.reject("S004", f"{expr.value!r} does not fit any integer type.", span)
+        return expr
 
     def _typed_literal(self, node: tree.Literal, name: str) -> Const:
         if node.kind == "string" and name == "STRING":
@@ -215,7 +227,8 @@ class ExpressionChecker(ABC):
                 raise self.report.reject("S004", "This divides by the constant zero.", span)
             if not isinstance(right, Const):
                 trap = self.trap(TrapKind.DIVISION, span, "division by zero")
-        return fold.binary(op, type, left, right, trap)
+        made = fold.binary(op, type, left, right, trap)
+        return self._in_64_bits(made, span) if isinstance(made, Const) and type == ANY_INT else made
 
     def _same(self, op: str, left: Expr, right: Expr, span: Span) -> tuple[Expr, Expr, Elementary]:
         """Both operands in their common type."""

@@ -59,7 +59,7 @@ def _integer(op: str, a: int, b: int) -> int | None:
         case "div" if b != 0:
             return abs(a) // abs(b) * (1 if (a < 0) == (b < 0) else -1)
         case "mod":
-            return 0 if b == 0 else int(math.copysign(1, a)) * (abs(a) % abs(b))
+            return 0 if b == 0 else (-1 if a < 0 else 1) * (abs(a) % abs(b))
     return None
 
 

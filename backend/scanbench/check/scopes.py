@@ -72,10 +72,10 @@ class Pous:
 
     blocks: dict[str, Pou] = field(default_factory=dict)
     functions: dict[str, Pou] = field(default_factory=dict)
-    uses: dict[Pou, list[Pou]] = field(default_factory=dict)
+    uses: dict[Pou, dict[Pou, int]] = field(default_factory=dict)
+    """Who calls whom, from how many places."""
 
     def use(self, caller: Pou | None, callee: Pou) -> None:
         if caller is not None:
-            called = self.uses.setdefault(caller, [])
-            if callee not in called:
-                called.append(callee)
+            called = self.uses.setdefault(caller, {})
+            called[callee] = called.get(callee, 0) + 1

@@ -24,7 +24,7 @@ from scanbench.check.program import (
     While,
 )
 from scanbench.check.scopes import decode, place_of
-from scanbench.check.types import BOOL, Elementary, Kind, Record, Section, StringType
+from scanbench.check.types import BOOL, Elementary, Kind, Record, Section, StringType, has_instance
 from scanbench.check.untyped import ANY_INT, bounds, settle
 from scanbench.syntax import tree
 
@@ -119,7 +119,7 @@ class StatementChecker(CallChecker):
         except Rejected:
             self._try(node.value)
             raise
-        if isinstance(target.type, Record) and target.type.kind is Kind.BLOCK:
+        if has_instance(target.type):
             raise self.report.reject("T003", "An instance of a function block cannot be assigned.", node.span)
         self._not_counter(target, node)
         value = self.as_type(node.value, target.type, f"`{_shown(node.target)}`")
@@ -212,6 +212,9 @@ class StatementChecker(CallChecker):
             raise self.report.reject(
                 "T008", f"FOR counts with a plain integer variable, not {type}.", node.variable.span
             )
+        for outer in self._counters:
+            if (outer.base, outer.offset, outer.slot) == (counter.base, counter.offset, counter.slot):
+                raise self.report.reject("T008", "This variable counts a loop around already.", node.variable.span)
         start = self.as_type(node.start, type, "The start value")
         end = self.as_type(node.end, type, "The end value")
         step = Const(type, 1) if node.step is None else self._step(node.step, type)

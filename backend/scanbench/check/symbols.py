@@ -7,7 +7,7 @@ from difflib import get_close_matches
 
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
-from scanbench.check.types import BOOL, ELEMENTARY, ArrayType, Kind, Member, Record, Section, Type
+from scanbench.check.types import BOOL, ELEMENTARY, ArrayType, Member, Record, Section, Type
 from scanbench.plcmodel.model import Access
 
 PART = re.compile(r"\s*\.?\s*([^\W\d]\w*)|\s*\[\s*([-\d\s,]+)\]")
@@ -53,12 +53,13 @@ class Symbol:
         """Byte offset and bit of the value now; None while an in-out on the way is bound to nothing."""
         base = 0
         bit = self.bit
-        for slot in self.slots:
+        last = len(self.slots) - 1
+        for index, slot in enumerate(self.slots):
             reference = int.from_bytes(memory[base + slot : base + slot + 8], "little")
             if reference == 0:
                 return None
             base = reference & 0xFFFF_FFFF
-            if self.type == BOOL and slot is self.slots[-1] and self.offset == 0:
+            if self.type == BOOL and index == last and self.offset == 0:
                 bit = reference >> 32 & 7
         return base + self.offset, bit
 
@@ -228,10 +229,6 @@ def _checked(program: Program, symbol: Symbol) -> Symbol:
     bits = 1 if symbol.bit is not None else 8 * symbol.type.size
     address = layout.model.format(area, byte, symbol.bit, bits if bits in RAW_TYPES else 16)
     return replace(symbol, address=address, tool=area.access(byte // 2, "tool"))
-
-
-def is_scalar(type: Type) -> bool:
-    return type.kind not in (Kind.ARRAY, Kind.STRUCT, Kind.BLOCK)
 
 
 def at_offset(program: Program, offset: int) -> str:

@@ -224,6 +224,15 @@ ELEMENTARY: dict[str, Elementary] = {
 }  # fmt: skip
 
 
+def has_instance(type: Type) -> bool:
+    """Whether an instance of a function block is in it: such a value keeps state, and is not copied."""
+    if isinstance(type, ArrayType):
+        return has_instance(type.element)
+    if isinstance(type, Record):
+        return type.kind is Kind.BLOCK or any(has_instance(member.type) for member in type.members.values())
+    return False
+
+
 def initial_of(type: Type) -> bytes:
     """Image of a fresh variable of this type that has no initial value of its own."""
     if isinstance(type, Record):

@@ -8,7 +8,7 @@ from typing import NoReturn
 
 import typer
 
-from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.plcmodel.load import NoModels, load_all, model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem
 from scanbench.syntax.source import decode
@@ -72,7 +72,10 @@ def _project_model(path: Path) -> str | None:
 def find_model(name: str | None, sources: Sources) -> Model:
     """The model asked for, else the project's, else the plain one."""
     wanted = name or sources.model or DEFAULT_MODEL
-    models, problems = load_all(model_directory())
+    try:
+        models, problems = load_all(model_directory())
+    except NoModels as error:
+        usage(str(error))
     for problem in problems:
         typer.echo(str(problem), err=True)
     by_name = {model.name.upper(): model for model in models}

@@ -1,5 +1,6 @@
 """The values of literals: numbers, durations, strings."""
 
+import math
 import re
 
 UNITS_NS = {
@@ -15,12 +16,26 @@ PART = re.compile(r"(\d+)(?:\.(\d+))?(ms|us|ns|d|h|m|s)", re.IGNORECASE)
 ESCAPES = {"$": "$", "'": "'", '"': '"', "L": "\n", "N": "\n", "P": "\f", "R": "\r", "T": "\t"}
 
 
+MAX_DIGITS = 80
+"""More than any type can hold, in any base."""
+
+
 def integer(text: str) -> int:
     """`1_000`, `16#FF`, `2#1010`."""
+    if len(text) > MAX_DIGITS:
+        raise ValueError("more digits than any type can hold")
     if "#" in text:
         base, digits = text.split("#", 1)
         return int(digits.replace("_", ""), int(base))
     return int(text.replace("_", ""))
+
+
+def real(text: str) -> float:
+    """`1.5`, `1e-3`."""
+    value = float(text.replace("_", ""))
+    if math.isinf(value):
+        raise ValueError("larger than an LREAL can hold (about 1.8E308)")
+    return value
 
 
 def duration(text: str) -> int:

@@ -105,14 +105,14 @@ class ExpressionParser(Cursor):
                         type_name, text = parts[0], text.split("#", 1)[1]
                     return tree.Literal("int", literals.integer(text), type_name, span)
                 case Lex.REAL:
-                    return tree.Literal("real", float(text.replace("_", "")), type_name, span)
+                    return tree.Literal("real", literals.real(text), type_name, span)
                 case Lex.TIME:
                     prefix, digits = text.split("#", 1)
                     if prefix.upper() in ("LTIME", "LT"):
                         self.report("X001", "LTIME is not supported yet; use TIME.", span)
                     return tree.Literal("time", literals.duration(digits), None, span)
         except ValueError as error:
-            self.report("S004", f"`{token.text}` cannot be read: {error}.", span)
+            self.report("S004", f"`{token.text[:40]}` cannot be read: {error}.", span)
             return tree.Literal("time" if token.kind is Lex.TIME else "int", 0, type_name, span)
         return self._string(text, type_name, span)
 

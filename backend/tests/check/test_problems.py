@@ -56,6 +56,20 @@ FILES = [
     ("D010", "PROGRAM Main\nEND_PROGRAM\nCONFIGURATION C\nRESOURCE R ON P\nPROGRAM m : Mein;\nEND_RESOURCE\nEND_CONFIGURATION", 5),
     ("D011", "FUNCTION F : INT\nF := 1;\nEND_FUNCTION", 1),
     ("D012", "PROGRAM Main\nVAR x : ARRAY[0..99999999] OF LINT; END_VAR\nEND_PROGRAM", 2),
+    ("D001", "PROGRAM Main\nVAR x : INT; END_VAR\nVAR_TEMP x : INT; END_VAR\nEND_PROGRAM", 3),
+    ("D001", "FUNCTION G : INT\nVAR g : INT; END_VAR\nG := 1;\nEND_FUNCTION\nPROGRAM Main\nEND_PROGRAM", 2),
+    ("D001", "VAR_GLOBAL main : INT; END_VAR\nPROGRAM Main\nEND_PROGRAM", 2),
+    ("D001", "VAR_GLOBAL v : INT; END_VAR\nPROGRAM Main\nVAR v : INT; END_VAR\nVAR_EXTERNAL v : INT; END_VAR\nEND_PROGRAM", 4),
+    ("D001", "TYPE DINT : INT; END_TYPE\nPROGRAM Main\nEND_PROGRAM", 1),
+    ("D006", "PROGRAM Main\nVAR x : ARRAY[18446744073709551614..18446744073709551615] OF INT; END_VAR\nEND_PROGRAM", 2),
+    ("D008", "PROGRAM Main\nVAR_TEMP t : ARRAY[0..1] OF TON; END_VAR\nEND_PROGRAM", 2),
+    ("D013", "".join(f"FUNCTION F{n} : INT\nF{n} := " + (f"F{n + 1}() + F{n + 1}()" if n < 30 else "1") + ";\nEND_FUNCTION\n" for n in range(31)) + "PROGRAM Main\nEND_PROGRAM", 34),
+    ("S004", "PROGRAM Main\nVAR x : ULINT; END_VAR\nx := 18446744073709551617;\nEND_PROGRAM", 3),
+    ("S004", "PROGRAM Main\nVAR x : REAL; END_VAR\nx := " + "1" * 5000 + ";\nEND_PROGRAM", 3),
+    ("S004", "PROGRAM Main\nVAR x : REAL; END_VAR\nx := 1.0E39;\nEND_PROGRAM", 3),
+    ("S004", "PROGRAM Main\nVAR x : LREAL; END_VAR\nx := 1E400;\nEND_PROGRAM", 3),
+    ("T003", "TYPE S : STRUCT t : TON; END_STRUCT; END_TYPE\nPROGRAM Main\nVAR a, b : S; END_VAR\na := b;\nEND_PROGRAM", 4),
+    ("T008", "PROGRAM Main\nVAR i, x : INT; END_VAR\nFOR i := 1 TO 2 DO\nFOR i := 1 TO 2 DO x := i; END_FOR; END_FOR;\nEND_PROGRAM", 4),
     ("T005", "FUNCTION_BLOCK B\nVAR_IN_OUT x : INT; END_VAR\nEND_FUNCTION_BLOCK\nPROGRAM Main\nVAR b : B; END_VAR\nb();\nEND_PROGRAM", 6),
     ("T005", "FUNCTION_BLOCK B\nVAR_IN_OUT x : INT; END_VAR\nEND_FUNCTION_BLOCK\nPROGRAM Main\nVAR b : B; END_VAR\nb(x := 5);\nEND_PROGRAM", 6),
     ("S005", None, 0),
@@ -110,3 +124,13 @@ def test_deep_nesting_is_refused_not_a_crash() -> None:
         assert problems[0].code == "S003"
     nested = "IF b THEN " * 3000
     assert check_sources({"a.st": MAIN.format(nested)}, MODELS["GENERIC-IEC"]).program is None
+
+
+def test_constants_of_a_block_stand_in_bounds_of_its_temporaries() -> None:
+    text = "PROGRAM Main\nVAR CONSTANT N : INT := 3; END_VAR\nVAR_TEMP a : ARRAY[1..N] OF INT; END_VAR\na[N] := 1;\nEND_PROGRAM"
+    assert check_sources({"a.st": text}, MODELS["GENERIC-IEC"]).problems == ()
+
+
+def test_only_line_feeds_make_lines() -> None:
+    text = "PROGRAM Main (* \f \v \u2028 *)\nx := 1;\nEND_PROGRAM"
+    assert [each.span.line for each in check_sources({"a.st": text}, MODELS["GENERIC-IEC"]).problems] == [2]

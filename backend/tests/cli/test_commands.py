@@ -199,3 +199,20 @@ def test_help_documents_every_command() -> None:
     shown = scanbench("--help").stdout
     assert all(command in shown for command in ("serve", "check", "run", "bench"))
     assert "--raise" in scanbench("run", "--help").stdout
+
+
+def test_values_are_keyed_by_the_path_as_it_was_asked_for(count: str) -> None:
+    result = scanbench("run", count, "--scans", "2", "--json", "--print", "main.N", "--print", "main.a[ 2 ]")
+    assert json.loads(result.stdout)["values"] == {"main.N": 2, "main.a[ 2 ]": 2}
+
+
+def test_refusals_stand_in_the_json(count: str) -> None:
+    result = scanbench("run", count, "--scans", "1", "--model", "CJ1M-CPU63", "--set", "A402.12=TRUE", "--json")
+    assert json.loads(result.stdout)["refused"][0]["scan"] == 0
+
+
+def test_without_models_it_says_where_it_looked(count: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setenv("SCANBENCH_MODELS", str(tmp_path / "none"))
+    result = scanbench("check", count)
+    assert result.returncode == 2
+    assert "Traceback" not in result.stderr

@@ -13,7 +13,7 @@ Real functions on REAL: computed in double by libm (or correctly rounded for sqr
 | SEL | BOOL g, T a, T b | a when g is FALSE, else b; both are evaluated; elementary T only |
 | SHL SHR | T bits, LINT n | 0 when n < 0 or n >= width; SHR fills with zeros |
 | ROL ROR | T bits, LINT n | n modulo the width (mathematical, so never negative) |
-| BITCAST | DWORD<->REAL, LWORD<->LREAL | same bits (a NaN becomes canonical when stored) |
+| BITCAST | DWORD<->REAL, LWORD<->LREAL | same bits; of a NaN the canonical one |
 | CLOCK | - -> TIME | `Layout.CLOCK` of the image: the virtual time of this scan |
 | LEN | s -> INT type | current length |
 | LEFT RIGHT | s, LINT n | the first / last n characters; n < 0 is 0, n > length is all |

@@ -9,7 +9,7 @@ from typing import cast
 from scanbench.check.program import Intrinsic
 from scanbench.check.types import Elementary, Kind, StringType
 from scanbench.engines.interpreter.arithmetic import rounder, truncate, wrapper
-from scanbench.engines.interpreter.places import FORMATS, Value
+from scanbench.engines.interpreter.places import CANONICAL_NAN, FORMATS, Value
 
 Function = Callable[..., Value]
 
@@ -50,7 +50,7 @@ def _number(node: Intrinsic) -> Function:
                 struct.Struct(FORMATS[source.kind, source.size]),
                 struct.Struct(FORMATS[type.kind, type.size]),
             )
-            return lambda a: cast(Value, unpack.unpack(pack.pack(a))[0])
+            return lambda a: cast(Value, unpack.unpack(CANONICAL_NAN[source.size] if a != a else pack.pack(a))[0])
     return _real(name, type)
 
 
@@ -134,7 +134,11 @@ def _replace(text: bytes, other: bytes, count: int, start: int) -> bytes:
 
 def _to_int(text: bytes) -> int:
     match = NUMBER.match(text)
-    return min(max(int(match.group(1)), -(1 << 63)), (1 << 63) - 1) if match else 0
+    if match is None:
+        return 0
+    digits = match.group(1).lstrip(b"+-0")
+    magnitude = int(digits or b"0") if len(digits) < 20 else 1 << 63  # Python refuses to read very long numbers
+    return max(-magnitude, -(1 << 63)) if match.group(1).startswith(b"-") else min(magnitude, (1 << 63) - 1)
 
 
 def _to_real(text: bytes) -> float:

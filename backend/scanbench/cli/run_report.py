@@ -1,0 +1,94 @@
+"""What `scanbench run` prints: values as text for people, one JSON object for machines."""
+
+import hashlib
+import json
+
+import typer
+
+from scanbench.check.symbols import Symbol, members
+from scanbench.check.types import ArrayType, Record
+from scanbench.check.values import format_value, python_value
+from scanbench.runtime.headless import HeadlessRun
+from scanbench.runtime.resource import Resource
+
+Json = bool | int | float | str | None | list["Json"] | dict[str, "Json"]
+Shown = list[tuple[str, Symbol]]
+"""What is printed: the path as it was asked for, and the variable."""
+Result = HeadlessRun[dict[str, Json]]
+
+
+def nothing_ran(problems: list[dict[str, str | int]], **more: Json) -> str:
+    """The JSON object of a call that ran nothing."""
+    shown: dict[str, object] = {"scans": 0, "time_ns": 0, "values": {}, "rows": [], "problems": problems, "trap": None}
+    return json.dumps(shown | more, ensure_ascii=False)
+
+
+def report_json(result: Result, shown: Shown, problems: list[dict[str, str | int]], with_hash: bool) -> None:
+    """One object; a variable is keyed by its path as it was asked for."""
+    resource, interval = result.resource, result.resource.program.interval_ns
+    content: dict[str, object] = {
+        "scans": result.scans,
+        "time_ns": result.scans * interval,
+        "values": values(resource, shown),
+        "rows": [{"scan": scan, "time_ns": scan * interval, "values": row} for scan, row in result.rows],
+        **({"hash": _hash(resource)} if with_hash else {}),
+        "problems": problems,
+        "refused": [{"scan": each.scan, "message": each.refusal.message} for each in result.refused],
+        "trap": _trap(resource),
+    }
+    typer.echo(json.dumps(content, ensure_ascii=False))
+
+
+def report_text(result: Result, shown: Shown, with_hash: bool) -> None:
+    """A line a variable."""
+    resource = result.resource
+    for scan, row in result.rows:
+        typer.echo(f"{scan}: " + ", ".join(f"{path} = {value}" for path, value in row.items()))
+    for path, symbol in shown:
+        typer.echo(f"{path} = {_text(resource, symbol)}")
+    if with_hash:
+        typer.echo(f"sha256 {_hash(resource)}")
+    typer.echo(f"{result.scans} scans, {result.scans * resource.program.interval_ns / 1e9:g} s of PLC time", err=True)
+
+
+def values(resource: Resource, shown: Shown) -> dict[str, Json]:
+    """The values now."""
+    return {path: _json(resource, symbol) for path, symbol in shown}
+
+
+def _hash(resource: Resource) -> str:
+    return hashlib.sha256(resource.state).hexdigest()
+
+
+def _trap(resource: Resource) -> Json:
+    trap = resource.trap
+    if trap is None:
+        return None
+    place: dict[str, Json] = {"file": trap.file, "line": trap.line, "column": trap.column, "scan": trap.scan}
+    return {"kind": str(trap.kind), **place, "message": trap.message}
+
+
+def _bytes(resource: Resource, symbol: Symbol) -> bytes | None:
+    place = symbol.locate(resource.memory)
+    if place is None:
+        return None
+    offset, bit = place
+    data = bytes(resource.memory[offset : offset + symbol.type.size])
+    return data if bit is None else bytes((data[0] >> bit & 1,))
+
+
+def _json(resource: Resource, symbol: Symbol) -> Json:
+    """A value for JSON; arrays are lists, structures objects; None for an in-out that is bound to nothing."""
+    if isinstance(symbol.type, ArrayType):
+        return [_json(resource, each) for each in members(resource.program, symbol.path)]
+    if isinstance(symbol.type, Record):
+        return {each.name: _json(resource, each) for each in members(resource.program, symbol.path)}
+    data = _bytes(resource, symbol)
+    return None if data is None else python_value(symbol.type, data)
+
+
+def _text(resource: Resource, symbol: Symbol) -> str:
+    if symbol.expandable:
+        return json.dumps(_json(resource, symbol), ensure_ascii=False)
+    data = _bytes(resource, symbol)
+    return "not bound yet" if data is None else format_value(symbol.type, data)
