@@ -2,6 +2,7 @@
 
 import math
 from abc import ABC, abstractmethod
+from dataclasses import replace
 
 from scanbench.check import fold
 from scanbench.check.context import Rejected, Report, did_you_mean
@@ -347,10 +348,7 @@ class ExpressionChecker(ABC):
             return Place(member.type, Base.IMAGE, member.offset, bit=member.bit, variable="@"), member
         free = place.slot is not None or place.variable.startswith("@")
         variable = place.variable if free else f"{record.name}.{member.name}".upper()
-        inner = Place(
-            member.type, place.base, place.offset + member.offset, place.indices, None, place.slot, place.null_trap,
-            variable,
-        )  # fmt: skip
+        inner = replace(place, type=member.type, offset=place.offset + member.offset, variable=variable)
         keep = outer is not None and (outer.constant or record.kind is Kind.STRUCT)
         return inner, outer if keep else member
 
@@ -366,9 +364,7 @@ class ExpressionChecker(ABC):
             for dimension, index in enumerate(indices[:count]):
                 place = self._index(place, type, dimension, index)
             type, indices = type.element, indices[count:]
-        return Place(
-            type, place.base, place.offset, place.indices, None, place.slot, place.null_trap, place.variable
-        ), member  # fmt: skip
+        return replace(place, type=type), member
 
     def _index(self, place: Place, type: ArrayType, dimension: int, node: tree.Expression) -> Place:
         low, high = type.bounds[dimension]
@@ -380,15 +376,9 @@ class ExpressionChecker(ABC):
             number = int(index.value)
             if not low <= number <= high:
                 raise self.report.reject("T012", f"Index {number} is outside of {low}..{high}.", node.span)
-            return Place(
-                type, place.base, place.offset + (number - low) * stride, place.indices, None, place.slot,
-                place.null_trap, place.variable,
-            )  # fmt: skip
+            return replace(place, offset=place.offset + (number - low) * stride)
         trap = self.trap(TrapKind.BOUNDS, node.span, f"index outside of {low}..{high}")
-        return Place(
-            type, place.base, place.offset, (*place.indices, Index(index, low, high, stride, trap)), None, place.slot,
-            place.null_trap, place.variable,
-        )  # fmt: skip
+        return replace(place, indices=(*place.indices, Index(index, low, high, stride, trap)))
 
     def target(self, node: tree.Expression) -> Place:
         """A place that may be written."""

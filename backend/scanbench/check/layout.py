@@ -2,7 +2,7 @@
 
     0     reserved, so that offset 0 refers to nothing
     8     header (the constants of `Layout`)
-    4096  areas of the model, program instances and globals, each aligned to 8
+    4096  areas of the model, globals, program instances, each aligned to 8
     ...   `state_size`: here the compared, hashed and recorded state ends; frames of temporaries follow
     size
 
