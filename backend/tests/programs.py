@@ -22,6 +22,42 @@ class Shape:
     """Variables by type: the names that expressions may use."""
 
     names: dict[str, list[str]]
+    calls: bool = False
+    """Whether `CALLEES` and the variables that they are used with are in sight."""
+
+
+CALLEES = """\
+TYPE Five : ARRAY[1..5] OF INT; END_TYPE
+TYPE Pair : STRUCT n : INT; t : STRING[12]; END_STRUCT; END_TYPE
+VAR_GLOBAL gs : STRING[12] := 'g'; gl : Five := [9, 8, 7, 6, 5]; END_VAR
+FUNCTION Bump : DINT
+VAR_INPUT by_ : INT; END_VAR
+VAR_IN_OUT n : INT; s : STRING[12]; END_VAR
+n := n + by_; s := CONCAT('x', s); gs := CONCAT(s, gs); gl[1 + ABS(INT_TO_DINT(n)) MOD 5] := n;
+Bump := 1 + ABS(INT_TO_DINT(n)) MOD 5;
+END_FUNCTION
+FUNCTION Made : Pair
+VAR_INPUT t : STRING[12]; n : INT; END_VAR
+VAR_OUTPUT o : Pair; s : STRING[12]; m : INT; END_VAR
+Made.n := n; Made.t := t; o.n := n + 1; o.t := CONCAT(t, 'o'); s := CONCAT('s', t); m := n * 2;
+END_FUNCTION
+FUNCTION Pick : DINT
+VAR_INPUT n : INT; END_VAR
+VAR p : Pair; l : Five; END_VAR
+p := Made(t := 'pick', n := n); l := Turned(gl, n);
+Pick := 1 + ABS(INT_TO_DINT(p.n)) MOD 5;
+END_FUNCTION
+FUNCTION Turned : Five
+VAR_INPUT l : Five; n : INT; END_VAR
+Turned[1] := l[5]; Turned[2] := l[1] + n; Turned[5] := l[2];
+END_FUNCTION
+FUNCTION Told : STRING[12]
+VAR_INPUT s : STRING[12]; l : Five; n : INT; END_VAR
+Told := CONCAT(s, INT_TO_STRING(l[1] + n));
+END_FUNCTION
+"""
+"""What is hard to keep in order: results in frames, and functions that write what their callers are reading."""
+WHOLES = ["list", "list2", "gl"]
 
 
 @st.composite
@@ -62,6 +98,8 @@ def expression(draw: st.DrawFn, shape: Shape, type: str, depth: int) -> str:
     def sub(wanted: str) -> str:
         return str(draw(expression(shape, wanted, depth - 1)))
 
+    if shape.calls and type in ("DINT", "INT", "STRING[12]") and draw(st.integers(0, 3)) == 0:
+        return draw(calling(shape, type, depth))
     choice = draw(st.integers(0, 9))
     if choice < 2:
         return str(draw(st.one_of(*leaves)))
@@ -82,6 +120,75 @@ def expression(draw: st.DrawFn, shape: Shape, type: str, depth: int) -> str:
     if type in BITS:
         return _bits(draw, sub, type, choice)
     return _integer(draw, sub, type, choice)
+
+
+@st.composite
+def position(draw: st.DrawFn, shape: Shape, depth: int = 1) -> str:
+    """A number of an element, from a function that has other things to do as well."""
+    number = draw(expression(shape, "INT", max(depth - 1, 0)))
+    if draw(st.booleans()):
+        return f"Pick({number})"
+    into = draw(st.sampled_from(shape.names["INT"])), draw(st.sampled_from(shape.names["STRING[12]"]))
+    return f"Bump({number}, {into[0]}, {into[1]})"
+
+
+@st.composite
+def calling(draw: st.DrawFn, shape: Shape, type: str, depth: int) -> str:
+    """An expression of this type that calls."""
+    if type == "DINT":
+        return draw(position(shape, depth))
+    if type == "INT":
+        return f"{draw(st.sampled_from(WHOLES))}[{draw(position(shape, depth))}]"
+    if draw(st.booleans()):
+        return f"texts[{draw(position(shape, depth))}]"
+    given = [draw(expression(shape, each, depth - 1)) for each in ("STRING[12]", "INT")]
+    return f"Told({given[0]}, {draw(whole(shape))}, {given[1]})"
+
+
+@st.composite
+def whole(draw: st.DrawFn, shape: Shape) -> str:
+    """An array."""
+    variable = draw(st.sampled_from([*WHOLES, f"lists[{draw(position(shape))}]"]))
+    return f"Turned({variable}, {draw(expression(shape, 'INT', 1))})" if draw(st.booleans()) else variable
+
+
+@st.composite
+def made(draw: st.DrawFn, shape: Shape) -> str:
+    """A call that gives a structure, and outputs."""
+    given = [f"t := {draw(expression(shape, 'STRING[12]', 1))}", f"n := {draw(expression(shape, 'INT', 1))}"]
+    outputs = {"o": "pairs", "s": "texts", "m": "list"}
+    given += [f"{name} => {to}[{draw(position(shape))}]" for name, to in outputs.items() if draw(st.booleans())]
+    return f"Made({', '.join(given)})"
+
+
+@st.composite
+def ordering(draw: st.DrawFn, shape: Shape) -> str:
+    """A statement in which something is called between a value and where it goes."""
+    target = draw(st.sampled_from(["", f"[{draw(position(shape))}]"]))
+    match draw(st.integers(0, 4)):
+        case 0:
+            return f"{'lists' if target else draw(st.sampled_from(WHOLES))}{target} := {draw(whole(shape))};"
+        case 1:
+            return f"{'pairs' if target else 'pair'}{target} := {draw(made(shape))};"
+        case 2:
+            source = draw(st.sampled_from(["pair", f"pairs[{draw(position(shape))}]"]))
+            return f"{'pairs' if target else 'pair'}{target} := {source};"
+        case 3:
+            return f"texts[{draw(position(shape))}] := {draw(expression(shape, 'STRING[12]', 2))};"
+    return draw(block_call(shape))
+
+
+@st.composite
+def block_call(draw: st.DrawFn, shape: Shape) -> str:
+    """The block, with strings in and out."""
+    given = [
+        f"{name} := {draw(expression(shape, type, 1))}"
+        for name, type in {"t": "STRING[12]", "x": "INT", "b": "BOOL"}.items()
+        if draw(st.booleans())
+    ]
+    to = st.sampled_from([*shape.names["STRING[12]"], f"texts[{draw(position(shape))}]"])
+    given += [f"o => {draw(to)}"] if draw(st.booleans()) else []
+    return f"{draw(st.sampled_from(['fb', 'fb2']))}({', '.join([*given, 'io := v_int1'])});"
 
 
 def _bool(draw: st.DrawFn, sub: Sub, choice: int) -> str:
@@ -154,6 +261,8 @@ def _integer(draw: st.DrawFn, sub: Sub, type: str, choice: int) -> str:
 
 @st.composite
 def statement(draw: st.DrawFn, shape: Shape, depth: int) -> str:
+    if shape.calls and draw(st.integers(0, 2)) == 0:
+        return draw(ordering(shape))
     choice = draw(st.integers(0, 9 if depth else 5))
     if choice <= 4:
         type = draw(st.sampled_from([type for type in shape.names if shape.names[type]]))
@@ -186,26 +295,28 @@ def statement(draw: st.DrawFn, shape: Shape, depth: int) -> str:
 
 @st.composite
 def program(draw: st.DrawFn) -> str:
-    """A PROGRAM with two variables of every type, an array, a block and a function that it calls."""
+    """A PROGRAM with two variables of every type, arrays, and blocks and functions that it calls.
+
+    The strings come first, where the block has its own: so are they at the same offsets of the two instances.
+    """
     names: dict[str, list[str]] = {}
     lines = []
-    for type in TYPES:
+    for type in ("STRING[12]", *TYPES[:-1]):
         short = type.lower().split("[")[0]
         names[type] = [f"v_{short}{number}" for number in range(2)]
         for name in names[type]:
             lines.append(f"{name} : {type} := {draw(literal(type))};")
-    shape = Shape(names)
+    shape = Shape({**names, "STRING[12]": [*names["STRING[12]"], "gs"]}, calls=True)
     body = draw(st.lists(statement(shape, 2), min_size=1, max_size=8))
-    inner = Shape({type: names[type] for type in ("INT", "BOOL", "REAL", "DINT", "STRING[12]")})
-    block = draw(
-        st.lists(statement(Shape({"INT": ["x", "y", "io"], "BOOL": ["b"], "REAL": ["r"]}), 1), min_size=1, max_size=3)
-    )
-    call = f"fb(x := {draw(expression(inner, 'INT', 1))}, b := {draw(expression(inner, 'BOOL', 1))}, io := v_int1);"
+    inner = Shape({"INT": ["x", "y", "io"], "BOOL": ["b"], "REAL": ["r"], "STRING[12]": ["t", "o"]})
+    block = draw(st.lists(statement(inner, 1), min_size=1, max_size=3))
     counters = "k0, k1, k2 : INT;"
     variables = "\n".join(lines)
     return (
-        "FUNCTION_BLOCK Inner\nVAR_INPUT x : INT; b : BOOL; END_VAR\nVAR_IN_OUT io : INT; END_VAR\nVAR_OUTPUT y : INT; END_VAR\n"
+        CALLEES + "FUNCTION_BLOCK Inner\nVAR_INPUT t : STRING[12]; END_VAR\nVAR_OUTPUT o : STRING[12] := 'out'; END_VAR\n"
+        "VAR_INPUT x : INT; b : BOOL; END_VAR\nVAR_IN_OUT io : INT; END_VAR\nVAR_OUTPUT y : INT; END_VAR\n"
         f"VAR r : REAL := 1.5; list : ARRAY[1..5] OF INT; v_int0 : INT; {counters} END_VAR\n" + "\n".join(block) + "\nEND_FUNCTION_BLOCK\n"
-        f"PROGRAM Main\nVAR\n{variables}\nlist : ARRAY[1..5] OF INT := [1, 2, 3, 4, 5];\nfb : Inner;\n{counters}\nEND_VAR\n"
-        + "\n".join(body) + f"\n{call}\nEND_PROGRAM\n"
+        f"PROGRAM Main\nVAR\n{variables}\nlist, list2 : Five := [1, 2, 3, 4, 5];\nlists : ARRAY[1..5] OF Five;\npair : Pair;\n"
+        f"pairs : ARRAY[1..5] OF Pair;\ntexts : ARRAY[1..5] OF STRING[12];\nfb, fb2 : Inner;\n{counters}\nEND_VAR\n"
+        + "\n".join([*body, draw(block_call(shape))]) + "\nEND_PROGRAM\n"
     )  # fmt: skip

@@ -67,11 +67,24 @@ export class Editor {
     await this.page.keyboard.insertText(text);
   }
 
+  get saveButton(): Locator {
+    return this.region.getByRole('button', { name: 'Save', exact: true });
+  }
+
+  get buildButton(): Locator {
+    return this.region.getByRole('button', { name: 'Build', exact: true });
+  }
+
+  /** What is said above the text: that its file was deleted. */
+  get note(): Locator {
+    return this.region.getByRole('status').filter({ hasText: 'deleted' });
+  }
+
   async save(): Promise<void> {
-    await this.region.getByRole('button', { name: 'Save', exact: true }).click();
+    await this.saveButton.click();
   }
 
   async build(): Promise<void> {
-    await this.region.getByRole('button', { name: 'Build', exact: true }).click();
+    await this.buildButton.click();
   }
 }

@@ -1,4 +1,4 @@
-import type { Locator, Page } from '@playwright/test';
+import { expect, type Locator, type Page } from '@playwright/test';
 
 /** The tree at the left: programs, instances, memory. */
 export class Explorer {
@@ -10,6 +10,14 @@ export class Explorer {
 
   item(name: string): Locator {
     return this.tree.getByRole('treeitem', { name, exact: true });
+  }
+
+  async deleteFile(name: string, file: string): Promise<void> {
+    await this.item(name).click({ button: 'right' });
+    await this.page.getByRole('menuitem', { name: `Delete ${file}…` }).click();
+    const dialog = this.page.getByRole('dialog', { name: `Delete ${file}` });
+    await dialog.getByRole('button', { name: 'Delete', exact: true }).click();
+    await expect(dialog).toBeHidden();
   }
 
   async newFile(name: string): Promise<void> {

@@ -21,6 +21,11 @@ export class Simulator {
     return this.page.getByTestId(`word:${address}`);
   }
 
+  /** What the last Generate or Recover did, in names. */
+  get outcome(): Locator {
+    return this.page.locator('[data-pane=errors]').getByRole('status');
+  }
+
   async select(name: string): Promise<void> {
     await this.error(name).click();
     await expect(this.details).toContainText(name);

@@ -15,7 +15,7 @@ test('main window, light', async ({ openAs }) => {
   const { mika } = await atWork(openAs);
   await mika.top.chooseTheme('light');
   await mika.showPanel('History');
-  await mika.showPanel('Error simulator');
+  await mika.showPanel('Watch');
   await raise(mika);
   await take(mika, 'main-light');
 });

@@ -59,7 +59,7 @@ test('two people save the same file: nothing is lost, and one chooses', async ({
     await mine.save();
     await expect(mika.statusBar).toContainText(/Saved \d\d:\d\d/);
     await theirs.save();
-    await expect(theirs.conflict).toContainText('Somebody else saved Main.st first');
+    await expect(theirs.conflict).toContainText('Mika saved Main.st first');
     await expect(theirs.conflict.getByText('mikas')).toBeVisible();
     await expect(theirs.conflict.getByText('jos')).toBeVisible();
   });

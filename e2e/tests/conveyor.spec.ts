@@ -28,6 +28,8 @@ test('the sample runs, reacts to an input and to an error, and two people see th
 
   await test.step('the error shows in flag, code and program, and in the history', async () => {
     await mika.simulator.generate(ERROR);
+    await expect(mika.simulator.outcome).toContainText(`Generated ${ERROR} (Rack`);
+    await expect(mika.simulator.outcome).toContainText('code 009A');
     await mika.watch.shows('A402.12', 'TRUE');
     await mika.watch.shows('A400', /009A$/);
     await expect(mika.simulator.word('A400')).toHaveText('009A');
@@ -53,11 +55,13 @@ test('the sample runs, reacts to an input and to an error, and two people see th
   });
 
   await test.step('recovering clears the error; the lamp stays until it is acknowledged', async () => {
-    await mika.showPanel('Error simulator');
+    await mika.showPanel('Watch');
     await mika.simulator.recover(ERROR);
+    await expect(mika.simulator.outcome).toHaveText(`Recovered ${ERROR}`);
     await mika.watch.shows('A402.12', 'FALSE');
     await expect(mika.simulator.word('A400')).toHaveText('0000');
     await expect(jo.history(ERROR)).toContainText(['Cleared']);
+    await jo.showPanel('Watch');
     const before = await mika.top.scan();
     await mika.top.scansGoOn(before);
     await mika.watch.shows('lamp', 'TRUE');

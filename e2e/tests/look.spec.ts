@@ -57,7 +57,14 @@ test('at 1024 x 700 nothing is out of reach', async ({ openAs }) => {
     await expect(mika.editor('Belt.st').line('FUNCTION_BLOCK Belt').first()).toBeInViewport();
     await expect(mika.explorer.tree).toBeHidden();
     await mika.showPanel('History');
+    await mika.history('Basic I/O Unit error').scrollIntoViewIfNeeded();
     await expect(mika.history('Basic I/O Unit error')).toBeInViewport();
+    for (const column of await mika.page
+      .getByRole('table', { name: 'Error history' })
+      .getByRole('columnheader')
+      .all()) {
+      await expect(column).toBeInViewport({ ratio: 1 });
+    }
     await mika.showPanel('Error simulator');
     await expect(mika.page.getByRole('button', { name: 'Recover', exact: true })).toBeInViewport({ ratio: 1 });
     await expect(mika.simulator.word('A402')).toBeInViewport({ ratio: 1 });

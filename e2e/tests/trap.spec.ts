@@ -41,6 +41,11 @@ test('a program that goes wrong stops with file and line, and nothing else stops
   const main = mika.editor('Main.st');
   await ready(mika);
 
+  await test.step('a program without variables has nothing to offer, and says so', async () => {
+    await mika.page.getByRole('button', { name: "Add the program's variables" }).click();
+    await expect(mika.page.getByText('The program that runs has no variables.')).toBeVisible();
+  });
+
   for (const { name, fault, said } of FAULTS) {
     await test.step(name, async () => {
       await main.replaceWith(program(fault));
@@ -55,6 +60,7 @@ test('a program that goes wrong stops with file and line, and nothing else stops
       await expect(mika.top.state).toContainText('Trapped');
       await expect(mika.banner).toContainText('The program was stopped.');
       await expect(mika.banner).toContainText(said);
+      await expect(mika.banner).toContainText(/ at Main\.st:9 in scan [\d\s]+\./);
       await mika.banner.getByRole('button', { name: 'Main.st:9' }).click();
       await expect(mika.statusBar).toContainText('Ln 9,');
 

@@ -8,11 +8,12 @@ import typer
 
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
-from scanbench.cli.inputs import find_model, problem_json, read_sources
+from scanbench.cli.inputs import find_model, problem_json, read_sources, usage
 from scanbench.cli.run_options import Options, find_symbol, read_commands, read_interval
 from scanbench.cli.run_report import Result, nothing_ran, report_json, report_text, values
 from scanbench.engines.engine import Engine
 from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.native.emit_body import TooLarge
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.pair import Differs, PairEngine
 from scanbench.runtime.headless import run_headless
@@ -68,6 +69,8 @@ def run(
     shown = [(each, find_symbol(program, each)) for each in show]
     try:
         result = run_headless(program, scans, ENGINES[engine], commands, every, lambda plc: values(plc, shown))
+    except TooLarge as error:
+        usage(f"{path}: {error}")
     except Differs as difference:
         if as_json:
             typer.echo(nothing_ran(problems, difference=str(difference)))

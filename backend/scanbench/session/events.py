@@ -94,6 +94,14 @@ class FileSaved:
 
 
 @dataclass(frozen=True, slots=True)
+class FileDeleted:
+    """Somebody deleted a file of the project."""
+
+    author: str
+    path: str
+
+
+@dataclass(frozen=True, slots=True)
 class ValueWritten:
     """Somebody wrote or forced a variable."""
 
@@ -125,6 +133,7 @@ Event = (
     | UsersChanged
     | ProgramBuilt
     | FileSaved
+    | FileDeleted
     | ValueWritten
     | ForcesChanged
     | Watching

@@ -73,9 +73,11 @@ class Projects:
             session.told_saved(author, file.path, file.version)
         return file
 
-    async def delete_file(self, id: int, path: str) -> None:
+    async def delete_file(self, id: int, path: str, author: str) -> None:
         """Deletes a file."""
         await asyncio.to_thread(self._store.delete_file, id, path)
+        for session in self._sessions_of(id):
+            session.told_deleted(author, path)
 
     async def sources(self, id: int) -> dict[str, str]:
         """Path -> text of all program files."""

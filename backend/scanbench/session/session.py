@@ -112,6 +112,10 @@ class Session:
         """Tells everybody here that a file was saved."""
         self._publish(events.FileSaved(author, path, version))
 
+    def told_deleted(self, author: str, path: str) -> None:
+        """Tells everybody here that a file was deleted."""
+        self._publish(events.FileDeleted(author, path))
+
     async def _refusing(self, answer: Awaitable[protocol.Ack]) -> protocol.Ack:
         try:
             return await answer

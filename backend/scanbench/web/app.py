@@ -17,7 +17,7 @@ from scanbench.session.projects import Refused
 from scanbench.session.workbench import Workbench
 from scanbench.store.records import Conflict, NameTaken, NotFound, StoreError
 from scanbench.web import messages as wire
-from scanbench.web import routes_instances, routes_models, routes_projects
+from scanbench.web import routes_instances, routes_models, routes_projects, translate
 from scanbench.web.auth import Gate, Guard
 from scanbench.web.pages import frontend_directory, not_built_page
 
@@ -81,9 +81,10 @@ async def _on_conflict(_request: Request, error: Exception) -> JSONResponse:
     """Somebody else saved first; a file that was deleted meanwhile comes as version 0, to be made anew."""
     assert isinstance(error, Conflict)
     theirs = error.theirs
-    text = wire.FileText(
-        path=error.path, version=theirs.version if theirs else 0, text=theirs.text if theirs else ""
-    )  # fmt: skip
+    if theirs is None:
+        text = wire.FileText(path=error.path, version=0, author="", text="")
+    else:
+        text = translate.file_text(theirs)
     return JSONResponse(wire.SaveConflict(message=str(error), theirs=text).model_dump(), 409)
 
 

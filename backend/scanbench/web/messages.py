@@ -47,6 +47,7 @@ class NewProject(Wire):
 class FileInfo(Wire):
     path: str
     version: int
+    author: str = Field(description="who saved this version; empty when nobody knows")
 
 
 class FileText(FileInfo):
@@ -428,6 +429,14 @@ class Saved(Wire):
     file: FileInfo
 
 
+class Deleted(Wire):
+    """Somebody deleted a file of this project."""
+
+    type: Literal["deleted"] = "deleted"
+    path: str
+    author: str
+
+
 class Forces(Wire):
     """All forces that hold, whenever they change."""
 
@@ -445,7 +454,13 @@ class Written(Wire):
     forced: bool
 
 
+class Alive(Wire):
+    """Sent when there was nothing else to say for a while: a browser that hears nothing at all knows the server is gone."""
+
+    type: Literal["alive"] = "alive"
+
+
 ServerMessage = Annotated[
-    Hello | State | Watching | Done | Errors | Log | Users | Built | Saved | Forces | Written,
+    Hello | State | Watching | Done | Errors | Log | Users | Built | Saved | Deleted | Forces | Written | Alive,
     Field(discriminator="type"),
 ]

@@ -6,7 +6,7 @@ from pathlib import Path
 
 _PAGE = """<!doctype html>
 <html lang="en"><head><meta charset="utf-8"><title>Scanbench</title>
-<meta name="viewport" content="width=device-width">
+<meta name="viewport" content="width=device-width"><link rel="icon" href="data:,">
 <style>body{{font:16px/1.5 system-ui,sans-serif;max-width:40rem;margin:15vh auto;padding:0 1rem;color-scheme:light dark}}
 code{{background:#8883;padding:.1em .3em;border-radius:4px}}</style></head>
 <body><h1>{title}</h1>{body}</body></html>"""

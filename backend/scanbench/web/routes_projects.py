@@ -31,27 +31,26 @@ async def on_delete_project(bench: Bench, project: int) -> None:
 @router.get("/{project}/files")
 async def on_files(bench: Bench, project: int) -> list[wire.FileInfo]:
     """The files of a project."""
-    return [wire.FileInfo(path=row.path, version=row.version) for row in await bench.projects.files(project)]
+    return [translate.file_info(row) for row in await bench.projects.files(project)]
 
 
 @router.get("/{project}/files/{path:path}")
 async def on_file(bench: Bench, project: int, path: str) -> wire.FileText:
     """One file with its text."""
-    row = await bench.projects.file(project, path)
-    return wire.FileText(path=row.path, version=row.version, text=row.text)
+    return translate.file_text(await bench.projects.file(project, path))
 
 
 @router.put("/{project}/files/{path:path}", responses={409: {"model": wire.SaveConflict}})
 async def on_save_file(bench: Bench, request: Request, project: int, path: str, save: wire.SaveFile) -> wire.FileInfo:
     """Saves a file, if nobody else did since it was read."""
     row = await bench.projects.save(project, path, save.text, save.version, user_of(request).name)
-    return wire.FileInfo(path=row.path, version=row.version)
+    return translate.file_info(row)
 
 
 @router.delete("/{project}/files/{path:path}", status_code=204)
-async def on_delete_file(bench: Bench, project: int, path: str) -> None:
+async def on_delete_file(bench: Bench, request: Request, project: int, path: str) -> None:
     """Deletes a file."""
-    await bench.projects.delete_file(project, path)
+    await bench.projects.delete_file(project, path, user_of(request).name)
 
 
 @router.post("/{project}/check")

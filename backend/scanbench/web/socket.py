@@ -25,6 +25,8 @@ from scanbench.web import translate
 WAITING_FRAMES = 4
 """So many frames not yet sent: the browser is slow, and gets a snapshot instead."""
 WAITING_MESSAGES = 20_000
+ALIVE_AFTER_S = 5.0
+"""So long without anything to tell: an `Alive` is sent. Browsers give up after 12 s of silence."""
 _SPEEDS = (0.001, 10_000.0)
 
 _INCOMING: TypeAdapter[wire.ClientMessage] = TypeAdapter(wire.ClientMessage)
@@ -112,7 +114,12 @@ class Client:
 
     async def _write(self) -> None:
         while True:
-            await self._wake.wait()
+            try:
+                async with asyncio.timeout(ALIVE_AFTER_S):
+                    await self._wake.wait()
+            except TimeoutError:
+                await self._socket.send_text(wire.Alive().model_dump_json())
+                continue
             self._wake.clear()
             if len(self._texts) > WAITING_MESSAGES:
                 await self._socket.close(1013, "too slow")

@@ -13,7 +13,7 @@ from scanbench.session.builds import BuildOutcome, CheckOutcome
 from scanbench.session.events import LogEntry, PlcState, User
 from scanbench.session.protocol import SymbolInfo, WatchItem
 from scanbench.session.session import Session
-from scanbench.store.records import ProjectRow
+from scanbench.store.records import FileInfo, FileRow, ProjectRow
 from scanbench.web import messages as wire
 
 
@@ -27,6 +27,16 @@ def user(who: User) -> wire.User:
 def project(row: ProjectRow) -> wire.Project:
     """A project."""
     return wire.Project(id=row.id, name=row.name, model=row.model, version=row.version, watch=list(row.watch))
+
+
+def file_info(row: FileInfo | FileRow) -> wire.FileInfo:
+    """A file without its text."""
+    return wire.FileInfo(path=row.path, version=row.version, author=row.author)
+
+
+def file_text(row: FileRow) -> wire.FileText:
+    """A file with its text."""
+    return wire.FileText(path=row.path, version=row.version, author=row.author, text=row.text)
 
 
 def problem(found: Problem) -> wire.Problem:
@@ -141,9 +151,10 @@ def event(happened: events.Event) -> wire.ServerMessage:
         case events.ProgramBuilt():
             return wire.Built(author=happened.author, result=build_result(happened.outcome))
         case events.FileSaved():
-            return wire.Saved(
-                author=happened.author, file=wire.FileInfo(path=happened.path, version=happened.version)
-            )  # fmt: skip
+            file = wire.FileInfo(path=happened.path, version=happened.version, author=happened.author)
+            return wire.Saved(author=happened.author, file=file)
+        case events.FileDeleted():
+            return wire.Deleted(path=happened.path, author=happened.author)
         case events.ForcesChanged():
             return wire.Forces(forces=list(map(force, happened.forces)))
         case events.ValueWritten():

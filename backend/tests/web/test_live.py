@@ -40,6 +40,17 @@ def test_first_start_runs_the_sample(server: Server) -> None:
         browser.wait(lambda: any(m["type"] == "state" and m["state"]["scan"] > first + 20 for m in browser.messages))
 
 
+def test_a_silent_plc_is_alive(server: Server) -> None:
+    instance = server.instance("silent", MODEL, main=COUNT)
+    with server.browser(instance) as browser:
+        browser.wait_state("running")
+        assert browser.ask(type="run", action="pause")["ok"]
+        started = time.monotonic()
+        browser.wait_for("alive", timeout=12)
+        browser.wait_for("alive", timeout=12)
+        assert time.monotonic() - started < 12
+
+
 def test_watch_write_and_refusals(server: Server) -> None:
     instance = server.instance("watching", MODEL, main=COUNT)
     with server.browser(instance) as browser:

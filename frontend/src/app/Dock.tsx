@@ -2,7 +2,7 @@ import { type DockviewApi, DockviewReact, type DockviewReadyEvent } from "dockvi
 import "dockview-react/dist/styles/dockview.css";
 import { type KeyboardEvent, type Ref, useCallback, useEffect, useImperativeHandle, useRef } from "react";
 import { useBench } from "../store/bench";
-import { closeDocument, useDocuments } from "../store/documents";
+import { closeDocument, holdsUnsaved, useDocuments } from "../store/documents";
 import { keep, recall } from "../store/keep";
 import { onNavigate } from "../store/navigate";
 import { components, HeaderEnd, PanelTab } from "./dockParts";
@@ -12,6 +12,8 @@ export interface DockHandle {
   reset: () => void;
 }
 
+/** Counted up when the usual arrangement changes: what was kept of the one before would hide the change. */
+const LAYOUT = "layout.2";
 const THEME = { name: "scanbench", className: "dockview-theme-scanbench" };
 
 /** The dockable part of the window. The layout is kept in this browser. */
@@ -30,8 +32,8 @@ export function Dock({ ref }: { ref: Ref<DockHandle> }) {
   const onReady = useCallback((event: DockviewReadyEvent) => {
     const dock = event.api;
     api.current = dock;
-    restoreLayout(dock, recall<unknown>("layout", null));
-    dock.onDidLayoutChange(() => keep("layout", dock.toJSON()));
+    restoreLayout(dock, recall<unknown>(LAYOUT, null));
+    dock.onDidLayoutChange(() => keep(LAYOUT, dock.toJSON()));
     dock.onDidActivePanelChange(({ panel }) => {
       const path = panel && fileOf(panel.id);
       if (path) useDocuments.setState({ active: path });
@@ -87,7 +89,7 @@ function useFilesOfProject(api: { current: DockviewApi | null }, project: number
     const stop = useDocuments.subscribe((now, before) => {
       if (now.project !== project || now.files === before.files) return;
       const known = new Set(now.files.map((file) => file.path));
-      closeFiles(dock, (path) => !known.has(path));
+      closeFiles(dock, (path) => !known.has(path) && !holdsUnsaved(path));
       if (before.files.length === 0 && !dock.panels.some((panel) => fileOf(panel.id))) openFirst(dock);
     });
     const pous = useDocuments.subscribe((now, before) => {

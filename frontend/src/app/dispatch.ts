@@ -1,7 +1,7 @@
 /** Every message of the server to the store that it concerns. The switch is exhaustive: a new message is a compile error. */
 import { onProject, useBench } from "../store/bench";
 import { setClock } from "../store/clock";
-import { onBuilt, onSaved } from "../store/documents";
+import { catchUp, onBuilt, onDeleted, onSaved } from "../store/documents";
 import { onForces, onWritten } from "../store/forces";
 import { resetMembers } from "../store/members";
 import { onErrors, onHello, onLog, onState, usePlc } from "../store/plc";
@@ -34,6 +34,7 @@ function dispatch(message: ServerMessage): void {
       onProject(message.instance.project);
       useBench.setState({ instance: message.instance });
       watchAgain();
+      void catchUp();
       return;
     case "state":
       onState(message.state);
@@ -60,11 +61,16 @@ function dispatch(message: ServerMessage): void {
     case "saved":
       void onSaved(message.file);
       return;
+    case "deleted":
+      void onDeleted(message.path, message.author);
+      return;
     case "forces":
       onForces(message.forces);
       return;
     case "written":
       onWritten(message.path, message.author, message.scan);
+      return;
+    case "alive":
       return;
     default:
       message satisfies never;

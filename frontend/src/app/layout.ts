@@ -11,7 +11,7 @@ export function fileOf(panel: string): string | undefined {
   return panel.startsWith(FILE) ? panel.slice(FILE.length) : undefined;
 }
 
-/** Editor in the middle, watch below, error simulator at the right. */
+/** Editor in the middle, watch and the wide tables below, error simulator at the right. */
 export function standardLayout(dock: DockviewApi): void {
   dock.clear();
   const narrow = innerWidth < 1280;
@@ -22,20 +22,19 @@ export function standardLayout(dock: DockviewApi): void {
     position: { referencePanel: "start", direction: "right" },
     initialWidth: narrow ? 372 : 420,
   });
-  dock.addPanel({ id: "history", component: "history", position: { referencePanel: "errors" }, inactive: true });
   dock.addPanel({
     id: "watch",
     component: "watch",
     position: { referencePanel: "start", direction: "below" },
     initialHeight: innerHeight < 800 ? 280 : 386,
   });
-  for (const id of ["problems", "log"]) {
+  for (const id of ["problems", "log", "history"]) {
     dock.addPanel({ id, component: id, position: { referencePanel: "watch" }, inactive: true });
   }
   dock.getPanel("start")?.api.setActive();
 }
 
-const FIXED = ["errors", "history", "watch", "problems", "log"];
+const FIXED = ["errors", "watch", "problems", "log", "history"];
 
 /** What was kept, when it still fits this version of the page; else the usual arrangement. */
 export function restoreLayout(dock: DockviewApi, kept: unknown): void {

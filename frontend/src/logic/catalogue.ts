@@ -49,6 +49,18 @@ export function detailsInWords(error: ErrorInfo | undefined, details: string): s
     .join(", ");
 }
 
+const REFERENCE = /(?<![\w-])([a-z][a-z0-9-]*)(?![\w-])(?: \(([^()]*=[^()]*)\))?/g;
+
+/** What the server says of errors, with the catalogue's names for ids (`basic-io-error (rack=2)`), as a sentence. */
+export function inNames(errors: readonly ErrorInfo[], message: string): string {
+  const named = message.replace(REFERENCE, (whole, id: string, details: string | undefined) => {
+    const error = errors.find((known) => known.id === id);
+    if (!error) return whole;
+    return details === undefined ? error.name : `${error.name} (${detailsInWords(error, details)})`;
+  });
+  return named.charAt(0).toUpperCase() + named.slice(1);
+}
+
 /** All errors of a catalogue, in its order. */
 export function allErrors(groups: readonly ErrorGroup[]): ErrorInfo[] {
   return groups.flatMap((group) => [...allErrors(group.groups), ...group.errors]);

@@ -11,8 +11,8 @@ const pous: Pou[] = [
 describe("explorer", () => {
   it("groups by kind in the standard's order and keeps files without declarations", () => {
     const groups = pouGroups(pous, [
-      { path: "main.st", version: 1 },
-      { path: "broken.st", version: 2 },
+      { path: "main.st", version: 1, author: "Mika" },
+      { path: "broken.st", version: 2, author: "Mika" },
     ]);
     expect(groups.map((group) => [group.kind, group.nodes.map((node) => node.name)])).toEqual([
       ["program", ["Main"]],
@@ -41,7 +41,7 @@ describe("explorer", () => {
   it("makes paths for new files", () => {
     expect(newFilePath(" FB_New ", [])).toBe("FB_New.st");
     expect(newFilePath("a.ST", [])).toBe("a.ST");
-    expect(newFilePath("main", [{ path: "Main.st", version: 1 }])).toBeNull();
+    expect(newFilePath("main", [{ path: "Main.st", version: 1, author: "Mika" }])).toBeNull();
     expect(newFilePath("../x", [])).toBeNull();
     expect(skeleton("FB_New.st")).toContain("FUNCTION_BLOCK FB_New");
     expect(skeleton("Line 2.st")).toContain("PROGRAM Line_2");

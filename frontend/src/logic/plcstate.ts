@@ -42,6 +42,8 @@ function detailOf(state: InstanceState): string {
   switch (state.state) {
     case "running":
       return t("state.cyclic", { interval: interval(state.interval_ns) });
+    case "starting":
+      return t("state.loading");
     case "fatal":
       return t("state.outputsoff");
     case "trapped":

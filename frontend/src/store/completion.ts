@@ -2,7 +2,7 @@
 import { rest } from "../wire/rest";
 import type { PlcSymbol } from "../wire/types";
 import { useBench } from "./bench";
-import { loadMembers } from "./members";
+import { loadMembers, useMembers } from "./members";
 
 export async function complete(text: string): Promise<readonly PlcSymbol[]> {
   const instance = useBench.getState().instance;
@@ -14,8 +14,8 @@ export async function complete(text: string): Promise<readonly PlcSymbol[]> {
   }
 }
 
-/** Every variable of the programs and the globals: what one wants to see first. */
-export async function topVariables(): Promise<string[]> {
+/** Every variable of the programs and the globals: what one wants to see first; or why they cannot be told. */
+export async function topVariables(): Promise<{ paths: string[]; refused: string | undefined }> {
   const top = await loadMembers("");
   const paths: string[] = [];
   for (const symbol of top) {
@@ -23,5 +23,5 @@ export async function topVariables(): Promise<string[]> {
     if (isProgram) paths.push(...(await loadMembers(symbol.path)).map((member) => member.path));
     else paths.push(symbol.path);
   }
-  return paths;
+  return { paths, refused: useMembers.getState().refused.get("") };
 }

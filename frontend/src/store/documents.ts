@@ -1,9 +1,11 @@
 /** The files of the project being edited: texts, what is not saved yet, live diagnostics and builds. */
 import { create } from "zustand";
 import { skeleton } from "../logic/explorer";
+import { t } from "../logic/text";
 import { rest } from "../wire/rest";
 import type { BuildResult, FileInfo, FileText, Pou, Problem } from "../wire/types";
 import { forget, keep, recall } from "./keep";
+import { usePlc } from "./plc";
 
 export interface Document {
   path: string;
@@ -14,6 +16,8 @@ export interface Document {
   savedAt: number | null;
   /** Somebody saved meanwhile: theirs, to be shown beside mine. */
   conflict: FileText | null;
+  /** The file is gone, but the text was edited and stays: who deleted it, empty when that is not known. */
+  deletedBy: string | null;
 }
 
 interface Draft {
@@ -58,6 +62,13 @@ const set = useDocuments.setState;
 export const isDirty = (document: Document | undefined) =>
   document !== undefined && document.text !== document.savedText;
 
+/** True when this browser holds a text of the file that is stored nowhere else. */
+export function holdsUnsaved(path: string): boolean {
+  const { project, open } = get();
+  if (open[path]) return isDirty(open[path]);
+  return project !== null && recall<Draft | null>(draftKey(project, path), null) !== null;
+}
+
 const draftKey = (project: number, path: string) => `draft.${project}.${path}`;
 
 function patch(path: string, change: Partial<Document>): void {
@@ -85,19 +96,26 @@ export async function refreshFiles(): Promise<void> {
 export async function openDocument(path: string): Promise<void> {
   const { project, open } = get();
   if (project === null || open[path]) return;
-  const stored = await rest.file(project, path);
-  if (get().project !== project || get().open[path]) return;
   const draft = recall<Draft | null>(draftKey(project, path), null);
+  const stored = await storedFile(project, path, draft !== null);
+  if (get().project !== project || get().open[path]) return;
   const document: Document = {
     path,
-    text: draft?.text ?? stored.text,
-    savedText: stored.text,
-    version: draft?.version ?? stored.version,
+    text: draft?.text ?? stored?.text ?? "",
+    savedText: stored?.text ?? "",
+    version: stored ? (draft?.version ?? stored.version) : 0,
     savedAt: null,
     conflict: null,
+    deletedBy: stored ? null : "",
   };
   set((state) => ({ open: { ...state.open, [path]: document } }));
   if (draft) scheduleCheck();
+}
+
+/** Null when there is no such file, which is no failure for a browser that still holds a text of it. */
+async function storedFile(project: number, path: string, mayBeGone: boolean): Promise<FileText | null> {
+  if (mayBeGone && !(await rest.files(project)).some((file) => file.path === path)) return null;
+  return rest.file(project, path);
 }
 
 /** An unsaved text stays in the browser and comes back when the file is opened again. */
@@ -125,6 +143,7 @@ export async function save(path: string): Promise<boolean> {
   const document = open[path];
   if (project === null || !document) return false;
   if (!isDirty(document)) return true;
+  if (isCutOff()) return false;
   const { text } = document;
   try {
     const result = await rest.save(project, path, text, document.version);
@@ -141,9 +160,16 @@ export async function save(path: string): Promise<boolean> {
   }
 }
 
+/** Without a connection a request would wait for ever, and the save would come as a surprise later. */
+function isCutOff(): boolean {
+  const lost = usePlc.getState().link.state === "lost";
+  if (lost) set({ trouble: t("lost.nosave") });
+  return lost;
+}
+
 function stored(path: string, text: string, file: FileInfo): void {
   const { project, open, files } = get();
-  patch(path, { savedText: text, version: file.version, savedAt: Date.now(), conflict: null });
+  patch(path, { savedText: text, version: file.version, savedAt: Date.now(), conflict: null, deletedBy: null });
   if (project !== null && open[path]?.text === text) forget(draftKey(project, path));
   const others = files.filter((known) => known.path !== path);
   set({ files: [...others, file].sort((a, b) => a.path.localeCompare(b.path)) });
@@ -154,6 +180,12 @@ export async function resolveConflict(path: string, choice: "mine" | "theirs"): 
   const { project, open } = get();
   const theirs = open[path]?.conflict;
   if (project === null || !theirs) return;
+  if (choice === "theirs" && theirs.version === 0) {
+    forget(draftKey(project, path));
+    closeDocument(path);
+    await refreshFiles();
+    return;
+  }
   if (choice === "theirs") {
     patch(path, { text: theirs.text, savedText: theirs.text, version: theirs.version, conflict: null });
     forget(draftKey(project, path));
@@ -167,7 +199,7 @@ export async function resolveConflict(path: string, choice: "mine" | "theirs"): 
 /** Saves what is not saved, then builds; the running instances get the new program in their seams. */
 export async function build(): Promise<void> {
   const { project, open } = get();
-  if (project === null || get().build.phase === "running") return;
+  if (project === null || get().build.phase === "running" || isCutOff()) return;
   set({ build: { phase: "running" } });
   try {
     for (const document of Object.values(open)) {
@@ -194,6 +226,7 @@ export function onBuilt(result: BuildResult, author: string | null): void {
 export async function onSaved(file: FileInfo): Promise<void> {
   const { project, open, files } = get();
   const document = open[file.path];
+  if (document?.deletedBy != null) patch(file.path, { deletedBy: null });
   if (!files.some((known) => known.path === file.path)) await refreshFiles();
   if (project === null || !document || isDirty(document) || file.version <= document.version) {
     scheduleCheck();
@@ -205,6 +238,41 @@ export async function onSaved(file: FileInfo): Promise<void> {
     patch(file.path, { text: fresh.text, savedText: fresh.text, version: fresh.version });
   }
   scheduleCheck();
+}
+
+const deleting = new Set<string>();
+
+/** Somebody deleted a file: its tab closes with the list of files, unless it holds a text that was edited. */
+export async function onDeleted(path: string, author: string): Promise<void> {
+  if (deleting.has(path)) return;
+  const { project, open } = get();
+  const document = open[path];
+  if (project !== null && document && isDirty(document)) {
+    patch(path, { savedText: "", version: 0, conflict: null, deletedBy: author });
+    keep(draftKey(project, path), { text: document.text, version: 0 } satisfies Draft);
+  }
+  set(({ files }) => ({ files: files.filter((file) => file.path !== path) }));
+  scheduleCheck();
+}
+
+/** After a connection: what was saved and deleted meanwhile was told to nobody here. */
+export async function catchUp(): Promise<void> {
+  const { project } = get();
+  if (project === null) return;
+  let files: FileInfo[];
+  try {
+    files = await rest.files(project);
+  } catch {
+    return; // The connection went away again: the next one catches up.
+  }
+  if (get().project !== project) return;
+  const known = new Map(files.map((file) => [file.path, file]));
+  for (const document of Object.values(get().open)) {
+    const file = known.get(document.path);
+    if (file && file.version > document.version) await onSaved(file);
+    else if (!file && document.version > 0) await onDeleted(document.path, "");
+  }
+  if (get().project === project) set({ files });
 }
 
 /** Makes a new file with the frame of what its name promises. Throws what the server said when it refuses. */
@@ -220,10 +288,15 @@ export async function createFile(path: string): Promise<void> {
 export async function deleteFile(path: string): Promise<void> {
   const { project } = get();
   if (project === null) return;
-  await rest.deleteFile(project, path);
-  forget(draftKey(project, path));
-  closeDocument(path);
-  await refreshFiles();
+  deleting.add(path);
+  try {
+    await rest.deleteFile(project, path);
+    forget(draftKey(project, path));
+    closeDocument(path);
+    await refreshFiles();
+  } finally {
+    deleting.delete(path);
+  }
   scheduleCheck();
 }
 

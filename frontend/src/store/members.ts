@@ -26,7 +26,11 @@ export async function loadMembers(path: string): Promise<readonly PlcSymbol[]> {
   try {
     const symbols = await rest.symbols(instance, path);
     if (useMembers.getState().instance === instance) {
-      useMembers.setState((state) => ({ of: new Map(state.of).set(path, symbols) }));
+      useMembers.setState((state) => {
+        const refused = new Map(state.refused);
+        refused.delete(path);
+        return { of: new Map(state.of).set(path, symbols), refused };
+      });
     }
     return symbols;
   } catch (error) {

@@ -31,6 +31,9 @@ export const usePlc = create<Plc>(() => nothing);
 /** True when commands can be given. */
 export const useOnline = () => usePlc((plc) => plc.link.state === "open");
 
+/** True when there was a connection and it went away; a project without an instance has none to lose. */
+export const useLost = () => usePlc((plc) => plc.link.state === "lost");
+
 export function resetPlc(): void {
   usePlc.setState({ ...nothing, link: usePlc.getState().link });
 }

@@ -28,8 +28,13 @@ function initial(): Prefs {
 export const usePrefs = create<Prefs>(initial);
 
 function apply({ theme, language }: Prefs): void {
-  document.documentElement.dataset.theme = theme;
-  document.documentElement.lang = language;
+  const root = document.documentElement;
+  // Colours change at once: a value that fades over from the old theme would look like one that has just changed.
+  root.classList.add("switching");
+  root.dataset.theme = theme;
+  root.lang = language;
+  void root.offsetHeight;
+  root.classList.remove("switching");
   setLanguage(language);
 }
 

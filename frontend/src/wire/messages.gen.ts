@@ -304,6 +304,17 @@ export interface paths {
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /**
+         * Alive
+         * @description Sent when there was nothing else to say for a while: a browser that hears nothing at all knows the server is gone.
+         */
+        Alive: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "alive";
+        };
         /** AppInfo */
         AppInfo: {
             /** Instances */
@@ -392,6 +403,21 @@ export interface components {
             problems: components["schemas"]["Problem"][];
         };
         ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["SetMode"] | components["schemas"]["Run"];
+        /**
+         * Deleted
+         * @description Somebody deleted a file of this project.
+         */
+        Deleted: {
+            /** Author */
+            author: string;
+            /** Path */
+            path: string;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "deleted";
+        };
         /**
          * Done
          * @description Answer to every command: applied in the seam before `scan`, or refused with a reason.
@@ -553,6 +579,11 @@ export interface components {
         };
         /** FileInfo */
         FileInfo: {
+            /**
+             * Author
+             * @description who saved this version; empty when nobody knows
+             */
+            author: string;
             /** Path */
             path: string;
             /** Version */
@@ -560,6 +591,11 @@ export interface components {
         };
         /** FileText */
         FileText: {
+            /**
+             * Author
+             * @description who saved this version; empty when nobody knows
+             */
+            author: string;
             /** Path */
             path: string;
             /** Text */
@@ -944,7 +980,7 @@ export interface components {
             /** Version */
             version: number;
         };
-        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Forces"] | components["schemas"]["Written"];
+        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["Forces"] | components["schemas"]["Written"] | components["schemas"]["Alive"];
         /** SetMode */
         SetMode: {
             /**

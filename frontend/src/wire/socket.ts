@@ -19,14 +19,16 @@ export interface LinkListener {
 
 const FIRST_DELAY = 500;
 const LONGEST_DELAY = 8000;
-/** The server answers pings of the protocol itself; a socket that opens but stays silent is given up after this. */
+/** A socket that opens but stays silent is given up after this. */
 const HELLO_TIMEOUT = 5000;
+/** The server says something each 5 s at least: after this silence it is frozen or out of reach, though nothing was closed. */
+const SILENCE_TIMEOUT = 12_000;
 
 export class Link {
   private socket: WebSocket | null = null;
   private instance: number | null = null;
   private retry: ReturnType<typeof setTimeout> | undefined;
-  private helloTimer: ReturnType<typeof setTimeout> | undefined;
+  private patience: ReturnType<typeof setTimeout> | undefined;
   private listener: LinkListener | null = null;
   private status: LinkStatus = { state: "none", lostAt: null, attempt: 0, nextTryAt: null };
 
@@ -65,11 +67,12 @@ export class Link {
   }
 
   private open(): void {
+    this.drop();
     const scheme = location.protocol === "https:" ? "wss:" : "ws:";
     const socket = new WebSocket(`${scheme}//${location.host}/api/instances/${this.instance}/socket`);
     socket.binaryType = "arraybuffer";
     this.socket = socket;
-    this.helloTimer = setTimeout(() => socket.close(), HELLO_TIMEOUT);
+    this.expectWithin(HELLO_TIMEOUT);
     socket.onmessage = (event: MessageEvent<string | ArrayBuffer>) => {
       if (socket === this.socket) this.receive(event.data);
     };
@@ -78,21 +81,31 @@ export class Link {
     };
   }
 
+  /** A frozen server does not answer a close either, so the socket is let go without waiting for its end. */
+  private expectWithin(ms: number): void {
+    clearTimeout(this.patience);
+    this.patience = setTimeout(() => {
+      this.drop();
+      this.lose();
+    }, ms);
+  }
+
   private receive(data: string | ArrayBuffer): void {
+    if (this.isOpen) this.expectWithin(SILENCE_TIMEOUT);
     if (typeof data !== "string") {
       this.listener?.onFrame(parseFrame(data));
       return;
     }
     const message = JSON.parse(data) as ServerMessage;
     if (message.type === "hello") {
-      clearTimeout(this.helloTimer);
+      this.expectWithin(SILENCE_TIMEOUT);
       this.report({ state: "open", lostAt: null, attempt: 0, nextTryAt: null });
     }
     this.listener?.onMessage(message);
   }
 
   private lose(): void {
-    clearTimeout(this.helloTimer);
+    clearTimeout(this.patience);
     this.socket = null;
     const attempt = this.status.attempt + 1;
     const delay = Math.min(LONGEST_DELAY, FIRST_DELAY * 2 ** (attempt - 1));
@@ -107,7 +120,11 @@ export class Link {
 
   private close(): void {
     clearTimeout(this.retry);
-    clearTimeout(this.helloTimer);
+    this.drop();
+  }
+
+  private drop(): void {
+    clearTimeout(this.patience);
     const socket = this.socket;
     this.socket = null;
     socket?.close();

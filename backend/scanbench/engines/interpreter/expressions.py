@@ -140,8 +140,9 @@ class Expressions:
                 write(0, value)
             body(0)
             answer = result(0)
-            for read, write in copy_out:
-                write(instance, read(0))
+            returned = [read(0) for read, _ in copy_out]
+            for (_, write), value in zip(copy_out, returned, strict=True):
+                write(instance, value)
             return answer
 
         return run

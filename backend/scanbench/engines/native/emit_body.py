@@ -16,6 +16,14 @@ if TYPE_CHECKING:
 
     from scanbench.engines.native.emit_strings import Piece
 
+SCRATCH_LIMIT = 64 << 20
+"""Bytes that the temporaries of all POUs of a program may take."""
+
+
+class TooLarge(ValueError):
+    """The temporaries of the program take more memory than they may."""
+
+
 Evaluate: TypeAlias = "Callable[[Body, Expr], Value]"
 Pieces: TypeAlias = "Callable[[Body, Expr], list[Piece]]"
 
@@ -27,7 +35,19 @@ class Unit:
     module: ModuleText = field(default_factory=ModuleText)
     effects: Effects = field(default_factory=Effects)
     numbers: dict[Pou, int] = field(default_factory=dict)
+    scratch: int = 0
+    """Bytes of temporaries, up to now."""
     _signatures: dict[Pou, Signature] = field(default_factory=dict)
+
+    def reserve(self, pou: Pou, name: str, size: int) -> None:
+        """Memory for the temporaries of the POU's statements."""
+        self.scratch += size
+        if self.scratch > SCRATCH_LIMIT:
+            raise TooLarge(
+                f"{pou.name} needs {size} bytes for strings, arrays and structures inside of its largest statement; "
+                f"all POUs together may use {SCRATCH_LIMIT}: use smaller types, or make several statements of it"
+            )
+        self.module.reserve(name, size)
 
     def symbol(self, pou: Pou) -> str:
         """The LLVM name of the POU's code."""

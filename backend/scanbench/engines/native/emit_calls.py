@@ -5,26 +5,27 @@ from scanbench.check.types import BOOL, Elementary, StringType
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body, Self
 from scanbench.engines.native.emit_function import Value
-from scanbench.engines.native.emit_places import Address, address, load_at, move, reference, store
-from scanbench.engines.native.emit_strings import Piece, as_one, assign, copied, of_pointer, settled
+from scanbench.engines.native.emit_places import address, reference
+from scanbench.engines.native.emit_strings import Piece, as_one, settled
 from scanbench.engines.native.emit_types import elementary, stored
+from scanbench.engines.native.emit_values import Bytes, Held, put, read, settle
 from scanbench.engines.native.registers import Parameter, Passing
 
-Later = tuple[Expr | Place | None, ...]
+Argument = Expr | Place | None
 
 
 def scalar(body: Body, call: CallFunction) -> Value:
     """The elementary result of a function."""
-    type = elementary(call.type)
     result = _call(body, call)
-    return load_at(body, Address(result), type)
+    assert isinstance(result, Value)
+    return result
 
 
 def text(body: Body, call: CallFunction) -> Piece:
     """The STRING result, in a buffer of its own: the next call of the same function writes over its frame."""
     result = _call(body, call)
-    assert isinstance(call.type, StringType)
-    return copied(body, [of_pointer(body, result, call.type.capacity)])
+    assert isinstance(result, list)
+    return settled(body, result)[0]
 
 
 def run(body: Body, call: CallFunction) -> None:
@@ -32,23 +33,30 @@ def run(body: Body, call: CallFunction) -> None:
     _call(body, call)
 
 
-def aggregate(body: Body, expr: Expr) -> str:
-    """Where an array or a structure stands; that of a function, until it is called again."""
+def value(body: Body, expr: Expr, disturbed: bool) -> Held:
+    """The value of an expression of any type, settled if code runs before it is stored."""
+    if isinstance(expr.type, StringType):
+        return settle(body, body.pieces(expr), disturbed)
+    if isinstance(expr.type, Elementary):
+        return body.scalar(expr)
     if isinstance(expr, CallFunction):
-        return _call(body, expr)
+        result = _call(body, expr)
+        assert result is not None
+        return settle(body, result, disturbed)
     assert isinstance(expr, Load), f"not an array or structure: {expr}"
-    return address(body, expr.place).pointer
+    return settle(body, Bytes(address(body, expr.place).pointer, expr.place.type.size), disturbed)
 
 
 # ---- functions ------------------------------------------------------------------------------------------------
 
 
-def _call(body: Body, call: CallFunction) -> str:
-    """Runs the function; gives a pointer to its result."""
+def _call(body: Body, call: CallFunction) -> Held | None:
+    """Runs the function; gives its result, where an aggregate stands in its frame until it is called again."""
     signature = body.unit.signature(call.pou)
     given = [f"ptr {body.image}"]
     outputs: list[tuple[Parameter, str, Place]] = []
-    for position, (parameter, argument) in enumerate(zip(signature.parameters, call.args, strict=True)):
+    pairs = list(zip(signature.parameters, call.args, strict=True))
+    for position, (parameter, argument) in enumerate(pairs):
         if parameter.passing in (Passing.POINTER, Passing.FRAME):
             pointer = _room(body, call, parameter)
             if parameter.passing is Passing.POINTER:
@@ -57,16 +65,20 @@ def _call(body: Body, call: CallFunction) -> str:
                 outputs.append((parameter, pointer, argument))
         else:
             assert argument is not None
-            given.append(_argument(body, parameter, argument, call.args[position + 1 :]))
-    result = ""
+            given.append(_argument(body, parameter, argument, _calls(pairs[position + 1 :])))
+    room = ""
     if signature.result is not None:
-        result = _room(body, call, signature.result)
+        room = _room(body, call, signature.result)
         if signature.result.passing is Passing.POINTER:
-            given.append(f"ptr {result}")
+            given.append(f"ptr {room}")
     status = body.text.op(f"call i32 {body.unit.symbol(call.pou)}({', '.join(given)})")
     body.text.check_status(status)
-    for parameter, pointer, place in outputs:
-        _copy_out(body, parameter, pointer, place)
+    # all is read before the first is stored: finding out where may call this function again
+    disturbed = any(walk.address_calls(place) for _, _, place in outputs)
+    values = [(read(body, pointer, each.member.type, disturbed), place) for each, pointer, place in outputs]
+    result = read(body, room, signature.result.member.type, disturbed) if signature.result is not None else None
+    for held, place in values:
+        put(body, place, held)
     return result
 
 
@@ -78,36 +90,29 @@ def _room(body: Body, call: CallFunction, parameter: Parameter) -> str:
     return body.text.op(f"getelementptr inbounds nuw i8, ptr {body.image}, i64 {offset}")
 
 
-def _argument(body: Body, parameter: Parameter, argument: Expr | Place, later: Later) -> str:
+def _calls(later: list[tuple[Parameter, Argument]]) -> bool:
+    """Whether evaluating these arguments runs code. An output's place is evaluated after the call."""
+    for parameter, argument in later:
+        if isinstance(argument, Place):
+            if parameter.passing is Passing.REFERENCE and walk.address_calls(argument):
+                return True
+        elif argument is not None and walk.calls_functions(argument):
+            return True
+    return False
+
+
+def _argument(body: Body, parameter: Parameter, argument: Expr | Place, disturbed: bool) -> str:
     if isinstance(argument, Place):
         return f"i64 {reference(body, argument)}"
-    disturbed = any(each is not None and not isinstance(each, Place) and walk.calls_functions(each) for each in later)
-    match parameter.passing:
-        case Passing.STRING:
-            pieces = body.pieces(argument)
-            one = as_one(body, settled(body, pieces) if disturbed else pieces)
-            return f"ptr {one.pointer}, i64 {one.length}"
-        case Passing.BYTES:
-            pointer = aggregate(body, argument)
-            if disturbed or isinstance(argument, CallFunction):
-                size = parameter.member.type.size
-                pointer = move(body, body.text.buffer(size), pointer, size)
-            return f"ptr {pointer}"
+    held = value(body, argument, disturbed)
+    if isinstance(held, Bytes):
+        return f"ptr {held.pointer}"
+    if isinstance(held, list):
+        one = as_one(body, held)
+        return f"ptr {one.pointer}, i64 {one.length}"
     type = elementary(parameter.member.type)
-    ssa = body.scalar(argument).ssa
-    if type == BOOL:
-        ssa = body.text.op(f"zext i1 {ssa} to i8")
+    ssa = body.text.op(f"zext i1 {held.ssa} to i8") if type == BOOL else held.ssa
     return f"{stored(type)} {ssa}"
-
-
-def _copy_out(body: Body, parameter: Parameter, pointer: str, place: Place) -> None:
-    type = parameter.member.type
-    if isinstance(type, StringType):
-        assign(body, place, [of_pointer(body, pointer, type.capacity)])
-    elif isinstance(type, Elementary):
-        store(body, address(body, place), type, load_at(body, Address(pointer), type))
-    else:
-        move(body, address(body, place).pointer, pointer, type.size)
 
 
 # ---- blocks ---------------------------------------------------------------------------------------------------
@@ -119,43 +124,17 @@ def block(body: Body, call: CallBlock) -> None:
     pointer = body.text.op(f"getelementptr inbounds nuw i8, ptr {body.image}, i64 {offset}")
     inner = Self(pointer, offset)
     for place, expr in call.inputs:
-        _input(body, inner, place, expr)
+        held = value(body, expr, walk.address_calls(place))
+        with body.instance(inner):
+            put(body, place, held)
     for slot, bound in call.in_outs:
-        value = reference(body, bound)
+        number = reference(body, bound)
         with body.instance(inner):
             where = address(body, slot)
-        body.text.do(f"store i64 {value}, ptr {where.pointer}, align 1{where.tag}")
+        body.text.do(f"store i64 {number}, ptr {where.pointer}, align 1{where.tag}")
     status = body.text.op(f"call i32 {body.unit.symbol(call.pou)}(ptr {body.image}, i64 {offset})")
     body.text.check_status(status)
     for expr, target in call.outputs:
-        _output(body, inner, expr, target)
-
-
-def _input(body: Body, inner: Self, place: Place, expr: Expr) -> None:
-    if isinstance(place.type, StringType):
-        pieces = body.pieces(expr)
         with body.instance(inner):
-            assign(body, place, pieces)
-    elif isinstance(place.type, Elementary):
-        value = body.scalar(expr)
-        with body.instance(inner):
-            store(body, address(body, place), place.type, value)
-    else:
-        source = aggregate(body, expr)
-        with body.instance(inner):
-            move(body, address(body, place).pointer, source, place.type.size)
-
-
-def _output(body: Body, inner: Self, expr: Expr, target: Place) -> None:
-    if isinstance(target.type, StringType):
-        with body.instance(inner):
-            pieces = body.pieces(expr)
-        assign(body, target, pieces)
-    elif isinstance(target.type, Elementary):
-        with body.instance(inner):
-            value = body.scalar(expr)
-        store(body, address(body, target), target.type, value)
-    else:
-        with body.instance(inner):
-            source = aggregate(body, expr)
-        move(body, address(body, target).pointer, source, target.type.size)
+            held = value(body, expr, walk.address_calls(target))
+        put(body, target, held)

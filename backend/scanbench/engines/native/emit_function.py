@@ -1,9 +1,12 @@
 """The text of one LLVM function: names, blocks, traps, temporaries. Knows nothing of the language."""
 
-from dataclasses import dataclass, field
+from dataclasses import dataclass
 
 UNLIKELY = ", !prof !0"
 LIKELY = ", !prof !1"
+
+ALIGNMENT = 16
+"""Of buffers, in bytes."""
 
 
 @dataclass(slots=True)
@@ -24,30 +27,21 @@ class Value:
         return self.low, self.high
 
 
-@dataclass(slots=True)
-class Temporaries:
-    """Buffers on the stack, used again by the next statement."""
-
-    free: list[tuple[int, str]] = field(default_factory=list)
-    used: list[tuple[int, str]] = field(default_factory=list)
-
-    def release(self) -> None:
-        """All buffers are free again: no value lives from one statement to the next."""
-        self.free.extend(self.used)
-        self.used.clear()
-
-
 class FunctionText:
     """Builds the text of a function that returns a status: 0, or the number of a trap."""
 
-    def __init__(self, header: str) -> None:
+    def __init__(self, header: str, scratch: str = "") -> None:
         self.header = header
+        self.scratch = scratch
+        """Name of the memory that buffers are parts of."""
+        self.scratch_size = 0
+        """What all buffers of one statement need, at most."""
+        self._scratch_used = 0
         self.entry: list[str] = []
         self.lines: list[str] = []
         self.block = "start"
         self._count = 0
         self._failures: dict[str, str] = {}
-        self._temporaries = Temporaries()
 
     # ---- instructions and blocks -----------------------------------------------------------------------
 
@@ -105,7 +99,7 @@ class FunctionText:
         self.choose(condition, self.fail(status), on, UNLIKELY)
         self.begin(on)
 
-    # ---- memory on the stack ------------------------------------------------------------------------------
+    # ---- memory -------------------------------------------------------------------------------------------
 
     def alloca(self, type: str, align: int = 8) -> str:
         """A variable on the stack, for the whole call."""
@@ -114,20 +108,18 @@ class FunctionText:
         return name
 
     def buffer(self, size: int) -> str:
-        """Bytes on the stack, until the statement ends."""
-        pool = self._temporaries
-        for position, (room, name) in enumerate(pool.free):
-            if size <= room <= 4 * size + 64:
-                pool.used.append(pool.free.pop(position))
-                return name
-        room = max(32, 1 << (size - 1).bit_length())
-        name = self.alloca(f"[{room} x i8]", 16)
-        pool.used.append((room, name))
-        return name
+        """Bytes until the statement ends.
+
+        Not on the stack, which strings and arrays may be too large for; as no POU calls itself, one place for each will do.
+        """
+        start = self._scratch_used
+        self._scratch_used += -(-size // ALIGNMENT) * ALIGNMENT
+        self.scratch_size = max(self.scratch_size, self._scratch_used)
+        return f"getelementptr inbounds (i8, ptr {self.scratch}, i64 {start})" if start else self.scratch
 
     def end_statement(self) -> None:
-        """Gives the buffers back."""
-        self._temporaries.release()
+        """Gives the buffers back: no value lives from one statement to the next."""
+        self._scratch_used = 0
 
     # ---- the whole ----------------------------------------------------------------------------------------
 

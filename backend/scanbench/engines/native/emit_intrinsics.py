@@ -8,6 +8,7 @@ from scanbench.check.types import BOOL, LINT, LREAL, TIME, Elementary
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
 from scanbench.engines.native.emit_operators import convert, intrinsic, saturated
+from scanbench.engines.native.emit_places import canonical
 from scanbench.engines.native.emit_types import bounds, elementary, is_real, value_type
 
 LIBM = {
@@ -90,7 +91,9 @@ def _rotate(body: Body, name: str, type: Elementary, types: list[Elementary], ar
 
 
 def _bitcast(body: Body, name: str, type: Elementary, types: list[Elementary], args: list[Value]) -> Value:
-    ssa = body.text.op(f"bitcast {value_type(types[0])} {args[0].ssa} to {value_type(type)}")
+    # the bits of a NaN depend on how it came about, so they are those that it would be stored with
+    bits = canonical(body, types[0], args[0]) if is_real(types[0]) else args[0].ssa
+    ssa = body.text.op(f"bitcast {value_type(types[0])} {bits} to {value_type(type)}")
     return Value(ssa) if is_real(type) else Value(ssa, *bounds(type))
 
 

@@ -10,6 +10,7 @@ class ModuleText:
         self._functions: list[str] = []
         self._constants: dict[bytes, str] = {}
         self._declarations: dict[str, str] = {}
+        self._reserved: list[str] = []
         self._metadata: list[str] = [
             '!{!"branch_weights", i32 1, i32 1048575}',
             '!{!"branch_weights", i32 1048575, i32 1}',
@@ -42,6 +43,10 @@ class ModuleText:
             name = self._constants[data] = f"@c.{len(self._constants)}"
         return name
 
+    def reserve(self, name: str, size: int) -> None:
+        """Memory of the module's own."""
+        self._reserved.append(f"{name} = internal global [{size} x i8] zeroinitializer, align 16")
+
     def declare(self, name: str, text: str) -> None:
         """A helper function or a declaration, once; declarations inside of the helper's text count by themselves."""
         if name in self._declarations:
@@ -63,7 +68,7 @@ class ModuleText:
             for data, name in self._constants.items()
         ]
         metadata = [f"!{number} = {text}" for number, text in enumerate(self._metadata)]
-        parts = [*constants, *self._declarations.values(), *self._functions, ATTRIBUTES, *metadata, ""]
+        parts = [*constants, *self._reserved, *self._declarations.values(), *self._functions, ATTRIBUTES, *metadata, ""]
         return "\n".join(parts)
 
 

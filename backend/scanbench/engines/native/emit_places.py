@@ -9,6 +9,8 @@ from scanbench.engines.native.emit_function import UNLIKELY, Value
 from scanbench.engines.native.emit_types import NAN, bounds, elementary, has_members, is_real, stored, value_type
 from scanbench.engines.native.ranges import within
 
+I64_MAX = (1 << 63) - 1
+
 
 @dataclass(frozen=True, slots=True)
 class Address:
@@ -69,12 +71,13 @@ def index_steps(body: Body, index: Index) -> str:
     type = elementary(index.value.type)
     value = body.scalar(index.value)
     number = widened(body, value, type)
-    flags = "nsw " if value.low >= index.low else ""
+    exact = value.low >= index.low and value.high <= I64_MAX and value.high - index.low <= I64_MAX
+    flags = "nsw " if exact else ""
     steps = body.text.op(f"sub {flags}i64 {number}, {index.low}") if index.low else number
     if within(value.range, (index.low, index.high)):
         return steps
     outside = body.text.op(f"icmp ugt i64 {steps}, {index.high - index.low}")
-    if value.high >= 1 << 63:
+    if value.high > I64_MAX:
         huge = body.text.op(f"icmp slt i64 {number}, 0")
         outside = body.text.op(f"or i1 {outside}, {huge}")
     body.text.trap_if(outside, index.trap)

@@ -4,10 +4,10 @@ from scanbench.check.program import Base, Place, Pou
 from scanbench.check.types import StringType
 from scanbench.engines.native import emit_expressions, emit_statements, inlining, registers
 from scanbench.engines.native.emit_body import Body, Unit
-from scanbench.engines.native.emit_function import FunctionText
-from scanbench.engines.native.emit_places import move
+from scanbench.engines.native.emit_function import FunctionText, Value
+from scanbench.engines.native.emit_places import canonical, move
 from scanbench.engines.native.emit_strings import Piece, assign
-from scanbench.engines.native.emit_types import elementary, stored
+from scanbench.engines.native.emit_types import elementary, is_real, stored
 from scanbench.engines.native.registers import Parameter, Passing
 
 IMAGE = "ptr nonnull noundef align 8 dereferenceable({size}) %img"
@@ -22,7 +22,8 @@ def emit(unit: Unit, pou: Pou, image_size: int) -> None:
     else:
         parameters.append("i64 noundef %self")
     head = f"define internal i32 {unit.symbol(pou)}({', '.join(parameters)})"
-    text = FunctionText(f"{head}{inlining.attribute(pou)} #0")
+    scratch = unit.symbol(pou).replace("p.", "t.", 1)
+    text = FunctionText(f"{head}{inlining.attribute(pou)} #0", scratch)
     body = Body(unit, pou, text, emit_expressions.scalar, emit_expressions.pieces)
     _registers(body)
     if function:
@@ -34,6 +35,8 @@ def emit(unit: Unit, pou: Pou, image_size: int) -> None:
     text.go(body.leave)
     text.begin(body.leave)
     text.do("ret i32 0")
+    if text.scratch_size:
+        unit.reserve(pou, scratch, text.scratch_size)
     unit.module.add(text.text())
 
 
@@ -60,7 +63,9 @@ def _receive(body: Body, parameter: Parameter) -> None:
         case Passing.VALUE | Passing.REFERENCE:
             type = "i64" if parameter.passing is Passing.REFERENCE else stored(elementary(member.type))
             pointer = register or text.op(f"getelementptr inbounds nuw i8, ptr {body.image}, i64 {offset}")
-            text.do(f"store {type} {name}, ptr {pointer}, align 1")
+            in_image = register is None and parameter.passing is Passing.VALUE
+            kept = canonical(body, elementary(member.type), Value(name)) if in_image and is_real(member.type) else name
+            text.do(f"store {type} {kept}, ptr {pointer}, align 1")
         case Passing.STRING:
             assert isinstance(member.type, StringType)
             # the caller's characters are never more than a STRING can have

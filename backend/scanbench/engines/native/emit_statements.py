@@ -15,12 +15,12 @@ from scanbench.check.program import (
     Stmt,
     While,
 )
-from scanbench.check.types import Elementary, StringType
-from scanbench.engines.native import emit_calls, emit_loops
+from scanbench.check.types import Elementary
+from scanbench.engines.native import emit_calls, emit_loops, walk
 from scanbench.engines.native.emit_body import Body
-from scanbench.engines.native.emit_places import address, canonical, load_at, move, put, store
-from scanbench.engines.native.emit_strings import assign as assign_string
+from scanbench.engines.native.emit_places import address, canonical, load_at, move, put
 from scanbench.engines.native.emit_types import elementary, integer, is_real, value_type
+from scanbench.engines.native.emit_values import put as put_value
 from scanbench.engines.native.speculate import to_selects
 
 WIDEST_RANGE = 64
@@ -68,15 +68,8 @@ def _jump(body: Body, label: str) -> None:
 
 def assign(body: Body, statement: Assign) -> None:
     """Evaluates the value, then the target's address, then stores."""
-    target, value = statement.target, statement.value
-    if isinstance(target.type, StringType):
-        assign_string(body, target, body.pieces(value))
-    elif isinstance(target.type, Elementary):
-        number = body.scalar(value)
-        store(body, address(body, target), target.type, number)
-    else:
-        source = emit_calls.aggregate(body, value)
-        move(body, address(body, target).pointer, source, target.type.size)
+    target = statement.target
+    put_value(body, target, emit_calls.value(body, statement.value, walk.address_calls(target)))
 
 
 # ---- IF -------------------------------------------------------------------------------------------------------

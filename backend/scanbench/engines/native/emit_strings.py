@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 from scanbench.check.program import Expr, Place
 from scanbench.engines.native import walk
-from scanbench.engines.native.emit_body import Body
+from scanbench.engines.native.emit_body import Body, Self
 from scanbench.engines.native.emit_places import Address, address
 from scanbench.engines.native.emit_types import STRING_HEAD, string
 from scanbench.engines.native.string_helpers import HELPERS
@@ -19,8 +19,8 @@ class Piece:
     most: int
     variable: str | None = None
     """The variable they stand in: '' for any, None for a constant or a buffer of ours."""
-    start_of: Place | None = None
-    """The variable whose first characters these are."""
+    start_of: tuple[Place, Self] | None = None
+    """The variable whose first characters these are, and the instance that its Base.SELF counts from."""
 
 
 EMPTY = Piece("null", "0", 0)
@@ -67,7 +67,7 @@ def of_place(body: Body, place: Place) -> Piece:
     where = address(body, place)
     shared = place.variable == "" or place.variable.startswith("@")
     piece = of_pointer(body, where.pointer, string(place.type).capacity, where.tag, shared)
-    return replace(piece, variable=place.variable, start_of=place)
+    return replace(piece, variable=place.variable, start_of=(place, body.self))
 
 
 def of_pointer(body: Body, pointer: str, capacity: int, tag: str = "", shared: bool = False) -> Piece:
@@ -144,7 +144,7 @@ def assign(body: Body, target: Place, pieces: list[Piece]) -> None:
     data = body.text.op(f"getelementptr inbounds nuw i8, ptr {where.pointer}, i64 {STRING_HEAD}")
     if not any(_may_overlap(piece, target) for piece in pieces[1:]):
         length = _in_order(body, target, data, pieces, where.tag)
-    elif not any(_may_overlap(piece, target) for piece in pieces[1:-1]) and _starts(pieces[0], target):
+    elif not any(_may_overlap(piece, target) for piece in pieces[1:-1]) and _starts(body, pieces[0], target):
         length = _around(body, data, pieces, where.tag)
     else:
         one = copied(body, pieces)
@@ -161,7 +161,7 @@ def store_length(body: Body, where: Address, length: str) -> None:
 
 def _in_order(body: Body, target: Place, data: str, pieces: list[Piece], tag: str) -> str:
     """Only the first piece may stand in the target: from front to back nothing is overwritten before it is read."""
-    if pieces and _starts(pieces[0], target):
+    if pieces and _starts(body, pieces[0], target):
         return _join(body, data, pieces[1:], tag, pieces[0].length)
     return _join(body, data, pieces, tag)
 
@@ -198,10 +198,13 @@ def copy(body: Body, to: str, piece: Piece, tag: str) -> None:
     body.text.do(f"call void {helper(body, 'copy')}(ptr {to}, ptr {piece.pointer}, i64 {piece.length})")
 
 
-def _starts(piece: Piece, target: Place) -> bool:
-    other = piece.start_of
+def _starts(body: Body, piece: Piece, target: Place) -> bool:
+    """Whether the piece already stands where it belongs. Offsets say nothing across the border of an instance."""
+    if piece.start_of is None:
+        return False
+    other, instance = piece.start_of
     return (
-        other is not None
+        instance == body.self
         and target.variable != ""
         and (other.base, other.offset, other.slot, other.indices) == (target.base, target.offset, None, ())
         and target.slot is None

@@ -130,3 +130,8 @@ def of_expression(expr: Expr) -> Iterator[Seen]:
 def calls_functions(expr: Expr) -> bool:
     """Whether evaluating it runs code that may change variables."""
     return any(isinstance(seen, Pou) for seen in of_expression(expr))
+
+
+def address_calls(place: Place) -> bool:
+    """Whether finding its address runs code that may change variables."""
+    return any(isinstance(seen, Pou) for seen in of_place(place, Use.READ))

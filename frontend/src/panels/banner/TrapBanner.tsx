@@ -8,19 +8,25 @@ import type { InstanceState } from "../../wire/types";
 /** The program stopped itself: why, where, and how to go on. */
 export function TrapBanner({ state }: { state: InstanceState }) {
   const { trap } = state;
+  const message = trap?.message ?? state.message;
   return (
     <div className="banner fatal" role="alert">
       <Icon name="fatal" />
       <span className="grow">
-        <b>{t("trap.title")}</b> {trap?.message ?? state.message}{" "}
+        <b>
+          {message.charAt(0).toUpperCase()}
+          {message.slice(1)}
+        </b>
         {trap && (
           <>
+            {t("trap.at")}
             <button type="button" className="link mono" onClick={() => openFile(trap.file, trap.line, trap.column)}>
               {`${trap.file}:${trap.line}`}
-            </button>{" "}
-            <span className="muted">{t("trap.about", { scan: grouped(trap.scan) })}</span>
+            </button>
+            {t("trap.scan", { scan: grouped(trap.scan) })}
           </>
-        )}
+        )}{" "}
+        <span className="muted">{t("trap.about")}</span>
       </span>
       <button type="button" className="btn danger sm" onClick={() => void runAction("restart")}>
         {t("run.restart")}

@@ -13,7 +13,11 @@ export function Conflict({ path, theirs }: { path: string; theirs: FileText }) {
       <div className="banner info" role="alert">
         <Icon name="info" />
         <span className="grow">
-          <b>{t("conflict.title", { path, version: theirs.version })}</b>{" "}
+          <b>
+            {theirs.version === 0
+              ? t("deleted.meanwhile", { path })
+              : t("conflict.title", { path, version: theirs.version, author: theirs.author })}
+          </b>{" "}
           <span className="muted">{t("conflict.about")}</span>
         </span>
         <button type="button" className="btn sm" onClick={() => void resolveConflict(path, "theirs")}>

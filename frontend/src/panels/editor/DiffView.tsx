@@ -18,9 +18,12 @@ export default function DiffView({ path, theirs }: { path: string; theirs: strin
       renderSideBySide: true,
       useInlineViewWhenSpaceIsLimited: false,
     });
-    view.setModel({ original, modified: modelOf(path, mine.text) });
+    const diff = view.createViewModel({ original, modified: modelOf(path, mine.text) });
+    view.setModel(diff);
     return () => {
       view.dispose();
+      // Cancels a comparison that still runs; it would miss the text that goes now.
+      diff.dispose();
       original.dispose();
     };
   }, [path, theirs]);

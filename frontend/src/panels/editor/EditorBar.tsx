@@ -2,6 +2,7 @@ import { pouAt } from "../../logic/explorer";
 import { t } from "../../logic/text";
 import { build, isDirty, save, useDocuments } from "../../store/documents";
 import { showPanel } from "../../store/navigate";
+import { useLost } from "../../store/plc";
 import { Icon } from "../../ui/Icon";
 import { StateWord } from "../../ui/StateWord";
 
@@ -11,6 +12,7 @@ export function EditorBar({ path }: { path: string }) {
   const cursor = useDocuments((documents) => (documents.active === path ? documents.cursor : null));
   const dirty = useDocuments((documents) => isDirty(documents.open[path]));
   const building = useDocuments((documents) => documents.build.phase === "running");
+  const lost = useLost();
   const found = pouAt(pous, path, cursor?.line ?? 1) ?? pous.find((known) => known.file === path);
   // A global variable is one line of the file, not what the file is about.
   const pou = found?.kind === "global" ? { name: path, kind: found.kind } : found;
@@ -23,13 +25,19 @@ export function EditorBar({ path }: { path: string }) {
       <button
         type="button"
         className="btn quiet sm"
-        disabled={!dirty}
-        title={t("save.hint")}
+        disabled={!dirty || lost}
+        title={lost ? t("lost.nosave") : t("save.hint")}
         onClick={() => void save(path)}
       >
         {t("save")}
       </button>
-      <button type="button" className="btn sm" disabled={building} title={t("build.hint")} onClick={() => void build()}>
+      <button
+        type="button"
+        className="btn sm"
+        disabled={building || lost}
+        title={lost ? t("lost.nobuild") : t("build.hint")}
+        onClick={() => void build()}
+      >
         <Icon name="play" small />
         {building ? t("building") : t("build")}
       </button>

@@ -13,6 +13,7 @@ export function EditorPanel({ path }: { path: string }) {
   const project = useDocuments((documents) => documents.project);
   const loaded = useDocuments((documents) => documents.open[path] !== undefined);
   const conflict = useDocuments((documents) => documents.open[path]?.conflict ?? null);
+  const deletedBy = useDocuments((documents) => documents.open[path]?.deletedBy ?? null);
   const [refused, setRefused] = useState<string | null>(null);
 
   // A panel that was kept from last time is here before the project is known.
@@ -29,6 +30,15 @@ export function EditorPanel({ path }: { path: string }) {
         <p className="lonely">
           <Icon name="error" />
           {t("editor.refused", { path, message: refused })}
+        </p>
+      )}
+      {deletedBy !== null && (
+        <p className="trouble st warning" role="status">
+          <Icon name="warning" small />
+          <span>
+            <b>{deletedBy ? t("deleted.by", { author: deletedBy, path }) : t("deleted.meanwhile", { path })}</b>{" "}
+            {t("deleted.about")}
+          </span>
         </p>
       )}
       {loaded && (

@@ -1,3 +1,4 @@
+import { allErrors, inNames } from "../../logic/catalogue";
 import { t } from "../../logic/text";
 import { useOnline, usePlc } from "../../store/plc";
 import { generate, recover, targets, useSimulator } from "../../store/simulator";
@@ -13,14 +14,18 @@ export function Actions({ model }: { model: ModelInfo }) {
   const raised = chosen.filter((id) => errors.get(id)?.status === "generated").length;
   const any = [...errors.values()].some((row) => row.status === "generated");
   const { outcome } = state;
+  const message = inNames(allErrors(model.catalogue), outcome?.message ?? "");
   return (
     <>
       {outcome && !outcome.ok && (
         <p className="trouble st fatal" role="alert">
           <Icon name="error" small />
-          <span>{outcome.message || t("notsent.about")}</span>
+          <span>{message || t("notsent.about")}</span>
         </p>
       )}
+      <p className="outcome muted" role="status">
+        {outcome?.ok ? message : ""}
+      </p>
       <div className="acts">
         <button
           type="button"
@@ -34,9 +39,7 @@ export function Actions({ model }: { model: ModelInfo }) {
         <button type="button" className="btn sm" disabled={!online || raised === 0} onClick={() => void recover(false)}>
           {raised > 1 ? t("errors.recover.many", { count: raised }) : t("errors.recover")}
         </button>
-        <span className="grow outcome muted cut" role="status" title={outcome?.message}>
-          {outcome?.ok ? outcome.message : ""}
-        </span>
+        <span className="grow" />
         <button type="button" className="btn quiet sm" disabled={!online || !any} onClick={() => void recover(true)}>
           {t("errors.clearall")}
         </button>

@@ -15,8 +15,14 @@ export function ErrorTree({ rows, label }: { rows: readonly CatalogueRow[]; labe
 
   // The details of the selected error take room from the tree: it must not push its own row out of sight.
   useEffect(() => {
-    if (selected === null) return;
-    grid.current?.querySelector(`[data-key="${CSS.escape(selected)}"]`)?.scrollIntoView({ block: "nearest" });
+    const tree = grid.current;
+    if (selected === null || !tree) return;
+    // Called at once, and again whenever the details grow.
+    const resized = new ResizeObserver(() =>
+      tree.querySelector(`[data-key="${CSS.escape(selected)}"]`)?.scrollIntoView({ block: "nearest" }),
+    );
+    resized.observe(tree);
+    return () => resized.disconnect();
   }, [selected]);
 
   function move(index: number): void {

@@ -19,7 +19,7 @@ export function HistoryPanel() {
         <p className="lonely faint">{t("history.none")}</p>
       ) : (
         // biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard
-        <div className="scroll both" tabIndex={0}>
+        <div className="scroll both hscroll" tabIndex={0}>
           <table className="htable" aria-label={t("history.table")}>
             <thead>
               <tr>
@@ -50,14 +50,18 @@ export function HistoryPanel() {
 function Row({ row, details }: { row: ErrorHistoryRow; details: string }) {
   return (
     <tr data-error={row.id}>
-      <th scope="row">{row.name}</th>
+      <th scope="row" title={row.name}>
+        {row.name}
+      </th>
       <td>
         <StateWord tone={row.status} icon={STATUS_ICONS[row.status]} word={t(`errors.status.${row.status}`)} />
       </td>
       <Moment at={row.generated_at} scan={row.generated_scan} />
       <Moment at={row.recovered_at} scan={row.recovered_scan} />
       <td className="mono">{row.status === "never" ? "" : row.code}</td>
-      <td>{details}</td>
+      <td className="details" title={details || undefined}>
+        {details}
+      </td>
       <td title={row.origin ? t(`origin.${row.origin}`) : undefined}>{row.by ?? ""}</td>
       <td className="num">{row.count || ""}</td>
     </tr>
@@ -65,10 +69,11 @@ function Row({ row, details }: { row: ErrorHistoryRow; details: string }) {
 }
 
 function Moment({ at, scan }: { at: string | null; scan: number | null }) {
+  const before = scan === null ? "" : t("history.scan", { scan: grouped(scan) });
   return (
-    <td className="mono" title={at ?? undefined}>
+    <td className="mono" title={[at, before].filter(Boolean).join(" · ") || undefined}>
       {wallTime(at)}
-      {scan !== null && <span className="faint"> {t("history.scan", { scan: grouped(scan) })}</span>}
+      {before && <span className="faint scan"> {before}</span>}
     </td>
   );
 }

@@ -1,10 +1,12 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { useEffect, useRef } from "react";
+import { useEffect, useMemo, useRef } from "react";
+import { allErrors, inNames } from "../../logic/catalogue";
 import { grouped, wallTime } from "../../logic/numbers";
 import { t } from "../../logic/text";
+import { useBench } from "../../store/bench";
 import { usePlc } from "../../store/plc";
 import { Icon, type IconName } from "../../ui/Icon";
-import type { LogLine } from "../../wire/types";
+import type { ErrorInfo, LogLine } from "../../wire/types";
 
 const LOOK: Record<LogLine["kind"], { icon: IconName; tone: string }> = {
   write: { icon: "check", tone: "info" },
@@ -20,6 +22,8 @@ const LOOK: Record<LogLine["kind"], { icon: IconName; tone: string }> = {
 /** Everything that was done to this PLC, by whom and before which scan; the newest at the end. */
 export function LogPanel() {
   const log = usePlc((plc) => plc.log);
+  const model = useBench((bench) => bench.model);
+  const errors = useMemo(() => allErrors(model?.catalogue ?? []), [model]);
   const scroll = useRef<HTMLDivElement>(null);
   const atEnd = useRef(true);
   const virtual = useVirtualizer({
@@ -68,7 +72,9 @@ export function LogPanel() {
         <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
           {virtual.getVirtualItems().map((item) => {
             const line = log[item.index];
-            return line && <Line key={item.key} line={line} start={item.start - 24} index={item.index} />;
+            return (
+              line && <Line key={item.key} line={line} errors={errors} start={item.start - 24} index={item.index} />
+            );
           })}
         </div>
       </div>
@@ -76,7 +82,15 @@ export function LogPanel() {
   );
 }
 
-function Line({ line, start, index }: { line: LogLine; start: number; index: number }) {
+interface LineProps {
+  line: LogLine;
+  errors: readonly ErrorInfo[];
+  start: number;
+  index: number;
+}
+
+function Line({ line, errors, start, index }: LineProps) {
+  const text = line.kind === "error" || line.kind === "recover" ? inNames(errors, line.text) : line.text;
   const { icon, tone } = LOOK[line.kind];
   return (
     <div className="gr" role="row" aria-rowindex={index + 2} style={{ transform: `translateY(${start}px)` }}>
@@ -90,8 +104,8 @@ function Line({ line, start, index }: { line: LogLine; start: number; index: num
         <Icon name={icon} small />
         {t(`log.kind.${line.kind}`)}
       </span>
-      <span role="cell" className="cut" title={line.text}>
-        {line.text}
+      <span role="cell" className="cut" title={text}>
+        {text}
       </span>
       <span role="cell" className="muted cut">
         {line.author}

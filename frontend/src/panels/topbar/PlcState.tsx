@@ -13,7 +13,7 @@ export function PlcState() {
       className={`plcstate ${shown.tone}`}
       role="status"
       aria-label={t("state.label")}
-      title={state?.message || shown.detail}
+      title={state?.state === "starting" ? shown.detail : state?.message || shown.detail}
     >
       <Icon name={shown.icon} />
       <span className="two">

@@ -1,3 +1,4 @@
+import { useState } from "react";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { topVariables } from "../../store/completion";
@@ -8,8 +9,16 @@ import { Icon, type IconName } from "../../ui/Icon";
 export function EmptyWatch() {
   const instance = useBench((bench) => bench.instance);
   const model = useBench((bench) => bench.model);
+  const [none, setNone] = useState<string | null>(null);
   if (!instance) return <p className="lonely faint">{t("watch.noinstance")}</p>;
   const words = model?.status_words ?? [];
+
+  async function addProgram(): Promise<void> {
+    const { paths, refused } = await topVariables();
+    if (paths.length > 0) addToWatch(paths);
+    else setNone(refused ?? t("watch.addprogram.none"));
+  }
+
   return (
     <div className="empty">
       <div>
@@ -32,10 +41,13 @@ export function EmptyWatch() {
             </button>
           ))}
         </div>
-        <button type="button" className="btn sm" onClick={() => void topVariables().then(addToWatch)}>
+        <button type="button" className="btn sm" onClick={() => void addProgram()}>
           <Icon name="plus" small />
           {t("watch.addprogram")}
         </button>
+        <p className="none" role="status">
+          {none}
+        </p>
       </div>
     </div>
   );

@@ -87,7 +87,7 @@ export function ValueLine({ row, style, index, selected, onMenu }: Props) {
       <span className="mono muted c-type" role="gridcell" title={symbol?.type}>
         {symbol?.type ?? ""}
       </span>
-      <span className="mono muted" role="gridcell">
+      <span className="mono muted" role="gridcell" title={symbol?.address ?? undefined}>
         {symbol ? (symbol.address ?? "–") : ""}
       </span>
       <span className="end" role="gridcell">

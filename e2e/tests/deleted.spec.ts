@@ -1,0 +1,46 @@
+import { expect, test } from '../fixtures/test';
+
+test('a file that somebody deletes goes from the others, but not what they were typing', async ({ openAs }) => {
+  test.setTimeout(120_000);
+  const mika = await openAs('Mika');
+  const jo = await openAs('Jo');
+  for (const name of ['FB_Lift', 'FB_Gate']) {
+    await mika.explorer.newFile(name);
+    await expect(jo.explorer.item(name)).toBeVisible();
+  }
+  const [lift, gate] = [jo.editor('FB_Lift.st'), jo.editor('FB_Gate.st')];
+
+  await test.step('a text that was only read: its tab closes', async () => {
+    await jo.explorer.item('FB_Lift').click();
+    await expect(lift.line('FUNCTION_BLOCK FB_Lift').first()).toBeVisible();
+    await mika.explorer.deleteFile('FB_Lift', 'FB_Lift.st');
+    await expect(mika.explorer.item('FB_Lift')).toBeHidden();
+    await expect(jo.explorer.item('FB_Lift')).toBeHidden();
+    await expect(lift.tab).toBeHidden();
+  });
+
+  await test.step('a text that was edited stays, and says who deleted the file', async () => {
+    await jo.explorer.item('FB_Gate').click();
+    await gate.addBelow('FUNCTION_BLOCK FB_Gate', '(* mine *)');
+    await mika.explorer.deleteFile('FB_Gate', 'FB_Gate.st');
+    await expect(gate.note).toContainText('Mika deleted FB_Gate.st.');
+    await expect(gate.line('(* mine *)')).toBeVisible();
+    await expect(jo.statusBar).toContainText('Not saved');
+  });
+
+  await test.step('also after a reload', async () => {
+    await jo.page.reload();
+    await gate.tab.click();
+    await expect(gate.note).toContainText('FB_Gate.st was deleted meanwhile.');
+    await expect(gate.line('(* mine *)')).toBeVisible();
+  });
+
+  await test.step('saved, it is a file again for everybody', async () => {
+    await gate.save();
+    await expect(gate.note).toBeHidden();
+    await expect(jo.statusBar).toContainText(/Saved \d\d:\d\d/);
+    await expect(mika.explorer.item('FB_Gate')).toBeVisible();
+    await mika.explorer.item('FB_Gate').click();
+    await expect(mika.editor('FB_Gate.st').line('(* mine *)')).toBeVisible();
+  });
+});
