@@ -34,6 +34,7 @@ def report_json(result: Result, shown: Shown, problems: list[dict[str, str | int
         **({"hash": _hash(resource)} if with_hash else {}),
         "problems": problems,
         "refused": [{"scan": each.scan, "message": each.refusal.message} for each in result.refused],
+        "state": _state(resource),
         "trap": _trap(resource),
     }
     typer.echo(json.dumps(content, ensure_ascii=False))
@@ -58,6 +59,15 @@ def values(resource: Resource, shown: Shown) -> dict[str, Json]:
 
 def _hash(resource: Resource) -> str:
     return hashlib.sha256(resource.state).hexdigest()
+
+
+def _state(resource: Resource) -> str:
+    """`running`, `stopped` (mode PROGRAM), `fatal` or `trapped`."""
+    if resource.trap is not None:
+        return "trapped"
+    if resource.header.halt:
+        return "fatal"
+    return "running" if resource.runnable else "stopped"
 
 
 def _trap(resource: Resource) -> Json:

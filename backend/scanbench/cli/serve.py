@@ -11,7 +11,9 @@ def serve(
     host: str = typer.Option(
         "127.0.0.1", help="Address to listen on; the default is reachable from this machine only."
     ),
-    port: int | None = typer.Option(None, help="Port; default 8700, or a free one if that is taken. 0: any free one."),
+    port: int | None = typer.Option(
+        None, min=0, max=65535, help="Port; default 8700, or a free one if that is taken. 0: any free one."
+    ),
     data: Path = typer.Option(Path("data"), metavar="DIR", help="Folder for the database; made when it is missing."),
 ) -> None:
     """Start the server; the address to open, with its token, is printed when it is ready."""

@@ -3,6 +3,7 @@
 from dataclasses import dataclass
 
 from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
+from scanbench.runtime.forces import read_table
 from scanbench.runtime.target import writable_target
 
 
@@ -21,4 +22,8 @@ class Write(Command):
         patch = target.patch(self.value)
         if not isinstance(patch, Patch):
             return patch
+        table = read_table(view.memory)
+        forced = any(table.get(at, (0, 0))[0] & mask for at, mask in enumerate(patch.mask, patch.offset))
+        if forced:
+            return Refusal(f"{target.symbol.path} is forced, so a write would be lost: release the force first")
         return Plan((patch,), f"{target.symbol.path} := {self.value.strip()}")

@@ -79,6 +79,7 @@ class Session:
     def start(self) -> None:
         """Starts the PLC. Errors that the last server left generated are gone: the start is a cold one."""
         self._cleared_by_cold_start()
+        self._add_line(LogEntry(wall_time(), 0, "server", "the server started: cold start at scan 0", "system"))
         self._instance.start()
 
     async def stop(self) -> None:

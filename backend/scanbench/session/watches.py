@@ -13,10 +13,10 @@ class Watches:
         self._next = 1
 
     def add(self, subscriber: int, paths: Sequence[str]) -> tuple[tuple[int, str], ...]:
-        """(id, path) for each path, in order; the same path has the same id for everybody."""
+        """(id, path) for each path, in order; the same path, as typed, has the same id for everybody."""
         pairs = []
         for path in paths:
-            key = path.strip().upper()
+            key = path.strip()
             id = self._ids.get(key)
             if id is None:
                 id, self._next = self._next, self._next + 1
@@ -35,7 +35,7 @@ class Watches:
                 continue
             watchers.discard(subscriber)
             if not watchers:
-                del self._watchers[id], self._ids[self._paths.pop(id).strip().upper()]
+                del self._watchers[id], self._ids[self._paths.pop(id).strip()]
                 free.append(id)
         return free
 

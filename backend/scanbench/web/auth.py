@@ -7,8 +7,8 @@ machine, so that no foreign name can be pointed here (DNS rebinding); Origin mus
 import hmac
 import ipaddress
 import socket
-from collections.abc import Iterable
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterable
+from dataclasses import dataclass
 from urllib.parse import parse_qs, quote, unquote, urlsplit
 
 from starlette.datastructures import Headers
@@ -27,22 +27,18 @@ _NAME_LENGTH = 40
 
 @dataclass(slots=True)
 class Gate:
-    """What is checked against, and the numbers for guests."""
+    """What is checked against, and names for guests."""
 
     token: str
     port: int
     hosts: frozenset[str]
-    guests: int = field(default=0)
+    next_guest: Callable[[], str]
+    """A name for somebody who gave none; never the same twice."""
 
     @property
     def cookie(self) -> str:
         """The cookie's name: servers on other ports of the same host have their own."""
         return f"scanbench_token_{self.port}"
-
-    def next_guest(self) -> str:
-        """A name for somebody who gave none."""
-        self.guests += 1
-        return f"Guest {self.guests}"
 
 
 def known_hosts(names: Iterable[str]) -> frozenset[str]:

@@ -14,6 +14,8 @@ from scanbench.store.records import StoreError
 from scanbench.store.store import Store
 from scanbench.web.app import Config, create_app
 from scanbench.web.auth import Gate, known_hosts
+from scanbench.web.claim import InUse, claimed
+from scanbench.web.kept_guests import kept_guests
 from scanbench.web.kept_token import kept_token
 
 DEFAULT_PORT = 8700
@@ -30,17 +32,19 @@ def serve(
     with _bind(host, port, announce) as sock:
         try:
             data_dir.mkdir(parents=True, exist_ok=True)
-            with closing(Store(database_url(data_dir))) as store:
-                _run(sock, host, Workbench(store), token or kept_token(data_dir), announce)
-        except (StoreError, NoModels) as error:
+            with claimed(data_dir), closing(Store(database_url(data_dir))) as store:
+                port = sock.getsockname()[1]
+                gate = Gate(token or kept_token(data_dir), port, known_hosts([host]), kept_guests(data_dir))
+                _run(sock, host, Workbench(store), gate, announce)
+        except (InUse, StoreError, NoModels) as error:
             raise CannotServe(str(error)) from error
 
 
-def _run(sock: socket.socket, host: str, bench: Workbench, token: str, announce: Callable[[str], None]) -> None:
-    port = sock.getsockname()[1]
+def _run(sock: socket.socket, host: str, bench: Workbench, gate: Gate, announce: Callable[[str], None]) -> None:
+    port = gate.port
     shown = "localhost" if host in ("0.0.0.0", "::") else f"[{host}]" if ":" in host else host
     config = uvicorn.Config(
-        create_app(Config(bench, Gate(token, port, known_hosts([host])))),
+        create_app(Config(bench, gate)),
         host=host,
         port=port,
         loop="uvloop",
@@ -52,7 +56,7 @@ def _run(sock: socket.socket, host: str, bench: Workbench, token: str, announce:
         server_header=False,
         timeout_graceful_shutdown=3,
     )
-    server = _Server(config, lambda: announce(f"Scanbench is ready: http://{shown}:{port}/?token={token}"))
+    server = _Server(config, lambda: announce(f"Scanbench is ready: http://{shown}:{port}/?token={gate.token}"))
     # uvicorn ends everything in order at Ctrl-C, and then raises it again.
     with suppress(KeyboardInterrupt):
         server.run([sock])

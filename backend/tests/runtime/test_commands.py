@@ -110,6 +110,13 @@ def test_forces_hold_against_the_program_and_share_bytes(engine: EngineFactory) 
     assert not any(table)
 
 
+def test_a_write_that_a_force_would_swallow_is_refused() -> None:
+    resource = plc(SOURCE)
+    assert isinstance(resource.submit(Force("Ada", "motor", "TRUE")), Entry)
+    assert "forced" in refused(resource, Write("Ada", "motor", "FALSE")).message
+    assert isinstance(resource.submit(Write("Ada", "lamp", "TRUE")), Entry)  # another bit of the same byte
+
+
 def test_the_force_table_has_an_end() -> None:
     source = "PROGRAM Main\nVAR a : ARRAY[0..70] OF LINT; END_VAR\na[0] := 0;\nEND_PROGRAM\n"
     resource = plc(source)

@@ -90,10 +90,13 @@ def test_memory_starts_cold_without_a_checkpoint_and_goes_on_with_one() -> None:
     assert (memory.start().until, memory.start().checkpoint) == (0, None)
 
 
-def test_paths_are_shared_whatever_their_case() -> None:
+def test_paths_are_shared_as_they_are_typed() -> None:
+    """Another spelling is another row of somebody's list, and has a value of its own."""
     watches = Watches()
     first = watches.add(1, ["Main.n", "D100"])
-    assert watches.add(2, ["main.N ", "D200"])[0][0] == first[0][0]
+    assert watches.add(1, ["main.N"])[0][0] != first[0][0]
+    watches.forget(1, [watches.add(1, ["main.N"])[0][0]])
+    assert watches.add(2, ["Main.n ", "D200"])[0][0] == first[0][0]
     assert watches.forget(1, [id for id, _ in first]) == [first[1][0]]
     assert watches.forget(1, [first[0][0]]) == []  # it does not watch that any more
     assert len(watches.drop(2)) == 2

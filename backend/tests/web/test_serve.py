@@ -7,6 +7,8 @@ from pathlib import Path
 import pytest
 
 from scanbench.web import messages, openapi
+from scanbench.web.claim import InUse, claimed
+from scanbench.web.kept_guests import kept_guests
 from scanbench.web.serve import CannotServe, serve
 
 
@@ -39,3 +41,14 @@ def test_every_message_is_in_the_openapi_document(tmp_path: Path) -> None:
     assert {"write", "run"} <= set(schemas["ClientMessage"]["discriminator"]["mapping"])
     assert {"hello", "written"} <= set(schemas["ServerMessage"]["discriminator"]["mapping"])
     assert openapi.main([]) == 2
+
+
+def test_a_data_directory_belongs_to_one_server(tmp_path: Path) -> None:
+    with claimed(tmp_path), pytest.raises(InUse, match="another --data"), claimed(tmp_path):
+        pass
+    with claimed(tmp_path):
+        pass
+
+
+def test_guests_go_on_counting_after_a_restart(tmp_path: Path) -> None:
+    assert [kept_guests(tmp_path)(), kept_guests(tmp_path)()] == ["Guest 1", "Guest 2"]

@@ -67,6 +67,7 @@ export const english = {
   "failed.title": "The PLC cannot be started.",
   "fatal.about": "Stopped in scan {scan}, outputs off. Next: clear it, then choose MONITOR or RUN.",
   "fatal.clear": "Clear error",
+  "fatal.clear.all": "Clear all {count} errors",
   "fatal.plain": "Fatal error",
   "fatal.title": "Fatal error {code}, {name}",
   "file.badname": "Letters, digits, blanks, - and _ only, and no name that exists already. For example FB_Lift.",

@@ -69,6 +69,7 @@ export const japanese: Record<TextKey, string> = {
   "failed.title": "PLC を起動できません。",
   "fatal.about": "スキャン {scan} で停止、出力オフ。解除してから MONITOR か RUN を選んでください。",
   "fatal.clear": "異常を解除",
+  "fatal.clear.all": "{count} 件の異常をすべて解除",
   "fatal.plain": "運転停止異常",
   "fatal.title": "運転停止異常 {code} {name}",
   "file.badname": "文字・数字・空白・-・_ のみ、既存の名前は不可。例: FB_Lift",

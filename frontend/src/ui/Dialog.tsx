@@ -20,6 +20,8 @@ export function Dialog({ title, about, width = 460, children, footer, onClose, o
   const id = useId();
   useEffect(() => {
     dialog.current?.showModal();
+    // showModal focuses the first control, which is the cross
+    dialog.current?.querySelector<HTMLElement>(".page input, .page select, .page textarea")?.focus();
   }, []);
   const submit = (event: FormEvent) => {
     event.preventDefault();

@@ -1,4 +1,3 @@
-import { useEffect, useRef } from "react";
 import { Icon } from "./Icon";
 
 interface Props {
@@ -7,20 +6,14 @@ interface Props {
   onChange: (value: string) => void;
   /** Why the entry was not taken; it stays as typed. */
   refused?: string | null;
-  autoFocus?: boolean;
 }
 
 /** A line of text with its name above and, when refused, the reason below. */
-export function Field({ label, value, onChange, refused = null, autoFocus = false }: Props) {
-  const input = useRef<HTMLInputElement>(null);
-  useEffect(() => {
-    if (autoFocus) input.current?.focus();
-  }, [autoFocus]);
+export function Field({ label, value, onChange, refused = null }: Props) {
   return (
     <label className="field">
       <span>{label}</span>
       <input
-        ref={input}
         className={`inp${refused ? " bad" : ""}`}
         value={value}
         spellCheck={false}

@@ -11,6 +11,7 @@ import type { InstanceState } from "../../wire/types";
 export function FatalBanner({ state }: { state: InstanceState }) {
   const errors = usePlc((plc) => plc.errors);
   const cause = [...errors.values()].find((row) => row.status === "generated" && row.severity === "fatal");
+  const count = [...errors.values()].filter((row) => row.status === "generated" && row.severity === "fatal").length;
   const model = useBench((bench) => bench.model);
   const error = allErrors(model?.catalogue ?? []).find((known) => known.id === cause?.id);
   const details = detailsInWords(error, cause?.details ?? "");
@@ -25,7 +26,7 @@ export function FatalBanner({ state }: { state: InstanceState }) {
         <span className="muted">{t("fatal.about", { scan: grouped(scan) })}</span>
       </span>
       <button type="button" className="btn danger sm" onClick={() => void clearFatal()}>
-        {t("fatal.clear")}
+        {count > 1 ? t("fatal.clear.all", { count: String(count) }) : t("fatal.clear")}
       </button>
     </div>
   );

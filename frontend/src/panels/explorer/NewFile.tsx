@@ -45,7 +45,7 @@ export function NewFile({ onClose }: { onClose: () => void }) {
         </>
       }
     >
-      <Field label={t("file.name")} value={name} onChange={setName} refused={refused} autoFocus />
+      <Field label={t("file.name")} value={name} onChange={setName} refused={refused} />
     </Dialog>
   );
 }

@@ -42,7 +42,7 @@ export function NewInstance({ project, onClose }: { project: Project; onClose: (
         </>
       }
     >
-      <Field label={t("newinstance.name")} value={name} onChange={setName} refused={refused} autoFocus />
+      <Field label={t("newinstance.name")} value={name} onChange={setName} refused={refused} />
     </Dialog>
   );
 }

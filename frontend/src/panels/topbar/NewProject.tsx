@@ -13,7 +13,7 @@ export function NewProject({ onClose }: { onClose: () => void }) {
   const [name, setName] = useState("");
   const [model, setModel] = useState("");
   const [instance, setInstance] = useState("plc-1");
-  const [refused, setRefused] = useState<string | null>(null);
+  const [refused, setRefused] = useState<{ instance: boolean; why: string } | null>(null);
 
   useEffect(() => {
     listModels()
@@ -21,19 +21,19 @@ export function NewProject({ onClose }: { onClose: () => void }) {
         setModels(all);
         setModel((chosen) => chosen || (all.find((known) => known.name === "GENERIC-IEC") ?? all[0])?.name || "");
       })
-      .catch((error: unknown) => setRefused(messageOf(error)));
+      .catch((error: unknown) => setRefused({ instance: false, why: messageOf(error) }));
   }, []);
 
   async function create(): Promise<void> {
     if (name.trim() === "" || instance.trim() === "") {
-      setRefused(t("name.missing"));
+      setRefused({ instance: name.trim() !== "", why: t("name.missing") });
       return;
     }
     try {
       await createProject(name.trim(), model, instance.trim());
       onClose();
     } catch (error) {
-      setRefused(messageOf(error));
+      setRefused({ instance: false, why: messageOf(error) });
     }
   }
 
@@ -55,7 +55,12 @@ export function NewProject({ onClose }: { onClose: () => void }) {
         </>
       }
     >
-      <Field label={t("newproject.name")} value={name} onChange={setName} autoFocus />
+      <Field
+        label={t("newproject.name")}
+        value={name}
+        onChange={setName}
+        refused={refused && !refused.instance ? refused.why : null}
+      />
       <label className="field">
         <span>{t("newproject.model")}</span>
         <select className="inp" value={model} onChange={(event) => setModel(event.target.value)}>
@@ -67,7 +72,12 @@ export function NewProject({ onClose }: { onClose: () => void }) {
         </select>
         <span className="hint">{models.find((known) => known.name === model)?.description}</span>
       </label>
-      <Field label={t("newproject.instance")} value={instance} onChange={setInstance} refused={refused} />
+      <Field
+        label={t("newproject.instance")}
+        value={instance}
+        onChange={setInstance}
+        refused={refused?.instance ? refused.why : null}
+      />
     </Dialog>
   );
 }
