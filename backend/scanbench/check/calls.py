@@ -3,7 +3,21 @@
 from scanbench.check import conversions, fold
 from scanbench.check.context import did_you_mean
 from scanbench.check.expressions import ExpressionChecker
-from scanbench.check.program import Base, CallBlock, CallFunction, Const, Expr, Intrinsic, Load, Place, Pou
+from scanbench.check.program import (
+    Base,
+    Binary,
+    CallBlock,
+    CallFunction,
+    Compare,
+    Const,
+    Convert,
+    Expr,
+    Intrinsic,
+    Load,
+    Place,
+    Pou,
+    Unary,
+)
 from scanbench.check.scopes import decode
 from scanbench.check.standard.functions import FUNCTIONS, SPECIAL, Operator, Same, Shift, StringFunction
 from scanbench.check.types import (
@@ -290,6 +304,11 @@ class CallChecker(ExpressionChecker):
     def _mux(self, node: tree.Call, wanted: Type | None) -> Expr:
         values = self._values(node, ("K", "IN0"), "MUX", variadic=True)
         selector = self._integer(values[0], node.span, "MUX")
+        if _runs_code(selector):
+            # the selector is compared once for every choice; a function would run as often
+            raise self.report.reject(
+                "X001", "A function call as selector of MUX is not supported yet; assign it first.", node.span
+            )
         choices = self._unify(values[1:], node.span, "MUX", wanted)
         type = choices[0].type
         if not isinstance(type, Elementary):
@@ -313,6 +332,22 @@ class CallChecker(ExpressionChecker):
         if result is None:
             raise self.report.reject("X001", f"The conversion {name} is not supported.", node.span)
         return result
+
+
+def _runs_code(expr: Expr) -> bool:
+    """Whether evaluating it calls a function."""
+    match expr:
+        case CallFunction():
+            return True
+        case Unary(operand=operand) | Convert(operand=operand):
+            return _runs_code(operand)
+        case Binary(left=left, right=right) | Compare(left=left, right=right):
+            return _runs_code(left) or _runs_code(right)
+        case Intrinsic(args=args):
+            return any(map(_runs_code, args))
+        case Load(place=place):
+            return any(_runs_code(index.value) for index in place.indices)
+    return False
 
 
 def own_place(record: Record, member: Member) -> Place:

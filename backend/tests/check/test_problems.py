@@ -72,6 +72,7 @@ FILES = [
     ("T008", "PROGRAM Main\nVAR i, x : INT; END_VAR\nFOR i := 1 TO 2 DO\nFOR i := 1 TO 2 DO x := i; END_FOR; END_FOR;\nEND_PROGRAM", 4),
     ("T005", "FUNCTION_BLOCK B\nVAR_IN_OUT x : INT; END_VAR\nEND_FUNCTION_BLOCK\nPROGRAM Main\nVAR b : B; END_VAR\nb();\nEND_PROGRAM", 6),
     ("T005", "FUNCTION_BLOCK B\nVAR_IN_OUT x : INT; END_VAR\nEND_FUNCTION_BLOCK\nPROGRAM Main\nVAR b : B; END_VAR\nb(x := 5);\nEND_PROGRAM", 6),
+    ("X001", "FUNCTION F : INT\nF := 1;\nEND_FUNCTION\nPROGRAM Main\nVAR x : INT; END_VAR\nx := MUX(F(), 1, 2);\nEND_PROGRAM", 6),
     ("S005", None, 0),
     ("T011", "PROGRAM Main\nVAR f AT A402.12 : BOOL; END_VAR\nf := TRUE;\nEND_PROGRAM", 3),
 ]  # fmt: skip

@@ -29,6 +29,8 @@ Real functions on REAL: computed in double by libm (or correctly rounded for sqr
 | STR_TO_INT | s -> LINT | blanks, sign, digits; what follows is dropped; none: 0; saturated at LINT |
 | STR_TO_REAL | s -> LREAL | blanks, sign, digits with point and exponent (longest prefix that reads so); none: 0; overflow: infinity |
 
+LIMIT is MIN(MAX(IN, MN), MX), evaluated in that order; MUX is a chain of SEL on its selector.
+
 The result of a string function has the capacity in `Intrinsic.type`, which is large enough for every result or the
 largest a STRING can have; what is beyond is cut.
 """
