@@ -51,7 +51,6 @@ TABLE: dict[str, str] = {
     "S002": "text, comment or pragma that never ends",
     "S003": "something else was expected here",
     "S004": "literal that cannot be read or is out of its type's range",
-    "S005": "file that cannot be read",
     # D: declarations
     "D001": "name declared twice",
     "D002": "unknown type",
