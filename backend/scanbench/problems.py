@@ -65,6 +65,7 @@ TABLE: dict[str, str] = {
     "D011": "nothing to run: no program",
     "D012": "memory larger than the limit",
     "D013": "calls that multiply beyond what a scan may take",
+    "D014": "class, interface or method that breaks a rule of inheritance",
     # T: types and names in statements
     "T001": "unknown name",
     "T002": "types that do not fit",
@@ -78,6 +79,8 @@ TABLE: dict[str, str] = {
     "T010": "something that can be called, read or indexed only elsewhere",
     "T011": "write to read-only memory of the model",
     "T012": "constant index outside of the array",
+    "T013": "reference to something that cannot be referred to",
+    "T014": "member that is not accessible from here",
     # W: works, but is probably not meant
     "W001": "statement without effect",
     # X: constructs that are known, and not supported

@@ -15,7 +15,7 @@ from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.syntax.literals import duration
 
-HEAD = re.compile(r"^\[(case|source|scans|trap|model|interval|budget)\b\s*(.*?)\]\s*$")
+HEAD = re.compile(r"^\[(case|source|scans|trap|model|interval|budget|feature)\b\s*(.*?)\]\s*$")
 LINE = re.compile(r"^\s*(\d+)\s*:(.*?)(?:\|(.*))?$")
 PAIR = re.compile(r"\s*([^\s:=,]+(?:\[[^\]]*\][^\s:=,]*)*)\s*:?=\s*('(?:\$.|[^'])*'|[^,]+)\s*(?:,|$)")
 
@@ -41,6 +41,8 @@ class Case:
     model: str = "GENERIC-IEC"
     interval_ns: int = 10_000_000
     budget: int | None = None
+    features: list[str] = field(default_factory=list)
+    """Numbers of what it shows, as in `tests/features`: `72.4`."""
 
 
 def read_cases(path: Path) -> list[Case]:
@@ -60,6 +62,8 @@ def read_cases(path: Path) -> list[Case]:
                 cases[-1].model = rest
             elif part == "budget":
                 cases[-1].budget = int(rest)
+            elif part == "feature":
+                cases[-1].features += rest.replace(",", " ").split()
             elif part == "interval":
                 cases[-1].interval_ns = duration(rest)
         elif part == "source":

@@ -1,4 +1,5 @@
 import { expect, type Locator, type Page } from '@playwright/test';
+import { Diagnostics } from './diagnostics';
 import { Editor } from './editor';
 import { Explorer } from './explorer';
 import { Problems } from './problems';
@@ -13,6 +14,7 @@ export class Ide {
   readonly watch: Watch;
   readonly simulator: Simulator;
   readonly problems: Problems;
+  readonly diagnostics: Diagnostics;
 
   constructor(readonly page: Page) {
     this.top = new TopBar(page);
@@ -20,6 +22,7 @@ export class Ide {
     this.watch = new Watch(page);
     this.simulator = new Simulator(page);
     this.problems = new Problems(page);
+    this.diagnostics = new Diagnostics(page);
   }
 
   editor(file: string): Editor {

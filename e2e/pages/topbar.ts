@@ -58,6 +58,12 @@ export class TopBar {
     await expect(this.picker).toContainText(name);
   }
 
+  /** Goes to another instance, by what its entry in the menu says. */
+  async goTo(entry: RegExp): Promise<void> {
+    await this.picker.click();
+    await this.page.getByRole('menuitemradio', { name: entry }).click();
+  }
+
   /** Notes every change of the state with its time, because a restart may be over before one looks. */
   async noteStates(): Promise<() => Promise<{ at: number; text: string }[]>> {
     await this.state.evaluate((element) => {

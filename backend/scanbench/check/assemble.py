@@ -1,13 +1,17 @@
 """The last pass: which programs run in which task, and where everything lives in the image."""
 
 import math
+from dataclasses import dataclass, field, replace
 
+from scanbench.check.configuration import PlannedBlock, PlannedInstance, PlannedTask, Planner
+from scanbench.check.connections import Wiring, calls_instance
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare import Declarations
 from scanbench.check.layout import Layout
-from scanbench.check.program import Const, Pou, Program, ProgramInstance, Task
+from scanbench.check.program import Base, Place, Pou, Program, ProgramInstance, Task
 from scanbench.check.scopes import Pous
-from scanbench.check.types import TIME, Record, Type
+from scanbench.check.settings import Settings
+from scanbench.check.types import BOOL, Kind, Member, Record, Section
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Span
 from scanbench.syntax import tree
@@ -49,33 +53,129 @@ def assemble(
     where: Span,
 ) -> Program | None:
     """The program, or None when there is nothing that can run."""
-    tasks = _Tasks(report, declarations, pous, variables, interval_ns)
-    planned = tasks.configured(configurations[0]) if configurations else tasks.free()
+    planner = Planner(report, declarations, pous, variables, interval_ns)
+    configuration = configurations[0] if configurations else None
+    planned = planner.configured(configuration) if configuration else planner.free()
     for extra in configurations[1:]:
         report.error("D010", "A program has one CONFIGURATION; remove this one.", extra.span)
-    if not any(programs for _, _, _, programs in planned):
+    if not any(task.runs for task in planned):
         report.error("D011", "There is no PROGRAM, so nothing would run.", where)
         return None
     layout = Layout(declarations.model, place_areas(declarations.model))
     layout.globals = variables
-    at = align(variables.size)
-    interval = math.gcd(*(each[1] for each in planned)) if planned else interval_ns
-    made, instances = [], []
-    for name, task_interval, priority, programs in planned:
-        placed = []
-        for instance_name, pou in programs:
-            placed.append(ProgramInstance(instance_name, pou, at))
-            at = align(at + pou.instance.size)
-        instances += placed
-        made.append(Task(name, task_interval, priority, task_interval // interval, tuple(placed)))
+    resources = [each.name for each in planner.resources if each.name]
+    placing = _Placing(report, pous, align(variables.size))
+    placing.programs(planned)
+    wiring = Wiring(report, declarations, pous, variables, list(placing.instances.values()), resources)
+    tasks, interval = _tasks(planned, placing, wiring, interval_ns)
+    at = align(placing.at)
+    if report.checks:
+        layout.violations = at
+        at = align(at + 8 + Layout.VIOLATION_LIMIT * Layout.VIOLATION_BYTES)
     layout.state_size = at
-    needed = _reachable(order, pous, {instance.pou for instance in instances})
+    needed = _reachable(order, pous, {each.pou for task in tasks for each in task.programs})
     for pou in needed:
         pou.frame_offset = at
         at = align(at + pou.frame.size)
     layout.size = at
-    image = _initial_image(layout, declarations, variables, instances)
-    return Program(tuple(needed), tuple(made), interval, tuple(report.traps), layout, image)
+    image = _initial_image(layout, declarations, variables, list(placing.instances.values()))
+    program = Program(tuple(needed), tasks, interval, tuple(report.traps), layout, image, tuple(report.checks))
+    program = Settings(report, declarations, program, resources).apply(configuration)
+    return replace(program, checks=tuple(report.checks))
+
+
+def _tasks(
+    planned: list[PlannedTask], placing: "_Placing", wiring: Wiring, interval_ns: int
+) -> tuple[tuple[Task, ...], int]:
+    """The tasks, and the length of a scan: what divides all their intervals."""
+    intervals = [each.interval_ns for each in planned if each.interval_ns]
+    interval = math.gcd(*intervals) if intervals else interval_ns
+    made = []
+    for task in planned:
+        runs = []
+        for each in task.runs:
+            if isinstance(each, PlannedInstance):
+                instance = placing.instances[each.name.upper()]
+                if each.declaration is not None:
+                    before, after = wiring.connect(instance, each.declaration)
+                    instance = replace(instance, before=before, after=after)
+                runs.append(instance)
+            elif (block := placing.block(each)) is not None:
+                runs.append(block)
+        single = wiring.event(task.single) if task.single is not None else None
+        previous = placing.flag(f"{task.name}.previous") if single is not None else None
+        every = task.interval_ns // interval
+        made.append(Task(task.name, task.interval_ns, task.priority, every, tuple(runs), single, previous))
+    return tuple(made), interval
+
+
+@dataclass(slots=True)
+class _Placing:
+    """Gives program instances, and what tasks have to remember, their places in the image."""
+
+    report: Report
+    pous: Pous
+    at: int
+    instances: dict[str, ProgramInstance] = field(default_factory=dict)
+
+    def programs(self, planned: list[PlannedTask]) -> None:
+        """All program instances, task by task."""
+        for task in planned:
+            for each in task.runs:
+                if isinstance(each, PlannedInstance):
+                    self.at = align(self.at)
+                    self.instances[each.name.upper()] = ProgramInstance(each.name, each.pou, self.at)
+                    self.at += each.pou.instance.size
+
+    def flag(self, name: str) -> Place:
+        """A BOOL of its own."""
+        self.at += 1
+        return Place(BOOL, Base.IMAGE, self.at - 1, variable=f"${name}".upper())
+
+    def block(self, planned: PlannedBlock) -> ProgramInstance | None:
+        """An instance of a function block in a program, for a task that runs it by itself."""
+        owner = self.instances.get(planned.owner.name.upper())
+        if owner is None:
+            return None
+        offset, record = 0, owner.pou.instance
+        try:
+            for name in planned.member.split("."):
+                member = self._member(record, name, planned.span)
+                offset += member.offset
+                assert isinstance(member.type, Record)
+                record = member.type
+            return self._associated(owner, planned, offset, record)
+        except Rejected:
+            return None
+
+    def _member(self, record: Record, name: str, span: Span) -> Member:
+        member = record.members.get(name.strip().upper())
+        if member is None or not isinstance(member.type, Record) or member.type.kind is not Kind.BLOCK:
+            blocks = [each.name for each in record.members.values() if isinstance(each.type, Record)]
+            hint = did_you_mean(name, blocks)
+            raise self.report.reject("D010", f"`{record.name}` has no function block `{name}`.{hint}", span)
+        return member
+
+    def _associated(
+        self, owner: ProgramInstance, planned: PlannedBlock, offset: int, record: Record
+    ) -> ProgramInstance:
+        path = f"{owner.name}.{planned.member}"
+        pou = self.pous.blocks.get(record.name.upper())
+        if pou is None or pou.inline or pou.kind != "function_block":
+            raise self.report.reject(
+                "X001", f"`{path}` is of the library's {record.name}, which cannot run in a task by itself yet; call it in "
+                "a program there.", planned.span,
+            )  # fmt: skip
+        if any(member.section is Section.IN_OUT for member in record.members.values()):
+            raise self.report.reject(
+                "T005", f"`{path}` has an in-out, which nothing would connect when a task runs it.", planned.span
+            )
+        if calls_instance(owner.pou.body, offset):
+            raise self.report.reject(
+                "X001", f"`{owner.pou.name}` calls `{planned.member}` as well, which a task is to run; take the call out and "
+                "assign its inputs.", planned.span,
+            )  # fmt: skip
+        return ProgramInstance(path, pou, owner.offset + offset)
 
 
 def _reachable(order: list[Pou], pous: Pous, roots: set[Pou]) -> list[Pou]:
@@ -104,86 +204,3 @@ def _initial_image(
         for index, byte in enumerate(data, offset):
             image[index] = image[index] & ~mask | byte & mask
     return bytes(image)
-
-
-Planned = list[tuple[str, int, int, list[tuple[str, Pou]]]]
-"""Task name, interval in ns, priority (0 first), and its program instances."""
-
-
-class _Tasks:
-    def __init__(
-        self, report: Report, declarations: Declarations, pous: Pous, variables: Record, interval_ns: int
-    ) -> None:
-        self.report = report
-        self.variables = variables
-        self.declarations = declarations
-        self.pous = pous
-        self.interval_ns = interval_ns
-
-    def free(self) -> Planned:
-        """Without a CONFIGURATION every PROGRAM runs, in order of declaration, in one task."""
-        programs = [(pou.name, pou) for pou in self.pous.blocks.values() if pou.kind == "program"]
-        for name, pou in programs:
-            if name.upper() in self.variables.members:
-                self.report.error("D001", f"`{name}` is a VAR_GLOBAL already; rename one.", pou.span)
-        return [("Main", self.interval_ns, 0, programs)]
-
-    def configured(self, configuration: tree.Configuration) -> Planned:
-        planned: dict[str, tuple[str, int, int, list[tuple[str, Pou]]]] = {}
-        for task in configuration.tasks:
-            if task.name.upper() in planned:
-                self.report.error("D001", f"`{task.name}` is declared already; rename one.", task.span)
-                continue
-            interval, priority = self.interval_ns, 0
-            try:
-                if task.interval is not None:
-                    interval = self._number(task.interval, TIME)
-                if task.priority is not None:
-                    priority = self._number(task.priority, None)
-            except Rejected:
-                continue
-            if interval < 1_000:
-                self.report.error("D010", "The interval of a task is at least T#1us.", task.span)
-                continue
-            planned[task.name.upper()] = (task.name, interval, priority, [])
-        background: list[tuple[str, Pou]] = []
-        names: set[str] = set()
-        for program in configuration.programs:
-            self._add(program, planned, background, names)
-        result = sorted(planned.values(), key=lambda each: each[2])
-        if background:
-            # a program without a task runs as often as the fastest, after all others
-            interval = min((each[1] for each in result), default=self.interval_ns)
-            result.append(("Background", interval, 1 << 16, background))
-        return [each for each in result if each[3]] or result
-
-    def _number(self, node: tree.Expression, type: Type | None) -> int:
-        constant: Const = self.declarations.constant_of(node, type)
-        if not isinstance(constant.value, int):
-            raise self.report.reject("D010", "The priority of a task is an integer.", node.span)
-        return constant.value
-
-    def _add(
-        self,
-        program: tree.ProgramDeclaration,
-        planned: dict[str, tuple[str, int, int, list[tuple[str, Pou]]]],
-        background: list[tuple[str, Pou]],
-        names: set[str],
-    ) -> None:
-        pou = self.pous.blocks.get(program.type_name.upper())
-        programs = [each.name for each in self.pous.blocks.values() if each.kind == "program"]
-        if pou is None or pou.kind != "program":
-            hint = did_you_mean(program.type_name, programs)
-            self.report.error("D010", f"There is no PROGRAM `{program.type_name}`.{hint}", program.span)
-            return
-        if program.name.upper() in names or program.name.upper() in self.variables.members:
-            self.report.error("D001", f"`{program.name}` is declared already; rename one.", program.span)
-            return
-        names.add(program.name.upper())
-        if program.task is None:
-            background.append((program.name, pou))
-        elif program.task.upper() in planned:
-            planned[program.task.upper()][3].append((program.name, pou))
-        else:
-            hint = did_you_mean(program.task, [each[0] for each in planned.values()])
-            self.report.error("D010", f"There is no TASK `{program.task}`.{hint}", program.span)

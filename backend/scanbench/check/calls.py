@@ -1,169 +1,281 @@
-"""Calls -> checked calls: arguments to formals, standard functions to intrinsics."""
+"""Calls -> checked calls: of functions, methods and blocks, with EN and ENO."""
 
-from scanbench.check import conversions, fold
-from scanbench.check.context import did_you_mean
-from scanbench.check.expressions import ExpressionChecker
+from dataclasses import dataclass, replace
+
+from scanbench.check import fold
+from scanbench.check.arguments import Invocation, together
+from scanbench.check.classes import Class, Method
+from scanbench.check.context import Rejected, did_you_mean
+from scanbench.check.dispatch import Dispatcher
+from scanbench.check.names import Names
+from scanbench.check.objects import ObjectChecker, Receiver, dotted, named_itself
 from scanbench.check.program import (
+    Assign,
     Base,
-    Binary,
     CallBlock,
     CallFunction,
-    Compare,
     Const,
-    Convert,
+    Evaluate,
     Expr,
-    Intrinsic,
+    If,
     Load,
     Place,
     Pou,
-    Unary,
+    Sequence,
+    SetBytes,
+    Stmt,
 )
 from scanbench.check.scopes import decode
-from scanbench.check.standard.functions import FUNCTIONS, SPECIAL, Operator, Same, Shift, StringFunction
-from scanbench.check.types import (
-    BOOL,
-    DINT,
-    INT,
-    LINT,
-    MAX_STRING,
-    TIME,
-    ULINT,
-    Elementary,
-    Kind,
-    Member,
-    Record,
-    Section,
-    StringType,
-    Type,
-)
-from scanbench.check.untyped import ANY_REAL, common, is_untyped, settle
+from scanbench.check.standard.functions import FUNCTIONS
+from scanbench.check.types import BOOL, ULINT, Elementary, Member, Record, Reference, Section, Type, initial_of
+from scanbench.check.untyped import is_untyped, settle
 from scanbench.problems import Span
 from scanbench.syntax import tree
 
 
-class CallChecker(ExpressionChecker):
-    # ---- functions --------------------------------------------------------------------------------------
+@dataclass(frozen=True, slots=True)
+class Enabling:
+    """The EN and ENO of a call, apart from the call itself."""
+
+    call: tree.Call
+    en: tree.Argument | None
+    eno: tree.Argument | None
+
+
+def enabling(node: tree.Call) -> Enabling:
+    """Takes EN and ENO off the arguments."""
+    en = next((each for each in node.arguments if each.name and each.name.upper() == "EN" and not each.output), None)
+    eno = next((each for each in node.arguments if each.name and each.name.upper() == "ENO" and each.output), None)
+    if en is None and eno is None:
+        return Enabling(node, None, None)
+    rest = tuple(each for each in node.arguments if each is not en and each is not eno)
+    return Enabling(replace(node, arguments=rest), en, eno)
+
+
+class CallChecker(ObjectChecker):
+    # ---- calls for their value --------------------------------------------------------------------------
 
     def call(self, node: tree.Call, wanted: Type | None = None) -> Expr:
+        apart = enabling(node)
+        if apart.en is not None or apart.eno is not None:
+            statements, value = self._enabled(apart, wanted)
+            if value is None:
+                raise self.report.reject("T010", "This has no result; call it as a statement.", node.span)
+            return Sequence(tuple(statements), value)
+        callee = self._callee(node.callee)
+        if callee is not None:
+            return self.as_value(self._invoked(callee, node), node.span)
+        return self._standard(node, wanted)
+
+    def call_statement(self, node: tree.Call) -> Stmt | None:
+        """A call as a statement: of an instance, or of a function or method whose result is dropped."""
+        apart = enabling(node)
+        callee = self._callee(node.callee)
+        if callee is None and self._names_instance(node.callee):
+            return self.call_block(node)
+        if apart.en is not None or apart.eno is not None:
+            return together(self._enabled(apart, None)[0], node.span)
+        if callee is not None:
+            return together(self._invoked(callee, node).statements(node.span), node.span)
+        value = self.form(node) or self._standard(node, None)
+        if isinstance(value, Violates) and value.site:
+            return Assign(self.temporary(BOOL, node.span), value, node.span)
+        if isinstance(value, CallFunction):
+            return Evaluate(value, node.span)
+        if isinstance(value, Sequence):
+            last = [Evaluate(value.value, node.span)] if isinstance(value.value, CallFunction) else []
+            return together([*value.body, *last], node.span)
+        self.report.warn("W001", "The result of this call is dropped.", node.span)
+        return None
+
+    def called(self, callee: tree.Expression) -> Pou | None:
+        """The FUNCTION or method that a call would run; None for instances and standard functions."""
+        found = self._callee(callee)
+        return found if found is None or isinstance(found, Pou) else found[1].pou
+
+    def _callee(self, callee: tree.Expression) -> Pou | tuple[Receiver, Method] | None:
+        """The FUNCTION or method that is called; None for instances and standard functions."""
+        method = self.method_called(callee)
+        if method is not None:
+            return method
+        name = dotted(callee)
+        if name is None or self._hides(name):
+            return None
+        names: Names = self.declarations.names
+        key = names.find(name, self.pous.functions, callee.span) if self.pous.functions else None
+        return self.pous.functions[key] if key is not None else None
+
+    def _hides(self, path: str) -> bool:
+        """Whether this is a variable, and no function: a plain value of the same name, as a result, hides none."""
+        found = self.scope.find(path.split(".")[0])
+        return found is not None and ("." in path or isinstance(found[0].type, Record | Reference))
+
+    def _invoked(self, callee: Pou | tuple[Receiver, Method], node: tree.Call, eno: Place | None = None) -> Invocation:
+        if isinstance(callee, Pou):
+            return self.invoke(node, callee, callee.name, None, eno)
+        return self.send(*callee, node, eno)
+
+    def _standard(self, node: tree.Call, wanted: Type | None, eno: Place | None = None) -> Expr:
+        """A function that is no POU; `eno` becomes FALSE where it finds that its result is not right."""
         if not isinstance(node.callee, tree.Name):
+            self._no_value(node.callee)
             raise self.report.reject(
-                "T010", "Only functions and instances of function blocks can be called.", node.span
+                "T010", "Only functions, methods and instances of function blocks can be called.", node.span
             )
         name = node.callee.name
         key = name.upper()
-        found = self.scope.find(name)
-        if found is not None and isinstance(found[0].type, Record):
-            raise self.report.reject(
-                "T010", f"`{name}` is an instance of {found[0].type}; call it as a statement, then use its outputs.",
-                node.span,
-            )  # fmt: skip
-        if key in self.pous.functions:
-            return self._function(node, self.pous.functions[key])
-        if key in FUNCTIONS or key in SPECIAL:
-            return self._standard(node, key, wanted)
-        conversion = conversions.parse_name(key)
-        if conversion is not None:
-            return self._convert(node, key, *conversion)
-        known = [*(pou.name for pou in self.pous.functions.values()), *FUNCTIONS, *SPECIAL]
+        if self._hides(name):
+            self._no_value(node.callee)
+        standard = self.standard(node, key, wanted, eno)
+        if standard is not None:
+            return standard
+        known = [*(pou.name for pou in self.pous.functions.values()), *FUNCTIONS]
         hint = did_you_mean(name, known)
-        if key in self.declarations.block_trees:
+        if self.declarations.find_type(name, node.span) in self.declarations.block_trees:
             hint = f" `{name}` is a FUNCTION_BLOCK: declare an instance in VAR and call that."
+        if key in self.pous.broken:
+            raise Rejected
+        if self.scope.find(name) is not None:
+            raise self.report.reject("T010", f"`{name}` is a variable; it cannot be called.", node.span)
         raise self.report.reject("T001", f"There is no function `{name}`.{hint}", node.span)
 
-    def _function(self, node: tree.Call, callee: Pou) -> Expr:
-        """A FUNCTION of the user or of the library: positional or formal arguments, never both."""
-        given = self._given(node, [callee.frame.members[key] for key in callee.parameters], callee.name)
-        args = tuple(self._argument(callee.frame.members[key], given.get(key), node) for key in callee.parameters)
-        self.pous.use(self.pou, callee)
-        return CallFunction(callee, callee.result, args)
-
-    def _given(self, node: tree.Call, formals: list[Member], callee: str) -> dict[str, tree.Argument]:
-        """Arguments by upper-case formal name; positional ones go to inputs and in-outs in order."""
-        given: dict[str, tree.Argument] = {}
-        named = False
-        positions = [member for member in formals if member.section in (Section.INPUT, Section.IN_OUT)]
-        for index, argument in enumerate(node.arguments):
-            if argument.name is None:
-                if named:
-                    raise self.report.reject("T004", "Arguments by position come before those by name.", argument.span)
-                if index >= len(positions):
-                    raise self.report.reject(
-                        "T004",
-                        f"`{callee}` takes {len(positions)} arguments, not {len(node.arguments)}.",
-                        argument.span,
-                    )
-                given[positions[index].name.upper()] = argument
-                continue
-            named = True
-            key = argument.name.upper()
-            member = next((each for each in formals if each.name.upper() == key), None)
-            if member is None:
-                hint = did_you_mean(argument.name, [each.name for each in formals])
-                raise self.report.reject("T004", f"`{callee}` has no argument `{argument.name}`.{hint}", argument.span)
-            if argument.output != (member.section is Section.OUTPUT):
-                arrow = "=>" if member.section is Section.OUTPUT else ":="
-                raise self.report.reject(
-                    "T004",
-                    f"`{member.name}` is {member.section.value}: write `{member.name} {arrow} ...`.",
-                    argument.span,
-                )
-            if key in given:
-                raise self.report.reject("T004", f"`{argument.name}` is given twice.", argument.span)
-            given[key] = argument
-        return given
-
-    def _argument(self, member: Member, argument: tree.Argument | None, node: tree.Call) -> Expr | Place | None:
-        value = argument.value if argument else None
-        if member.section is Section.IN_OUT:
-            return self.in_out(member, value, node.span)
-        if member.section is Section.OUTPUT:
-            if value is None:
-                return None
-            target = self.target(value)
-            if target.type != member.type and not _both_strings(target.type, member.type):
-                raise self.report.reject(
-                    "T002", f"`{member.name}` is {member.type}, so its target cannot be {target.type}.", value.span
-                )
-            return target
-        if value is not None:
-            return self.as_type(value, member.type, f"`{member.name}`")
-        default = decode(member.type, member.initial or bytes(member.type.size))
-        if default is None:
-            raise self.report.reject("T004", f"The argument `{member.name}` is missing.", node.span)
-        return default
-
-    def in_out(self, member: Member, value: tree.Expression | None, span: Span) -> Place:
-        """The variable that an in-out is bound to."""
-        if value is None:
-            raise self.report.reject("T005", f"The in-out `{member.name}` must be connected at every call.", span)
-        if not isinstance(value, tree.Name | tree.MemberOf | tree.IndexOf | tree.DirectAddress):
-            raise self.report.reject("T005", f"`{member.name}` is an in-out and needs a variable.", value.span)
-        place = self.target(value)
-        if place.type != member.type:
+    def _no_value(self, callee: tree.Expression) -> None:
+        """Refuses an instance of a block that is called for a value."""
+        place, _ = self.place(callee)
+        if isinstance(place.type, Record):
             raise self.report.reject(
-                "T005", f"The in-out `{member.name}` is {member.type}; {place.type} cannot be bound to it.", value.span
-            )
-        return place
+                "T010", f"This is an instance of {place.type}; call it as a statement, then use its outputs.",
+                callee.span,
+            )  # fmt: skip
+
+    # ---- EN and ENO -------------------------------------------------------------------------------------
+
+    def _enabled(self, apart: Enabling, wanted: Type | None) -> tuple[list[Stmt], Expr | None]:
+        """A call with EN or ENO: what runs, and where its result is."""
+        node, span = apart.call, apart.call.span
+        condition = self._condition_of(apart.en)
+        ok = self.temporary(BOOL, span) if apart.eno is not None else None
+        callee = self._callee(node.callee)
+        if callee is None:
+            run, result, told = self._enabled_standard(node, wanted, ok)
+        else:
+            made = self._invoked(callee, node, ok)
+            pou = made.call.pou
+            result = self.temporary(pou.result, span) if pou.result is not None else None
+            run, told = made.statements(span, result), "ENO" in pou.parameters
+        if ok is not None and not told:
+            run.append(Assign(ok, Const(BOOL, 1), span))
+        if condition is not None:
+            skipped = [self._zero(result, span)] if result is not None else []
+            if ok is not None:
+                skipped.append(Assign(ok, Const(BOOL, 0), span))
+            run = [If(((condition, tuple(run)),), tuple(skipped), span)]
+        if ok is not None and apart.eno is not None:
+            run.append(self._store_eno(Load(ok), apart.eno))
+        return run, Load(result) if result is not None else None
+
+    def _enabled_standard(
+        self, node: tree.Call, wanted: Type | None, ok: Place | None
+    ) -> tuple[list[Stmt], Place | None, bool]:
+        """The same for a standard function: what runs, its result, and whether it tells ENO itself."""
+        value = self._standard(node, wanted, ok)
+        if is_untyped(value):
+            literal = isinstance(wanted, Elementary)
+            value = self.coerce(value, wanted, node.span, "The result") if literal and wanted else settle(value)
+        assert value.type is not None
+        result = self.temporary(value.type, node.span)
+        run: list[Stmt] = [] if ok is None else [Assign(ok, Const(BOOL, 1), node.span)]
+        return [*run, Assign(result, value, node.span)], result, ok is not None
+
+    def _condition_of(self, en: tree.Argument | None) -> Expr | None:
+        if en is None or en.value is None:
+            return None
+        return self.as_type(en.value, BOOL, "`EN`")
+
+    def _store_eno(self, value: Expr, eno: tree.Argument) -> Stmt:
+        if eno.value is None:
+            raise self.report.reject("T004", "`ENO` needs a variable: write `ENO => ...`.", eno.span)
+        target = self.target(eno.value)
+        value = fold.unary("not", BOOL, value) if eno.negated else value
+        return Assign(target, self.coerce(value, target.type, eno.span, "The target of `ENO`"), eno.span)
+
+    def _zero(self, place: Place, span: Span) -> Stmt:
+        data = initial_of(place.type)
+        constant = decode(place.type, data)
+        if constant is not None and isinstance(place.type, Elementary):
+            return Assign(place, constant, span)
+        return SetBytes(place, data, span)
 
     # ---- blocks -----------------------------------------------------------------------------------------
 
-    def call_block(self, node: tree.Call) -> CallBlock:
+    def _names_instance(self, callee: tree.Expression) -> bool:
+        if named_itself(callee, "THIS") or named_itself(callee, "SUPER"):
+            return True
+        if isinstance(callee, tree.Name):
+            found = self.scope.find(callee.name)
+            return found is not None and isinstance(found[0].type, Record | Reference)
+        return True
+
+    def call_block(self, node: tree.Call) -> Stmt:
         """`instance(...)` as a statement."""
-        instance, member = self.place(node.callee)
-        record = instance.type
-        assert isinstance(record, Record)
-        callee = self.pous.blocks.get(record.name.upper())
-        if record.kind is not Kind.BLOCK or callee is None:
-            raise self.report.reject("T010", f"{record.name} is a structure and cannot be called.", node.span)
+        apart = enabling(node)
+        instance, callee, name = self._instance(apart.call)
+        record = callee.instance
+        condition = self._condition_of(apart.en)
+        statements = self._block_statements(apart.call, instance, callee, name)
+        eno = record.members.get("ENO")
+        if apart.eno is not None:
+            ok: Expr = Const(BOOL, 1)
+            if eno is not None and eno.section is Section.OUTPUT:
+                ok = Load(_inside(instance, record, eno))
+            statements.append(self._store_eno(ok, apart.eno))
+        if condition is None:
+            return together(statements, node.span)
+        skipped = () if apart.eno is None else (self._store_eno(Const(BOOL, 0), apart.eno),)
+        return If(((condition, tuple(statements)),), skipped, node.span)
+
+    def _instance(self, node: tree.Call) -> tuple[Place, Pou, str]:
+        """The instance that is called, the POU that runs, and the name of its type."""
+        receiver = self.receiver(node.callee)
+        if receiver is None:
+            place, _ = self.place(node.callee)
+            raise self.report.reject("T010", f"{place.type} has no body and cannot be called.", node.span)
+        _, member = (None, None) if receiver.place.reference else self._declared(node.callee)
         if member is not None and member.constant:
             raise self.report.reject("T003", f"`{member.name}` is CONSTANT, so it cannot run.", node.span)
+        owner = receiver.owner
+        callee = self._body_of(receiver, owner)
+        if callee is None:
+            raise self.report.reject(
+                "T010", f"`{owner.name}` has no body that could be called; call one of its methods.", node.span
+            )
+        return replace(receiver.place, type=callee.instance), callee, owner.name
+
+    def _declared(self, callee: tree.Expression) -> tuple[None, Member | None]:
+        if named_itself(callee, "THIS") or named_itself(callee, "SUPER"):
+            return None, None
+        return None, self.place(callee)[1]
+
+    def _body_of(self, receiver: Receiver, owner: Class) -> Pou | None:
+        own = self.pous.blocks.get(owner.name.upper())
+        if owner.kind not in ("function_block", "program"):
+            return None
+        if receiver.exact or receiver.above:
+            return own
+        through = receiver.place.reference is not None
+        return Dispatcher(self.report, self.pous).body(owner, always=through)
+
+    def _block_statements(self, node: tree.Call, instance: Place, callee: Pou, name: str) -> list[Stmt]:
+        record = callee.instance
         formals = list(record.members.values())
-        given = self._given(node, [each for each in formals if each.section is not Section.VAR], record.name)
-        in_outs = []
+        given = self.given(node, [each for each in formals if each.section is not Section.VAR], name)
+        before: list[Stmt] = []
+        in_outs, bound = [], {}
         for each in formals:
             if each.section is Section.IN_OUT:
                 argument = given.get(each.name.upper())
-                target = self.in_out(each, argument.value if argument else None, node.span)
+                target = self.in_out(each, argument.value if argument else None, node.span, before)
+                bound[each.name.upper()] = target
                 in_outs.append((_slot(record, each), target))
         inputs, outputs = [], []
         for key, argument in given.items():
@@ -175,201 +287,32 @@ class CallChecker(ExpressionChecker):
                 inputs.append((own, self.as_type(argument.value, formal.type, f"`{formal.name}`")))
                 continue
             target = self.target(argument.value)
-            value = self.coerce(Load(own), target.type, argument.span, "The target")
-            outputs.append((value, target))
+            outputs.append((self._output(Load(own), target.type, argument), target))
+        for each in formals:
+            if each.hidden and "$" in each.name[1:]:
+                inputs.append((own_place(record, each), self.open_bound(each, bound)))
         self.pous.use(self.pou, callee)
-        return CallBlock(instance, callee, tuple(inputs), tuple(in_outs), tuple(outputs), node.span)
-
-    # ---- standard functions -----------------------------------------------------------------------------
-
-    def _values(self, node: tree.Call, formals: tuple[str, ...], name: str, variadic: bool = False) -> list[Expr]:
-        """Arguments of a standard function in the order of its formals."""
-        by_name = {argument.name.upper(): argument.value for argument in node.arguments if argument.name}
-        if by_name:
-            missing = [formal for formal in formals if by_name.get(formal) is None]
-            extra = [key for key in by_name if key not in formals]
-            if missing or extra or len(by_name) != len(node.arguments):
-                raise self.report.reject("T004", f"`{name}` takes {', '.join(formals)}.", node.span)
-            return [self.expr(value) for formal in formals if (value := by_name[formal]) is not None]
-        values = [self.expr(argument.value) for argument in node.arguments if argument.value is not None]
-        if len(values) != len(formals) and not (variadic and len(values) > len(formals)):
-            raise self.report.reject(
-                "T004", f"`{name}` takes {len(formals)} arguments ({', '.join(formals)}), not {len(values)}.", node.span
-            )
-        return values
-
-    def _standard(self, node: tree.Call, name: str, wanted: Type | None) -> Expr:
-        if name in SPECIAL:
-            return self._special(node, name, wanted)
-        match FUNCTIONS[name]:
-            case Same() as same:
-                return self._same_function(node, name, same, wanted)
-            case Shift(intrinsic):
-                bits, count = self._values(node, ("IN", "N"), name)
-                bits = settle(bits)
-                if not isinstance(bits.type, Elementary) or bits.type.kind is not Kind.BITS:
-                    raise self.report.reject("T002", f"`{name}` needs a bit string, not {bits.type}.", node.span)
-                return Intrinsic(intrinsic, bits.type, (bits, self._integer(count, node.span, name)))
-            case StringFunction() as function:
-                return self._string_function(node, name, function)
-            case Operator(op, variadic):
-                values = self._values(node, ("IN1", "IN2"), name, variadic)
-                result = values[0]
-                for value in values[1:]:
-                    result = self.operate(op, result, value, node.span)
-                return result
-
-    def _same_function(self, node: tree.Call, name: str, same: Same, wanted: Type | None) -> Expr:
-        values = self._unify(self._values(node, same.formals, name, same.variadic), node.span, name, wanted)
-        type = values[0].type
-        if not isinstance(type, Elementary) or type.kind not in same.kinds:
-            raise self.report.reject(
-                "T002", f"`{name}` cannot work on {type}.{_real_hint(type, same.kinds)}", node.span
-            )
-        if len(same.formals) == 1:
-            return Intrinsic(same.intrinsic, type, (values[0],))
-        result = values[0]
-        for value in values[1:]:
-            result = Intrinsic(same.intrinsic, type, (result, value))
-        return result
-
-    def _unify(self, values: list[Expr], span: Span, name: str, wanted: Type | None = None) -> list[Expr]:
-        """All in one common type; literals alone take the one that is wanted."""
-        if isinstance(wanted, Elementary) and all(is_untyped(value) for value in values):
-            real = any(value.type == ANY_REAL for value in values)
-            if wanted.kind is Kind.REAL or (not real and wanted.kind in (Kind.INT, Kind.UINT, Kind.BITS)):
-                return [self.coerce(value, wanted, span, f"Each argument of `{name}`") for value in values]
-        typed = [value for value in values if not is_untyped(value)] or [settle(value) for value in values]
-        type = typed[0].type
-        for value in typed[1:]:
-            if isinstance(type, Elementary) and isinstance(value.type, Elementary):
-                type = common(type, value.type)
-            if type is None:
-                raise self.report.reject("T002", f"The arguments of `{name}` have no common type.", span)
-        assert type is not None
-        return [self.coerce(value, type, span, f"Each argument of `{name}`") for value in values]
-
-    def _integer(self, value: Expr, span: Span, name: str) -> Expr:
-        value = settle(value)
-        if not isinstance(value.type, Elementary) or value.type.kind not in (Kind.INT, Kind.UINT):
-            raise self.report.reject("T002", f"`{name}` needs an integer here, not {value.type}.", span)
-        return fold.convert(LINT, value)
-
-    def _string_function(self, node: tree.Call, name: str, function: StringFunction) -> Expr:
-        formals = tuple(formal for formal, _ in function.formals)
-        values = self._values(node, formals, name, variadic=name == "CONCAT")
-        args: list[Expr] = []
-        kinds = [kind for _, kind in function.formals] + ["s"] * (len(values) - len(formals))
-        for value, kind in zip(values, kinds, strict=True):
-            if kind == "n":
-                args.append(self._integer(value, node.span, name))
-            elif isinstance(value.type, StringType):
-                args.append(value)
-            else:
-                raise self.report.reject("T002", f"`{name}` needs a STRING, not {settle(value).type}.", node.span)
-        if function.result == "INT":
-            return Intrinsic(function.intrinsic, INT, tuple(args))
-        if name == "CONCAT":
-            result = args[0]
-            for arg in args[1:]:
-                result = Intrinsic("CONCAT", _capacity(result, arg), (result, arg))
-            return result
-        strings = [arg for arg in args if isinstance(arg.type, StringType)]
-        return Intrinsic(function.intrinsic, _capacity(*strings), tuple(args))
-
-    def _special(self, node: tree.Call, name: str, wanted: Type | None) -> Expr:
-        match name:
-            case "TIME":
-                self._values(node, (), name)
-                return Intrinsic("CLOCK", TIME, ())
-            case "MOVE":
-                return self._values(node, ("IN",), name)[0]
-            case "SEL":
-                gate, *rest = self._values(node, ("G", "IN0", "IN1"), name)
-                first, second = self._unify(rest, node.span, name, wanted)
-                if not isinstance(first.type, Elementary):
-                    raise self.report.reject("T002", f"`SEL` cannot choose between values of {first.type}.", node.span)
-                gate = self.coerce(gate, BOOL, node.span, "`G`")
-                return Intrinsic("SEL", first.type, (gate, first, second))
-            case "LIMIT":
-                low, value, high = self._unify(self._values(node, ("MN", "IN", "MX"), name), node.span, name, wanted)
-                if not isinstance(value.type, Elementary):
-                    raise self.report.reject("T002", f"`LIMIT` cannot work on {value.type}.", node.span)
-                lower = Intrinsic("MAX", value.type, (value, low))
-                return Intrinsic("MIN", value.type, (lower, high))
-            case "MUX":
-                return self._mux(node, wanted)
-        return self._trunc(node)
-
-    def _mux(self, node: tree.Call, wanted: Type | None) -> Expr:
-        values = self._values(node, ("K", "IN0"), "MUX", variadic=True)
-        selector = self._integer(values[0], node.span, "MUX")
-        if _runs_code(selector):
-            # the selector is compared once for every choice; a function would run as often
-            raise self.report.reject(
-                "X001", "A function call as selector of MUX is not supported yet; assign it first.", node.span
-            )
-        choices = self._unify(values[1:], node.span, "MUX", wanted)
-        type = choices[0].type
-        if not isinstance(type, Elementary):
-            raise self.report.reject("T002", f"`MUX` cannot choose between values of {type}.", node.span)
-        result = choices[-1]
-        for index in range(len(choices) - 2, -1, -1):
-            chosen = fold.compare("le", BOOL, selector, Const(LINT, index))
-            result = Intrinsic("SEL", type, (chosen, result, choices[index]))
-        return result
-
-    def _trunc(self, node: tree.Call) -> Expr:
-        value = settle(self._values(node, ("IN",), "TRUNC")[0])
-        if not isinstance(value.type, Elementary) or value.type.kind is not Kind.REAL:
-            raise self.report.reject("T002", f"`TRUNC` needs a REAL, not {value.type}.", node.span)
-        return Intrinsic("TRUNC", DINT, (value,))
-
-    def _convert(self, node: tree.Call, name: str, source: Type | None, target: Type) -> Expr:
-        values = self._values(node, ("IN",), name)
-        value = settle(values[0]) if source is None else self.coerce(values[0], source, node.span, f"What {name} takes")
-        result = conversions.convert(value, target)
-        if result is None:
-            raise self.report.reject("X001", f"The conversion {name} is not supported.", node.span)
-        return result
-
-
-def _runs_code(expr: Expr) -> bool:
-    """Whether evaluating it calls a function."""
-    match expr:
-        case CallFunction():
-            return True
-        case Unary(operand=operand) | Convert(operand=operand):
-            return _runs_code(operand)
-        case Binary(left=left, right=right) | Compare(left=left, right=right):
-            return _runs_code(left) or _runs_code(right)
-        case Intrinsic(args=args):
-            return any(map(_runs_code, args))
-        case Load(place=place):
-            return any(_runs_code(index.value) for index in place.indices)
-    return False
+        call = CallBlock(instance, callee, tuple(inputs), tuple(in_outs), tuple(outputs), node.span)
+        return [*before, call]
 
 
 def own_place(record: Record, member: Member) -> Place:
     """A member of a block, seen from its own body."""
     if member.located:
         return Place(member.type, Base.IMAGE, member.offset, bit=member.bit, variable="@")
-    return Place(member.type, Base.SELF, member.offset, variable=f"{record.name}.{member.name}".upper())
+    return Place(member.type, Base.SELF, member.offset, bit=member.bit, variable=_variable(record, member))
 
 
 def _slot(record: Record, member: Member) -> Place:
-    return Place(ULINT, Base.SELF, member.offset, variable=f"{record.name}.{member.name}".upper())
+    return Place(ULINT, Base.SELF, member.offset, variable=_variable(record, member))
 
 
-def _both_strings(first: Type, second: Type) -> bool:
-    return isinstance(first, StringType) and isinstance(second, StringType)
+def _inside(instance: Place, record: Record, member: Member) -> Place:
+    """An output of an instance, seen from outside."""
+    free = instance.slot is not None or instance.reference is not None or instance.variable.startswith("@")
+    variable = instance.variable if free else _variable(record, member)
+    return replace(instance, type=member.type, offset=instance.offset + member.offset, variable=variable)
 
 
-def _capacity(*args: Expr) -> StringType:
-    total = sum(arg.type.capacity for arg in args if isinstance(arg.type, StringType))
-    return StringType(min(total, MAX_STRING))
-
-
-def _real_hint(type: Type | None, kinds: tuple[Kind, ...]) -> str:
-    integer = isinstance(type, Elementary) and type.kind in (Kind.INT, Kind.UINT)
-    return f" Convert it with {type}_TO_REAL." if integer and kinds == (Kind.REAL,) else ""
+def _variable(record: Record, member: Member) -> str:
+    return f"{member.home or record.name}.{member.name}".upper()

@@ -1,10 +1,10 @@
-"""What all parts of the checker share: problems met, trap sites, near matches."""
+"""What all parts of the checker share: problems met, sites of traps and subrange checks, near matches."""
 
 from collections.abc import Iterable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 
-from scanbench.check.program import TrapKind, TrapSite
+from scanbench.check.program import CheckSite, TrapKind, TrapSite
 from scanbench.problems import Problem, Severity, Span
 
 
@@ -14,10 +14,11 @@ class Rejected(Exception):
 
 @dataclass(slots=True)
 class Report:
-    """Collects problems and trap sites of one check."""
+    """Collects problems and sites of one check."""
 
     problems: list[Problem] = field(default_factory=list)
     traps: list[TrapSite] = field(default_factory=list)
+    checks: list[CheckSite] = field(default_factory=list)
 
     def error(self, code: str, message: str, span: Span) -> None:
         problem = Problem(code, message, span)
@@ -36,6 +37,24 @@ class Report:
         """The number of a new trap site: its index plus one."""
         self.traps.append(TrapSite(kind, span, pou, message))
         return len(self.traps)
+
+    def check(self, site: CheckSite) -> int:
+        """The number of a new subrange check: its index plus one."""
+        self.checks.append(site)
+        return len(self.checks)
+
+    def mark(self) -> tuple[int, int, int]:
+        """Where the lists end now, for `undo`."""
+        return len(self.problems), len(self.traps), len(self.checks)
+
+    def undo(self, mark: tuple[int, int, int]) -> None:
+        """Forgets what was reported since, before the same is checked once more."""
+        for reported, length in zip((self.problems, self.traps, self.checks), mark, strict=True):
+            del reported[length:]
+
+    def needless(self, number: int, why: str) -> None:
+        """What was to be checked there needs no check."""
+        self.checks[number - 1] = replace(self.checks[number - 1], needless=why)
 
 
 def did_you_mean(name: str, known: Iterable[str]) -> str:

@@ -1,20 +1,38 @@
 """Declarations -> types and members with offsets."""
 
 import struct
+from collections import ChainMap
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from contextlib import suppress
+from dataclasses import dataclass, field, replace
 
 from scanbench.check import fold
 from scanbench.check.context import Rejected, Report, did_you_mean
+from scanbench.check.names import Names, Space, qualified
 from scanbench.check.program import Const, Expr
+from scanbench.check.specs import (
+    EnumerationValues,
+    enumeration,
+    is_relative,
+    place_bounds,
+    place_edge,
+    place_relative,
+    reference,
+    structure,
+    subrange,
+)
 from scanbench.check.types import (
+    ABBREVIATIONS,
     ELEMENTARY,
     MAX_STRING,
+    SLOT_BYTES,
     ArrayType,
     Elementary,
     Kind,
     Member,
+    OpenArray,
     Record,
+    Reference,
     Section,
     StringType,
     Type,
@@ -27,12 +45,15 @@ from scanbench.syntax import tree
 
 DEFAULT_STRING = 80
 MAX_BYTES = 64 * 1024 * 1024
-UNSUPPORTED_TYPES = frozenset(
-    "LTIME DATE LDATE TIME_OF_DAY TOD LTOD DATE_AND_TIME DT LDT CHAR WCHAR WSTRING ANY".split()
-)
+TYPE_NAMES = {**ELEMENTARY, **{name: ABBREVIATIONS[name] for name in ("TOD", "LTOD", "DT", "LDT")}}
+
+CALLED = ("function", "method", "get", "set")
+"""POUs whose variables all live in a frame."""
 
 ConstantOf = Callable[[tree.Expression, Type | None], Const]
 """Evaluates a constant expression, or rejects."""
+Inherit = Callable[[Record, tree.PouDeclaration], None]
+"""Gives the record of a block what it has from its base, before its own members."""
 
 
 @dataclass(slots=True)
@@ -46,7 +67,8 @@ class Declarations:
     constant_of: ConstantOf
     type_trees: dict[str, tree.TypeDeclaration] = field(default_factory=dict)
     block_trees: dict[str, tree.PouDeclaration] = field(default_factory=dict)
-    """PROGRAM and FUNCTION_BLOCK declarations by upper-case name."""
+    """PROGRAM, FUNCTION_BLOCK, CLASS and INTERFACE declarations by upper-case name."""
+    inherit: Inherit = field(default=lambda record, declaration: None)
     types: dict[str, Type] = field(default_factory=dict)
     defaults: dict[str, bytes] = field(default_factory=dict)
     """Start values of directly derived types that state one."""
@@ -56,7 +78,19 @@ class Declarations:
     """(owner, name) in upper case of variables whose declaration is wrong: reported once, not at every use."""
     owners: list[Record] = field(default_factory=list)
     """What is being declared: constants declared above can stand in bounds and initial values."""
+    incomplete: bool = False
+    """Whether any variable waits for its address."""
+    names: Names = field(init=False)
+    values: EnumerationValues = field(init=False)
+    shells: dict[str, Record] = field(default_factory=dict)
+    """Structures and blocks that were asked for, complete or not: a reference may refer to what is still open."""
+    _pending: list[str] = field(default_factory=list)
+    """Keys of shells that wait to be completed."""
     _open: list[str] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.names = Names(self.report)
+        self.values = EnumerationValues(self)
 
     # ---- types ------------------------------------------------------------------------------------------
 
@@ -64,55 +98,122 @@ class Declarations:
         match spec:
             case tree.NamedType(name, span):
                 return self.named(name, span)
-            case tree.StringSpec(length, span):
-                return self._string(length, span)
+            case tree.StringSpec(length, span, wide):
+                return self._string(length, span, 2 if wide else 1)
             case tree.ArraySpec():
                 return self._array(spec)
-            case tree.UnsupportedSpec():
-                raise Rejected  # reported by the parser
             case tree.StructSpec():
-                return self.struct(f"STRUCT of line {spec.span.line}", spec)
+                return structure(self, f"STRUCT of line {spec.span.line}", spec)
+            case tree.OpenArraySpec(dimensions, element):
+                return OpenArray(dimensions, self._element(element))
+            case tree.EnumSpec():
+                made = enumeration(self, spec, "")
+                self.values.add_inline(self.owners[-1].name if self.owners else "GLOBAL", made)
+                return made
+            case tree.SubrangeSpec():
+                return subrange(self, spec, "")
+            case tree.ReferenceSpec():
+                return reference(self, spec)
 
     def named(self, name: str, span: Span) -> Type:
         key = name.upper()
-        if key in ELEMENTARY:
-            return ELEMENTARY[key]
+        if key in TYPE_NAMES:
+            return TYPE_NAMES[key]
+        key = self.find_type(name, span) or key
         if key in self.types:
             return self.types[key]
         if key in self._open:
             path = " -> ".join([*self._open[self._open.index(key) :], key])
             raise self.report.reject("D003", f"`{name}` contains itself ({path}), so it has no size.", span)
-        if key in UNSUPPORTED_TYPES:
-            raise self.report.reject("X001", f"The type {key} is not supported yet.", span)
         declaration, block = self.type_trees.get(key), self.block_trees.get(key)
         if declaration is None and block is None:
-            hint = did_you_mean(name, [*ELEMENTARY, *self.type_trees, *self.block_trees])
+            hint = did_you_mean(name, [*TYPE_NAMES, *self.type_trees, *self.block_trees])
             raise self.report.reject("D002", f"There is no type `{name}`.{hint}", span)
+        origin = declaration or block
+        assert origin is not None
         self._open.append(key)
         try:
-            made = self._declared(declaration) if declaration else self.block(block) if block else None
+            with self.names.within(Space(origin.namespace, origin.using)):
+                made = self._declared(declaration) if declaration else self._block_type(block) if block else None
         finally:
             self._open.pop()
         assert made is not None
         self.types[key] = made
+        self._complete()
         return made
+
+    def _complete(self) -> None:
+        """Makes what references referred to while it could not be made."""
+        while self._pending and not self._open:
+            key = self._pending.pop()
+            origin = self.type_trees.get(key) or self.block_trees.get(key)
+            if origin is not None and key not in self.types:
+                with suppress(Rejected):
+                    self.named(key, origin.span)
+
+    def referred(self, spec: tree.TypeSpec) -> Type:
+        """A type that something refers to: while types are open, one that need not be complete."""
+        if not isinstance(spec, tree.NamedType) or not self._open:
+            return self.type_of(spec)
+        key = self.find_type(spec.name, spec.span) or spec.name.upper()
+        declaration, block = self.type_trees.get(key), self.block_trees.get(key)
+        if key in self.types or (block is not None and block.kind == "interface"):
+            return self.named(spec.name, spec.span)
+        if declaration is not None and isinstance(declaration.type, tree.StructSpec):
+            kind, name = Kind.UNION if declaration.type.union else Kind.STRUCT, declaration.name
+        elif block is not None:
+            kind, name = Kind.BLOCK, block.name
+        else:
+            return self.named(spec.name, spec.span)
+        self._pending.append(key)
+        origin = declaration or block
+        assert origin is not None
+        return self.shells.get(key) or self.record(qualified(origin.namespace, name), kind)
+
+    def record(self, name: str, kind: Kind) -> Record:
+        """The record of this name, which may be known to references before its members are."""
+        made = self.shells.get(name.upper())
+        if made is None or made.members or name.startswith("STRUCT of "):
+            made = self.shells[name.upper()] = Record(name, kind)
+        return made
+
+    def find_type(self, name: str, span: Span) -> str | None:
+        """The key of the type or block that this name means here."""
+        return self.names.find(name, ChainMap(self.type_trees, self.block_trees), span)
 
     def _declared(self, declaration: tree.TypeDeclaration) -> Type:
-        if isinstance(declaration.type, tree.StructSpec):
-            made: Type = self.struct(declaration.name, declaration.type)
-        else:
-            made = self.type_of(declaration.type)
+        name = qualified(declaration.namespace, declaration.name)
+        match declaration.type:
+            case tree.StructSpec() as spec:
+                made: Type = structure(self, name, spec)
+            case tree.EnumSpec() as spec:
+                made = enumeration(self, spec, name)
+            case tree.SubrangeSpec() as spec:
+                made = subrange(self, spec, name)
+            case spec:
+                made = self.type_of(spec)
         if declaration.initial is not None:
-            self.defaults[declaration.name.upper()] = self.initial(declaration.initial, made)
+            self.defaults[name.upper()] = self.initial(declaration.initial, made)
+        else:
+            default = self._default(declaration.type, made)
+            if default != initial_of(made):
+                self.defaults[name.upper()] = default
         return made
 
-    def _string(self, length: tree.Expression | None, span: Span) -> Type:
+    def _string(self, length: tree.Expression | None, span: Span, width: int) -> Type:
         if length is None:
-            return StringType(DEFAULT_STRING)
+            return StringType(DEFAULT_STRING, width)
         value = self.constant_of(length, None).value
         if not isinstance(value, int) or not 1 <= value <= MAX_STRING:
             raise self.report.reject("D006", f"A STRING holds 1 to {MAX_STRING} characters, not {value!r}.", span)
-        return StringType(value)
+        return StringType(value, width)
+
+    def _element(self, spec: tree.TypeSpec) -> Type:
+        """The type of an array's elements."""
+        made = self.type_of(spec)
+        if isinstance(made, OpenArray):
+            raise self.report.reject("D008", "ARRAY[*] cannot be the element of an array; add dimensions.", spec.span)
+        return made
 
     def _array(self, spec: tree.ArraySpec) -> Type:
         bounds = []
@@ -127,21 +228,22 @@ class Declarations:
                     "D006", f"The lower bound {low} is above the upper bound {high}.", low_tree.span
                 )
             bounds.append((low, high))
-        made = ArrayType(tuple(bounds), self.type_of(spec.element))
+        made = ArrayType(tuple(bounds), self._element(spec.element))
         if made.size > MAX_BYTES:
             raise self.report.reject("D012", f"This array takes {made.size} bytes; at most {MAX_BYTES}.", spec.span)
         return made
 
-    def struct(self, name: str, spec: tree.StructSpec) -> Record:
-        record = Record(name, Kind.STRUCT)
-        for variable in spec.members:
-            self.declare(record, variable, Section.MEMBER, constant=False)
-        record.close()
+    def _block_type(self, declaration: tree.PouDeclaration) -> Type:
+        record = self.block(declaration)
+        if record.kind is Kind.INTERFACE:
+            return Reference(record.name, Kind.REF, SLOT_BYTES, record)
         return record
 
     def block(self, declaration: tree.PouDeclaration) -> Record:
         """The variables of an instance of a FUNCTION_BLOCK or PROGRAM; temporaries are in its frame."""
-        record = Record(declaration.name, Kind.BLOCK)
+        role = Kind.INTERFACE if declaration.kind == "interface" else Kind.BLOCK
+        record = self.record(qualified(declaration.namespace, declaration.name), role)
+        self.inherit(record, declaration)
         for section in declaration.sections:
             kind = Section(section.keyword)
             if kind in (Section.TEMP, Section.EXTERNAL):
@@ -153,21 +255,32 @@ class Declarations:
                 self.report.error("D008", "A PROGRAM has no VAR_IN_OUT here; use VAR_EXTERNAL.", section.span)
                 continue
             for variable in section.variables:
-                self.declare(record, variable, kind, "CONSTANT" in section.qualifiers)
+                member = self.declare(record, variable, kind, "CONSTANT" in section.qualifiers)
+                if member is not None:
+                    member.access = section.access if kind is Section.VAR else "PUBLIC"
+                    member.retain = bool({"RETAIN", "PERSISTENT"} & set(section.qualifiers))
         record.close()
         return record
 
-    def frame(self, declaration: tree.PouDeclaration, instance: Record) -> Record:
-        """Temporaries of a block; all variables of a FUNCTION, with the result under the function's name."""
-        self.owners.append(instance)
+    def frame(self, declaration: tree.PouDeclaration, instance: Record, this: Record | None = None) -> Record:
+        """Temporaries of a block; all variables of a FUNCTION, with the result under the function's name.
+
+        A method begins with the in-out THIS; its variables may hide those of the instance.
+        """
+        self.owners.append(this or instance)
         try:
-            return self._frame(declaration, instance)
+            return self._frame(declaration, instance, this)
         finally:
             self.owners.pop()
 
-    def _frame(self, declaration: tree.PouDeclaration, instance: Record) -> Record:
-        record = Record(declaration.name, Kind.STRUCT)
-        function = declaration.kind == "function"
+    def _frame(self, declaration: tree.PouDeclaration, instance: Record, this: Record | None) -> Record:
+        function = declaration.kind in CALLED
+        if this is None:
+            record = Record(qualified(declaration.namespace, declaration.name), Kind.STRUCT)
+        else:
+            part = f".{declaration.kind}" if declaration.kind in ("get", "set") else ""
+            record = Record(f"{this.name}.{declaration.name}{part}", Kind.STRUCT)
+            record.place(Member("THIS", this, Section.IN_OUT, declaration.span, hidden=True))
         for section in declaration.sections:
             kind = Section(section.keyword)
             if kind is Section.EXTERNAL or (not function and kind is not Section.TEMP):
@@ -180,7 +293,9 @@ class Declarations:
                     self.report.error("D008", "A temporary variable has no address.", variable.span)
                     continue
                 if variable.name.upper() in instance.members or (
-                    function and variable.name.upper() == declaration.name.upper()
+                    function
+                    and declaration.kind != "set"
+                    and variable.name.upper() == declaration.name.upper()
                 ):
                     self.report.error("D001", f"`{variable.name}` is declared already; rename one.", variable.span)
                     continue
@@ -190,7 +305,7 @@ class Declarations:
                     self.report.error(
                         "D008", f"An instance of {member.type.name} must keep its state; not in a {what}.", member.span
                     )
-        if function and declaration.result is not None:
+        if function and declaration.kind != "set" and declaration.result is not None:
             try:
                 result = Member(declaration.name, self.type_of(declaration.result), Section.RESULT, declaration.span)
                 result.initial = self._default(declaration.result, result.type)
@@ -204,6 +319,8 @@ class Declarations:
 
     def declare(self, owner: Record, variable: tree.Variable, section: Section, constant: bool) -> Member | None:
         """Adds the variable to its owner, unless its declaration is wrong."""
+        if variable.arguments and variable.initial is None:
+            variable = _with_arguments(variable)
         self.owners.append(owner)
         try:
             return self._declare(owner, variable, section, constant)
@@ -219,7 +336,9 @@ class Declarations:
             )
             return None
         try:
-            made = self.type_of(variable.type)
+            made = self.referred(variable.type) if section is Section.IN_OUT else self.type_of(variable.type)
+            if isinstance(made, OpenArray) and section is not Section.IN_OUT:
+                raise self.report.reject("D008", "ARRAY[*] is for VAR_IN_OUT; state the bounds here.", variable.span)
         except Rejected:
             self.broken.add((owner.name.upper(), key))
             return None
@@ -231,6 +350,8 @@ class Declarations:
                 "D002", f"`{made.name}` is a PROGRAM; only FUNCTION_BLOCKs have instances.", variable.span
             )
             return None
+        if variable.address is not None and variable.address.endswith("*"):
+            return self._incomplete(owner, variable, section, made)
         member = Member(variable.name, made, section, variable.span, constant=constant)
         try:
             if section is Section.IN_OUT:
@@ -240,23 +361,57 @@ class Declarations:
                 member.initial = self.initial(variable.initial, made)
             else:
                 member.initial = self._default(variable.type, made)
-            if variable.address is not None:
+            if variable.address is not None and not (section is Section.MEMBER and is_relative(variable.address)):
                 self._locate(member, variable)
         except Rejected:
             pass
-        owner.place(member)
+        self._place(owner, member, variable)
         if owner.size > MAX_BYTES:
             self.report.error("D012", f"`{owner.name}` takes more than {MAX_BYTES} bytes.", variable.span)
             owner.members.pop(key)
         return member
+
+    def _incomplete(self, owner: Record, variable: tree.Variable, section: Section, made: Type) -> Member | None:
+        """`AT %I*`: a reference that VAR_CONFIG fills for each instance."""
+        span = variable.address_span or variable.span
+        if section not in (Section.VAR, Section.GLOBAL) or has_instance(made) or isinstance(made, OpenArray):
+            self.report.error("D005", "`AT %I*` is for elementary data in VAR and VAR_GLOBAL.", span)
+            return None
+        if variable.initial is not None:
+            self.report.error("D004", "Give this its initial value in VAR_CONFIG, with its address.", span)
+        type = Reference(f"REFERENCE TO {made.name}", Kind.REF, SLOT_BYTES, made, automatic=True)
+        member = Member(variable.name, type, section, variable.span, incomplete=(variable.address or "").upper())
+        self.incomplete = True
+        owner.place(member)
+        return member
+
+    def _place(self, owner: Record, member: Member, variable: tree.Variable) -> None:
+        if variable.address is not None and member.section is Section.MEMBER and is_relative(variable.address):
+            try:
+                place_relative(self, owner, member, variable.address, variable.address_span or variable.span)
+            except Rejected:
+                owner.place(member)
+            return
+        owner.place(member)
+        if isinstance(member.type, OpenArray):
+            place_bounds(owner, member)
+        if variable.edge:
+            if member.section is not Section.INPUT or member.type != ELEMENTARY["BOOL"]:
+                self.report.error("D008", f"{variable.edge}_EDGE is for BOOL in VAR_INPUT.", variable.span)
+            else:
+                place_edge(owner, member, variable.edge)
 
     def _is_program(self, record: Record) -> bool:
         declaration = self.block_trees.get(record.name.upper())
         return record.kind is Kind.BLOCK and declaration is not None and declaration.kind == "program"
 
     def _default(self, spec: tree.TypeSpec, made: Type) -> bytes:
-        if isinstance(spec, tree.NamedType) and spec.name.upper() in self.defaults:
-            return self.defaults[spec.name.upper()]
+        if isinstance(spec, tree.NamedType) and self.defaults:
+            key = self.find_type(spec.name, spec.span)
+            if key in self.defaults:
+                return self.defaults[key]
+        if isinstance(spec, tree.ArraySpec) and isinstance(made, ArrayType) and self.defaults:
+            return self._default(spec.element, made.element) * made.count
         return initial_of(made)
 
     def _locate(self, member: Member, variable: tree.Variable) -> None:
@@ -273,7 +428,7 @@ class Declarations:
     def place_of(self, address: str, type: Type, span: Span) -> tuple[int, int | None]:
         """Offset in the image, and bit, of an address of the model for a variable of this type."""
         if address.endswith("*"):
-            raise self.report.reject("X001", "Incomplete addresses (`AT %I*`) are not supported yet.", span)
+            raise self.report.reject("D005", "A whole address is needed here; only VAR and VAR_GLOBAL wait for one.", span)
         location = self.model.locate(address)
         if location is None:
             why = self.model.why_not(address)
@@ -338,6 +493,14 @@ class Declarations:
         return bytes(image)
 
 
+def _with_arguments(variable: tree.Variable) -> tree.Variable:
+    """`inst : FB(a := 1)` means `inst : FB := (a := 1)`."""
+    members = tuple(
+        (each.name or "", each.value, each.span) for each in variable.arguments if each.value is not None
+    )
+    return replace(variable, initial=tree.StructInit(members, variable.span))
+
+
 def _has_bool(type: Type) -> bool:
     if isinstance(type, ArrayType):
         return _has_bool(type.element)
@@ -352,8 +515,8 @@ def encode(type: Elementary | StringType, constant: Expr) -> bytes:
     value = constant.value
     if isinstance(type, StringType):
         assert isinstance(value, bytes)
-        text = value[: type.capacity]
-        return (len(text).to_bytes(2, "little") + text).ljust(type.size, b"\0")
+        text = value[: type.capacity * type.width]
+        return ((len(text) // type.width).to_bytes(2, "little") + text).ljust(type.size, b"\0")
     if type.kind is Kind.REAL:
         return struct.pack("<f" if type.size == 4 else "<d", fold.round_real(float(value), type))
     return int(value).to_bytes(type.size, "little", signed=type.signed)

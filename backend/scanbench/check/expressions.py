@@ -1,72 +1,38 @@
 """Expressions -> checked expressions: names to places, operators to typed operations, conversions written out."""
 
-import math
-from abc import ABC, abstractmethod
-from dataclasses import replace
-
 from scanbench.check import fold
-from scanbench.check.context import Rejected, Report, did_you_mean
-from scanbench.check.declare import Declarations
-from scanbench.check.program import (
-    Base,
-    Const,
-    Expr,
-    Index,
-    Intrinsic,
-    Load,
-    Place,
-    Pou,
-    TrapKind,
-)
-from scanbench.check.scopes import Pous, Scope, decode, place_of
+from scanbench.check.operators import COMPARISONS, NUMERIC, OperatorChecker, conversion_hint
+from scanbench.check.places import INSTANCE
+from scanbench.check.program import Const, Expr, Intrinsic, Load, Place
+from scanbench.check.scopes import SYSTEM, decode
+from scanbench.check.shown import shown
 from scanbench.check.types import (
     BOOL,
-    ELEMENTARY,
+    CHAR,
     LINT,
-    LREAL,
-    TIME,
-    ULINT,
-    ArrayType,
+    LWORD,
+    NULL,
+    WCHAR,
     Elementary,
+    Enumeration,
     Kind,
     Member,
-    Record,
+    Reference,
     Section,
     StringType,
+    Subrange,
     Type,
+    base_of,
 )
-from scanbench.check.untyped import ANY_INT, ANY_REAL, bounds, common, is_untyped, settle, widens
+from scanbench.check.untyped import is_untyped, settle, widens
 from scanbench.problems import Span
 from scanbench.syntax import tree
 
-ORDER = ("lt", "le", "gt", "ge")
-SIGNS = {
-    "add": "+", "sub": "-", "mul": "*", "div": "/", "mod": "MOD", "pow": "**", "and": "AND", "or": "OR", "xor": "XOR",
-    "eq": "=", "ne": "<>", "lt": "<", "le": "<=", "gt": ">", "ge": ">=",
-}  # fmt: skip
-NUMERIC = (Kind.INT, Kind.UINT, Kind.REAL)
-WIDTHS = {
-    "X": BOOL,
-    "B": ELEMENTARY["BYTE"],
-    "W": ELEMENTARY["WORD"],
-    "D": ELEMENTARY["DWORD"],
-    "L": ELEMENTARY["LWORD"],
-}
+FORMS = ("REF", "ADR", "SIZEOF", "LOWER_BOUND", "UPPER_BOUND", "EN_CHECK", "SUBRANGE_ERROR")
+"""Calls whose argument is not a value: a variable, an array, a type."""
 
 
-class ExpressionChecker(ABC):
-    """Checks the expressions of one POU. Every method reports and raises `Rejected` where it cannot go on."""
-
-    def __init__(self, report: Report, declarations: Declarations, pous: Pous, scope: Scope, pou: Pou | None) -> None:
-        self.report = report
-        self.declarations = declarations
-        self.pous = pous
-        self.scope = scope
-        self.pou = pou
-
-    def trap(self, kind: TrapKind, span: Span, message: str) -> int:
-        return self.report.trap(kind, span, self.scope.pou, message)
-
+class ExpressionChecker(OperatorChecker):
     # ---- what stands where a value of some type is asked for --------------------------------------------
 
     def value(self, node: tree.Expression) -> Expr:
@@ -78,8 +44,19 @@ class ExpressionChecker(ABC):
         return self.coerce(self.expr(node, type), type, node.span, what)
 
     def coerce(self, expr: Expr, type: Type, span: Span, what: str) -> Expr:
-        if isinstance(expr, Const) and isinstance(type, Elementary) and is_untyped(expr):
-            return self._literal_as(expr, type, span, what)
+        expr = self.plain(expr, span)
+        if isinstance(type, Subrange):
+            inner = self.coerce(expr, base_of(type), span, what)
+            return self.into(inner, type, span, what.strip("`"))
+        if isinstance(type, Reference):
+            reference = self.as_reference(expr, type, span)
+            if reference is not None:
+                return reference
+        elif isinstance(expr, Const) and isinstance(type, Elementary) and is_untyped(expr):
+            return self.literal_as(expr, type, span, what)
+        text = self.as_text(expr, type, span)
+        if text is not None:
+            return text
         source = expr.type
         if source == type:
             return expr
@@ -88,24 +65,8 @@ class ExpressionChecker(ABC):
                 return expr
             assert isinstance(type, Elementary)
             return fold.convert(type, expr)
-        shown = "nothing" if source is None else str(settle(expr).type)
-        raise self.report.reject("T002", f"{what} is {type}, but this is {shown}.{_conversion(source, type)}", span)
-
-    def _literal_as(self, expr: Const, type: Elementary, span: Span, what: str) -> Const:
-        value = expr.value
-        assert not isinstance(value, bytes)
-        if type.kind is Kind.REAL:
-            rounded = fold.round_real(float(value), type)
-            if math.isinf(rounded) and not math.isinf(value):
-                raise self.report.reject("S004", f"{value} does not fit {type}.", span)
-            return Const(type, rounded)
-        if expr.type == ANY_REAL or type.kind is Kind.TIME:
-            hint = " Write a duration, e.g. T#5s." if type.kind is Kind.TIME else f" Use TRUNC or LREAL_TO_{type}."
-            raise self.report.reject("T002", f"{what} is {type}, but this is the number {value}.{hint}", span)
-        low, high = bounds(type)
-        if not low <= int(value) <= high:
-            raise self.report.reject("S004", f"{value} does not fit {type} ({low} to {high}).", span)
-        return Const(type, int(value))
+        said = "nothing" if source is None else str(settle(expr).type)
+        raise self.report.reject("T002", f"{what} is {type}, but this is {said}.{_hint(source, type)}", span)
 
     def constant(self, node: tree.Expression, type: Type | None) -> Const:
         """A constant expression; of `type`, if one is asked for."""
@@ -117,71 +78,111 @@ class ExpressionChecker(ABC):
     # ---- expressions ------------------------------------------------------------------------------------
 
     def expr(self, node: tree.Expression, wanted: Type | None = None) -> Expr:
-        """The expression; literals may still be untyped. `wanted` helps a literal find its type."""
         match node:
             case tree.Literal():
-                return self._literal(node)
+                return self.literal(node, wanted)
             case tree.UnaryOp():
                 return self._unary(node, wanted)
             case tree.BinaryOp():
                 return self._binary(node, wanted)
             case tree.Call():
-                return self.call(node, wanted)
+                return self.form(node) or self.call(node, wanted)
+            case tree.TypedName(type_name, name, span):
+                return self.value_of_type(type_name, name, span)
+            case tree.Name(name, span) if name.upper() not in INSTANCE and self.scope.find(name) is None:
+                return self._unbound(node, name, wanted, span)
+            case tree.PartialAccess():
+                return self._part_value(node)
+            case tree.IndexOf():
+                return self._character_at(node) or self._read(node)
             case _:
                 return self._read(node)
 
-    @abstractmethod
-    def call(self, node: tree.Call, wanted: Type | None = None) -> Expr:
-        """A call for its value; see `CallChecker`."""
+    def form(self, node: tree.Call) -> Expr | None:
+        """One of `FORMS`, unless the user declared something of that name."""
+        if not isinstance(node.callee, tree.Name):
+            return None
+        name = node.callee.name.upper()
+        if name not in FORMS or name in self.pous.functions or self.scope.find(name) is not None:
+            return None
+        match name:
+            case "REF" | "ADR":
+                return self.reference_to(node, name)
+            case "SIZEOF":
+                return self.size_of(node)
+            case "LOWER_BOUND" | "UPPER_BOUND":
+                return self.bound_of(node, name == "UPPER_BOUND")
+        return self.explicit_check(node, name)
 
-    def _literal(self, node: tree.Literal) -> Const:
-        if node.type_name is not None:
-            return self._typed_literal(node, node.type_name.upper())
-        match node.kind:
-            case "int":
-                return self._in_64_bits(Const(ANY_INT, node.value), node.span)
-            case "real":
-                return Const(ANY_REAL, node.value)
-            case "time":
-                return Const(TIME, node.value)
-            case "bool":
-                return Const(BOOL, node.value)
-        assert isinstance(node.value, bytes)
-        return Const(StringType(max(len(node.value), 1)), node.value)
-
-    def _in_64_bits(self, expr: Const, span: Span) -> Const:
-        """Refuses an integer constant that no type can hold."""
-        if not bounds(LINT)[0] <= int(expr.value) <= bounds(ULINT)[1]:
-            raise self.report.reject("S004", f"{expr.value!r} does not fit any integer type.", span)
-        return expr
-
-    def _typed_literal(self, node: tree.Literal, name: str) -> Const:
-        if node.kind == "string" and name == "STRING":
-            assert isinstance(node.value, bytes)
-            return Const(StringType(max(len(node.value), 1)), node.value)
-        type = ELEMENTARY.get(name)
-        if type is None:
-            known = did_you_mean(name, ELEMENTARY)
-            raise self.report.reject("D002", f"There is no type `{name}` for a literal.{known}", node.span)
-        if node.kind == "bool" and type == BOOL:
-            return Const(BOOL, node.value)
-        if node.kind not in ("int", "real"):
-            raise self.report.reject("S004", f"This is not a value of {name}.", node.span)
-        return self._literal_as(
-            Const(ANY_INT if node.kind == "int" else ANY_REAL, node.value), type, node.span, "The literal"
-        )
+    def _unbound(self, node: tree.Name, name: str, wanted: Type | None, span: Span) -> Expr:
+        """A name that is no variable."""
+        if name.upper() == "NULL":
+            return Const(NULL, 0)
+        value = self.enumeration_value(name, wanted, span)
+        if value is not None:
+            return value
+        return self._read(node)
 
     def _read(self, node: tree.Expression) -> Expr:
+        if isinstance(node, tree.MemberOf):
+            value = self.qualified_value(node)
+            if value is not None:
+                return value
+        if isinstance(node, tree.MemberOf | tree.Name):
+            read = self.accessor(node)
+            if read is not None:
+                return read
         place, member = self.place(node)
-        if member is not None and member.constant and not place.indices and place.slot is None:
-            known = decode(place.type, member.initial) if place.type is member.type else None
-            if known is not None:
-                return known
-        return Load(place)
+        return self.known(place, member) or self.read(place, node.span, shown(node))
+
+    def known(self, place: Place, member: Member | None) -> Const | None:
+        """The value of a CONSTANT."""
+        if member is None or not member.constant or place.indices or place.slot or place.reference is not None:
+            return None
+        if member.section is Section.IN_OUT or member.home == SYSTEM.name or place.type is not member.type:
+            return None
+        return decode(place.type, member.initial)
+
+    def _part_value(self, node: tree.PartialAccess) -> Expr:
+        """A part of a variable is a place; of a value it is shifted out."""
+        if isinstance(node.owner, tree.Name | tree.MemberOf | tree.IndexOf | tree.DirectAddress | tree.Dereference):
+            place, member = self.place(node.owner)
+            whole = self.known(place, member)
+            if whole is None:
+                return Load(self.part(place, node.size, node.index, node.span))
+        else:
+            whole = None
+        value: Expr = whole if whole is not None else settle(self.expr(node.owner))
+        _, part = self.part_type(value.type, node.size, node.index, node.span)
+        bits = fold.convert(LWORD, value)
+        if isinstance(bits, Const) and isinstance(bits.value, int):
+            return Const(part, bits.value >> node.index * part.bits & (1 << part.bits) - 1)
+        shifted = Intrinsic("SHR", LWORD, (bits, Const(LINT, node.index * part.bits)))
+        if part == BOOL:
+            return fold.compare("ne", BOOL, fold.binary("and", LWORD, shifted, Const(LWORD, 1)), Const(LWORD, 0))
+        return fold.convert(part, shifted)
+
+    def _character_at(self, node: tree.IndexOf) -> Expr | None:
+        """`text[1]`: one character of a string."""
+        if len(node.indices) != 1 or not self._is_text(node.array):
+            return None
+        text = self.expr(node.array)
+        assert isinstance(text.type, StringType)
+        index = self._index_value(node.indices[0])
+        return Intrinsic("CHAR_AT", CHAR if text.type.width == 1 else WCHAR, (text, fold.convert(LINT, index)))
+
+    def _is_text(self, node: tree.Expression) -> bool:
+        found = self.scope.find(node.name) if isinstance(node, tree.Name) else None
+        return found is not None and isinstance(found[0].type, StringType)
+
+    # ---- operators --------------------------------------------------------------------------------------
 
     def _unary(self, node: tree.UnaryOp, wanted: Type | None) -> Expr:
         operand = self.expr(node.operand, wanted)
         type = operand.type
+        if isinstance(type, Enumeration):
+            type = base_of(type)
+            operand = fold.convert(type, operand)
         if node.op == "not":
             if isinstance(type, Elementary) and type.kind in (Kind.BOOL, Kind.BITS):
                 return fold.unary("not", type, operand)
@@ -195,235 +196,28 @@ class ExpressionChecker(ABC):
         raise self.report.reject("T002", f"A sign needs a number, not {type}.", node.operand.span)
 
     def _binary(self, node: tree.BinaryOp, wanted: Type | None) -> Expr:
-        if node.op in ("eq", "ne", *ORDER):
-            wanted = None
-        left, right = self.expr(node.left, wanted), self.expr(node.right, wanted)
+        if node.op in COMPARISONS:
+            left, right = self._compared(node)
+        else:
+            left, right = self.expr(node.left, wanted), self.expr(node.right, wanted)
         return self.operate(node.op, left, right, node.span, wanted)
 
-    def operate(self, op: str, left: Expr, right: Expr, span: Span, wanted: Type | None = None) -> Expr:
-        """`left op right`, both brought to one type."""
-        if isinstance(left.type, StringType) and isinstance(right.type, StringType) and op in ("eq", "ne", *ORDER):
-            return fold.compare(op, BOOL, left, right)
-        if TIME in (left.type, right.type) and op not in ("eq", "ne", *ORDER):
-            return self._time(op, left, right, span)
-        if op == "pow":
-            return self._power(left, right, span, wanted)
-        left, right, type = self._same(op, left, right, span)
-        if op in ("eq", "ne", *ORDER):
-            return fold.compare(op, BOOL, left, right)
-        if op in ("and", "or", "xor"):
-            fits = type.kind in (Kind.BOOL, Kind.BITS) or type == ANY_INT
-            need = "BOOL or bit strings"
-        else:
-            fits = type.kind in NUMERIC and not (op == "mod" and type.kind is Kind.REAL)
-            need = "integers" if op == "mod" else "numbers"
-        if not fits:
-            raise self.report.reject("T002", f"`{SIGNS[op]}` needs {need}, not {type}.{_unsigned(type)}", span)
-        return self._arithmetic(op, type, left, right, span)
-
-    def _arithmetic(self, op: str, type: Elementary, left: Expr, right: Expr, span: Span) -> Expr:
-        trap = 0
-        if op == "div" and type.kind is not Kind.REAL:
-            if isinstance(right, Const) and right.value == 0:
-                raise self.report.reject("S004", "This divides by the constant zero.", span)
-            if not isinstance(right, Const):
-                trap = self.trap(TrapKind.DIVISION, span, "division by zero")
-        made = fold.binary(op, type, left, right, trap)
-        return self._in_64_bits(made, span) if isinstance(made, Const) and type == ANY_INT else made
-
-    def _same(self, op: str, left: Expr, right: Expr, span: Span) -> tuple[Expr, Expr, Elementary]:
-        """Both operands in their common type."""
-        a, b = left.type, right.type
-        if not isinstance(a, Elementary) or not isinstance(b, Elementary):
-            both = f"{settle(left).type} and {settle(right).type}"
-            raise self.report.reject("T002", f"`{SIGNS[op]}` cannot join {both}.", span)
-        if is_untyped(left) and is_untyped(right):
-            type = ANY_REAL if ANY_REAL in (a, b) else ANY_INT
-            return Const(type, _plain(left)), Const(type, _plain(right)), type
-        if is_untyped(left):
-            left, a = self._beside(left, b, span), b
-        elif is_untyped(right):
-            right, b = self._beside(right, a, span), a
-        assert isinstance(left.type, Elementary)
-        assert isinstance(right.type, Elementary)
-        type_or_none = common(left.type, right.type)
-        if type_or_none is None:
-            hint = _conversion(right.type, left.type)
-            raise self.report.reject("T002", f"`{SIGNS[op]}` cannot join {left.type} and {right.type}.{hint}", span)
-        return fold.convert(type_or_none, left), fold.convert(type_or_none, right), type_or_none
-
-    def _beside(self, literal: Expr, type: Elementary, span: Span) -> Expr:
-        """An untyped literal beside an operand of `type`: that type, or a larger one where it does not fit."""
-        assert isinstance(literal, Const)
-        if literal.type == ANY_INT and type.kind in (Kind.INT, Kind.UINT):
-            low, high = bounds(type)
-            if not low <= int(literal.value) <= high:
-                return settle(literal)
-        if literal.type == ANY_REAL and type.kind in (Kind.INT, Kind.UINT):
-            return Const(LREAL, literal.value)
-        return self._literal_as(literal, type, span, "The other operand")
-
-    def _time(self, op: str, left: Expr, right: Expr, span: Span) -> Expr:
-        if op in ("add", "sub") and left.type == TIME and right.type == TIME:
-            return fold.binary(op, TIME, left, right)
-        if left.type == TIME and op in ("mul", "div"):
-            factor = settle(right)
-            if isinstance(factor.type, Elementary) and factor.type.kind in (Kind.INT, Kind.UINT):
-                return self._arithmetic(op, TIME, left, fold.convert(TIME, factor), span)
-            if isinstance(factor.type, Elementary) and factor.type.kind is Kind.REAL:
-                scaled = fold.binary(op, LREAL, fold.convert(LREAL, left), fold.convert(LREAL, factor))
-                return fold.convert(TIME, scaled)
-        both = f"{settle(left).type} and {settle(right).type}"
-        raise self.report.reject(
-            "T002", f"`{SIGNS[op]}` cannot join {both}; a TIME can be added to a TIME, or scaled by a number.", span
-        )
-
-    def _literal_as_real(self, literal: Expr, type: Elementary) -> Expr:
-        return Const(type, fold.round_real(float(_plain(literal)), type))
-
-    def _power(self, left: Expr, right: Expr, span: Span, wanted: Type | None) -> Expr:
-        if is_untyped(left) and isinstance(wanted, Elementary) and wanted.kind is Kind.REAL:
-            left = self._literal_as_real(left, wanted)
-        left, right = settle(left), settle(right)
-        types = (left.type, right.type)
-        if not all(isinstance(type, Elementary) and type.kind in NUMERIC for type in types):
-            raise self.report.reject("T002", f"`**` needs numbers, not {types[0]} and {types[1]}.", span)
-        type = ELEMENTARY["REAL"] if left.type == ELEMENTARY["REAL"] else LREAL
-        return Intrinsic("EXPT", type, (fold.convert(type, left), fold.convert(type, right)))
-
-    # ---- places -----------------------------------------------------------------------------------------
-
-    def place(self, node: tree.Expression) -> tuple[Place, Member | None]:
-        """Where the variable lives, and the declared member it is (or is inside of)."""
-        match node:
-            case tree.Name(name, span):
-                return self._named(name, span)
-            case tree.MemberOf():
-                return self._member(node)
-            case tree.IndexOf():
-                return self._indexed(node)
-            case tree.DirectAddress(text, span):
-                type = self._width(text)
-                offset, bit = self.declarations.place_of(text, type, span)
-                return Place(type, Base.IMAGE, offset, bit=bit, variable="@"), None
-        raise self.report.reject("T010", "A variable is needed here.", node.span)
-
-    def _width(self, text: str) -> Elementary:
-        letters = "".join(char for char in text[1:] if char.isalpha()).upper()
-        if len(letters) > 1 and letters[-1] in WIDTHS:
-            return WIDTHS[letters[-1]]
-        return BOOL if "." in text else ELEMENTARY["WORD"]
-
-    def _named(self, name: str, span: Span) -> tuple[Place, Member | None]:
-        found = self.scope.find(name)
-        if found is None:
-            if {(owner, name.upper()) for owner in (self.scope.pou.upper(), "GLOBAL")} & self.declarations.broken:
-                raise Rejected
-            if name.upper() in self.pous.functions:
-                raise self.report.reject("T010", f"`{name}` is a FUNCTION; call it with `{name}(...)`.", span)
-            if name.upper() in self.declarations.block_trees:
-                raise self.report.reject("T010", f"`{name}` is a type; declare an instance of it in VAR.", span)
-            hint = did_you_mean(name, [*self.scope.names(), *(pou.name for pou in self.pous.functions.values())])
-            raise self.report.reject("T001", f"`{name}` is not declared.{hint}", span)
-        member, base, owner = found
-        null = 0
-        if member.section is Section.IN_OUT:
-            null = self.trap(TrapKind.NULL, span, f"the in-out {member.name} is not connected")
-        return place_of(member, base, owner, null), member
-
-    def _member(self, node: tree.MemberOf) -> tuple[Place, Member | None]:
-        place, outer = self.place(node.owner)
-        record = place.type
-        if not isinstance(record, Record):
-            raise self.report.reject("T010", f"{record} has no members.", node.span)
-        member = record.members.get(node.name.upper())
-        if member is None:
-            hint = did_you_mean(node.name, [each.name for each in record.members.values()])
-            raise self.report.reject("T001", f"`{record.name}` has no member `{node.name}`.{hint}", node.span)
-        if record.kind is Kind.BLOCK and member.section not in (Section.INPUT, Section.OUTPUT):
-            what = "an in-out" if member.section is Section.IN_OUT else "internal"
-            raise self.report.reject("T010", f"`{member.name}` is {what} of {record.name}; only its inputs and outputs "
-                                     "can be used from outside.", node.span)  # fmt: skip
-        if member.located:
-            return Place(member.type, Base.IMAGE, member.offset, bit=member.bit, variable="@"), member
-        free = place.slot is not None or place.variable.startswith("@")
-        variable = place.variable if free else f"{record.name}.{member.name}".upper()
-        inner = replace(place, type=member.type, offset=place.offset + member.offset, variable=variable)
-        keep = outer is not None and (outer.constant or record.kind is Kind.STRUCT)
-        return inner, outer if keep else member
-
-    def _indexed(self, node: tree.IndexOf) -> tuple[Place, Member | None]:
-        place, member = self.place(node.array)
-        type, indices = place.type, list(node.indices)
-        while indices:
-            if not isinstance(type, ArrayType):
-                raise self.report.reject("T010", f"{type} is not an array and has no index.", node.span)
-            count = len(type.bounds)
-            if len(indices) < count:
-                raise self.report.reject("T010", f"{type} needs {count} indices, not {len(indices)}.", node.span)
-            for dimension, index in enumerate(indices[:count]):
-                place = self._index(place, type, dimension, index)
-            type, indices = type.element, indices[count:]
-        return replace(place, type=type), member
-
-    def _index(self, place: Place, type: ArrayType, dimension: int, node: tree.Expression) -> Place:
-        low, high = type.bounds[dimension]
-        stride = type.stride(dimension)
-        index = settle(self.expr(node))
-        if not isinstance(index.type, Elementary) or index.type.kind not in (Kind.INT, Kind.UINT):
-            raise self.report.reject("T002", f"An index is an integer, not {index.type}.", node.span)
-        if isinstance(index, Const):
-            number = int(index.value)
-            if not low <= number <= high:
-                raise self.report.reject("T012", f"Index {number} is outside of {low}..{high}.", node.span)
-            return replace(place, offset=place.offset + (number - low) * stride)
-        trap = self.trap(TrapKind.BOUNDS, node.span, f"index outside of {low}..{high}")
-        return replace(place, indices=(*place.indices, Index(index, low, high, stride, trap)))
-
-    def target(self, node: tree.Expression) -> Place:
-        """A place that may be written."""
-        place, member = self.place(node)
-        if member is not None:
-            if member.constant:
-                raise self.report.reject("T003", f"`{member.name}` is a CONSTANT and cannot be assigned.", node.span)
-            owner = self.scope.find(member.name)
-            own = owner is not None and owner[0] is member
-            if member.section is Section.INPUT and own and self.scope.instance is not None:
-                self.report.warn("W001", f"`{member.name}` is an input; the next call overwrites this.", node.span)
-            if member.section is Section.OUTPUT and not own:
-                raise self.report.reject("T003", f"`{member.name}` is an output; only its block writes it.", node.span)
-        self.writable(place, node.span)
-        return place
-
-    def writable(self, place: Place, span: Span) -> None:
-        """Refuses memory that the model protects from the program."""
-        if place.variable != "@":
-            return
-        model = self.declarations.model
-        for area in model.areas:
-            start = self.declarations.areas[area.name]
-            if start <= place.offset < start + area.size:
-                word = (place.offset - start) // 2
-                if area.access(word, "program") != "write":
-                    where = model.format(area, place.offset - start, place.bit, 1 if place.bit is not None else 16)
-                    raise self.report.reject(
-                        "T011", f"{where} is read-only for the program on a {model.name}; it can only be read.", span
-                    )
+    def _compared(self, node: tree.BinaryOp) -> tuple[Expr, Expr]:
+        """Both sides; the name of an enumeration's value may need to know what it is compared with."""
+        if self.is_value_name(node.left):
+            right = self.expr(node.right)
+            return self.expr(node.left, right.type), right
+        left = self.expr(node.left)
+        hint = left.type if isinstance(left.type, Enumeration) else None
+        return left, self.expr(node.right, hint)
 
 
-def _plain(expr: Expr) -> int | float:
-    assert isinstance(expr, Const)
-    assert not isinstance(expr.value, bytes)
-    return expr.value
-
-
-def _conversion(source: Type | None, target: Type) -> str:
-    names = ("STRING" if isinstance(type, StringType) else str(type) for type in (source, target))
-    first, second = names
-    known = {*ELEMENTARY, "STRING"}
-    return f" Convert it with {first}_TO_{second}." if {first, second} <= known else ""
-
-
-def _unsigned(type: Elementary) -> str:
-    names = {1: "USINT", 2: "UINT", 4: "UDINT", 8: "ULINT"}
-    return f" Convert it with {type}_TO_{names[type.size]}." if type.kind is Kind.BITS else ""
+def _hint(source: Type | None, target: Type) -> str:
+    """What to do about a value that does not fit."""
+    if isinstance(target, Enumeration) and target.values:
+        return f" Write one of its values, e.g. {target.values[0][0]}."
+    if isinstance(target, Reference):
+        return " Write REF(variable)."
+    if isinstance(source, Reference) and source.target == target:
+        return " Dereference it with `^`."
+    return conversion_hint(source, target)

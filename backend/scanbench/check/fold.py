@@ -2,6 +2,7 @@
 
 import math
 import struct
+from typing import TypeVar
 
 from scanbench.check.program import Binary, Compare, Const, Convert, Expr, Unary
 from scanbench.check.types import BOOL, Elementary, Kind, StringType
@@ -81,21 +82,35 @@ def _real(op: str, a: float, b: float) -> float | None:
 def compare(op: str, type: Elementary, left: Expr, right: Expr) -> Expr:
     if isinstance(left, Const) and isinstance(right, Const):
         a, b = left.value, right.value
-        if isinstance(a, bytes) == isinstance(b, bytes):
-            return Const(BOOL, int(_compared(op, a, b)))
+        if isinstance(a, bytes) and isinstance(b, bytes):
+            return Const(BOOL, int(_ordered(op, _codes(left.type, a), _codes(right.type, b))))
+        if not isinstance(a, bytes) and not isinstance(b, bytes):
+            return Const(BOOL, int(_ordered(op, a, b)))
     return Compare(op, type, left, right)
 
 
-def _compared(op: str, a: int | float | bytes, b: int | float | bytes) -> bool:
-    if op == "eq":
-        return a == b
-    if op == "ne":
-        return a != b
-    if isinstance(a, bytes) or isinstance(b, bytes):
-        assert isinstance(a, bytes)
-        assert isinstance(b, bytes)
-        return {"lt": a < b, "le": a <= b, "gt": a > b, "ge": a >= b}[op]
-    return {"lt": a < b, "le": a <= b, "gt": a > b, "ge": a >= b}[op]
+def _codes(type: Elementary | StringType, data: bytes) -> list[int]:
+    """Of each character."""
+    width = type.width if isinstance(type, StringType) else 1
+    return [int.from_bytes(data[at : at + width], "little") for at in range(0, len(data), width)]
+
+
+Ordered = TypeVar("Ordered", list[int], float)
+
+
+def _ordered(op: str, a: Ordered, b: Ordered) -> bool:
+    match op:
+        case "eq":
+            return a == b
+        case "ne":
+            return a != b
+        case "lt":
+            return a < b
+        case "le":
+            return a <= b
+        case "gt":
+            return a > b
+    return a >= b
 
 
 def convert(type: Elementary, operand: Expr) -> Expr:

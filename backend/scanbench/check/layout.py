@@ -2,7 +2,7 @@
 
     0     reserved, so that offset 0 refers to nothing
     8     header (the constants of `Layout`)
-    4096  areas of the model, globals, program instances, each aligned to 8
+    4096  areas of the model, globals, program instances, then `violations`, each aligned to 8
     ...   `state_size`: here the compared, hashed and recorded state ends; frames of temporaries follow
     size
 
@@ -36,8 +36,18 @@ class Layout:
     FORCES: ClassVar[int] = 48
     """The force table: 8 bytes an entry, see engines/engine.py."""
     FORCE_LIMIT: ClassVar[int] = 504
+    SUBRANGE_ERROR: ClassVar[int] = 4080
+    """BOOL `_SubrangeError`: a violation since the program or a tool last cleared it."""
+    SUBRANGE_COUNT: ClassVar[int] = 4084
+    """u32 `_SubrangeErrorCount`: violations so far, saturating."""
     HEADER_SIZE: ClassVar[int] = 4096
-    """48 + 504 * 8 = 4080 bytes are in use."""
+
+    VIOLATION_LIMIT: ClassVar[int] = 256
+    """Entries of the list of violations."""
+    VIOLATION_BYTES: ClassVar[int] = 48
+    """An entry: u32 site, u32 times (saturating), u64 byte offset of the instance whose body the check stands in (0 in
+    a FUNCTION), i64 or u64 last value, u64 first scan, u64 last scan, 8 bytes reserved. Entries are (site, instance)
+    pairs in the order in which they first happened."""
 
     model: Model
     areas: dict[str, int] = field(default_factory=dict)
@@ -46,6 +56,9 @@ class Layout:
     """Members with absolute offsets."""
     state_size: int = 0
     size: int = 0
+    violations: int = 0
+    """Offset of the list, 0 when the program has no checks: u32 entries in use, u32 violations dropped because the list
+    was full (saturating), then the entries."""
 
     def area_at(self, offset: int) -> tuple[Area, int] | None:
         """The area that holds this byte of the image, and the byte's number within it."""

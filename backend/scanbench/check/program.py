@@ -20,6 +20,15 @@ The contract of the two engines; no behaviour here. Semantics that both must kee
 - Loop budget: `Layout.BUDGET` (i64 in the image) counts down one a round of WHILE and REPEAT, and of FOR loops with
   `exits`; a FOR without `exits` takes all its rounds from it at once before the first (saturating at i64). Where it
   falls below zero the loop traps with kind `loop` (before the round's body).
+- CONTINUE goes on with the next round: FOR's count, WHILE's condition, REPEAT's UNTIL.
+- Types are seen by `kind` and `size` alone: an Enumeration, Subrange or Reference computes like its base (a reference
+  like an unsigned 64-bit integer), DATE like TIME, CHAR like a bit string.
+- A reference or in-out slot holds a byte offset in bits 0-31 and a bit number, which BOOL alone looks at, in bits
+  32-34. It traps at `null_trap` (0 is NULL), before the indices are evaluated, where bits 35-63 are not 0, or the byte
+  offset is below `Layout.HEADER_SIZE`, or byte offset + `Place.offset` + the largest distance of the indices with fixed
+  bounds + the size of `Place.type` is beyond the end of the image. With an index of computed bounds the place that was
+  found must lie in there too. Behind a reference nothing is known of alignment.
+- A BOOL in a whole byte is written as 0 or 1, and read as bit 0.
 - A string value longer than the capacity of its target is cut. Only the length and the characters are written.
 - A trap ends the scan at once; what was written before it stays.
 """
@@ -28,7 +37,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from scanbench.check.types import Elementary, Record, StringType, Type
+from scanbench.check.types import Elementary, Member, Record, Reference, Section, StringType, Type
 from scanbench.problems import Span
 
 if TYPE_CHECKING:
@@ -41,6 +50,8 @@ class TrapKind(StrEnum):
     NULL = "null"
     STRING = "string"
     LOOP = "loop"
+    ABSTRACT = "abstract"
+    """A call whose instance has no body for it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -51,6 +62,20 @@ class TrapSite:
     span: Span
     pou: str
     message: str
+
+
+@dataclass(frozen=True, slots=True)
+class CheckSite:
+    """A subrange check that the compiler embedded; engines name it by its index in `Program.checks` plus one."""
+
+    span: Span
+    pou: str
+    variable: str
+    """What is checked, as people write it: `valve.level`, or `EN_CHECK`."""
+    low: int
+    high: int
+    needless: str = ""
+    """Why no check was embedded here, empty when there is one. Shown, never run."""
 
 
 # ---- places: where a value lives -------------------------------------------------------------------------------
@@ -67,12 +92,15 @@ class Base(StrEnum):
 
 @dataclass(frozen=True, slots=True)
 class Index:
-    """One computed array index: adds (value - low) * stride; outside low..high traps."""
+    """One computed array index: adds (value - low) * stride; outside low..high traps.
+
+    `low`, `high` and `stride` are expressions of LINT without effects for an ARRAY[*], all three.
+    """
 
     value: "Expr"
-    low: int
-    high: int
-    stride: int
+    low: "int | Expr"
+    high: "int | Expr"
+    stride: "int | Expr"
     trap: int
 
 
@@ -80,7 +108,10 @@ class Index:
 class Place:
     """Address = base + offset + the indices' strides. With `slot`, base is the reference stored there instead.
 
-    `bit` is set for a BOOL inside an area. `variable` names the declared variable that holds this place ('' when it
+    With `reference`, base is the value of that expression, of a Reference type (evaluated before the indices).
+    `bit` is set for one bit of a byte: a BOOL inside an area, or a bit of an integer. A BOOL behind a slot or reference
+    without `bit` is the bit that the reference says. `type` may be smaller than the variable (a part of an integer, a
+    member of a union), so places of one variable may overlap in any way. `variable` names the declared variable that holds this place ('' when it
     may be any, as behind an in-out): places of different variables never overlap, except that all places whose
     variable begins with '@' (areas of the model) may overlap each other.
     """
@@ -93,6 +124,7 @@ class Place:
     slot: "Place | None" = None
     null_trap: int = 0
     variable: str = ""
+    reference: "Expr | None" = None
 
 
 # ---- expressions --------------------------------------------------------------------------------------------------
@@ -100,7 +132,8 @@ class Place:
 
 @dataclass(frozen=True, slots=True)
 class Const:
-    """int for BOOL (0, 1), integers, bit strings (unsigned) and TIME (ns); float for REAL; bytes for STRING."""
+    """int for BOOL (0, 1), integers, bit strings, CHAR (unsigned), TIME, DATE (ns) and references; float for REAL;
+    bytes for STRING (Latin-1) and WSTRING (UTF-16, little endian)."""
 
     type: Elementary | StringType
     value: int | float | bytes
@@ -173,7 +206,51 @@ class CallFunction:
     args: tuple["Expr | Place | None", ...]
 
 
-Expr = Const | Load | Unary | Binary | Compare | Convert | Intrinsic | CallFunction
+@dataclass(frozen=True, slots=True)
+class RefOf:
+    """REF(place): its offset, and for a BOOL its bit number, as a reference. Never of a temporary."""
+
+    place: Place
+    type: Reference
+
+
+@dataclass(frozen=True, slots=True)
+class Limit:
+    """A subrange check: the value, brought to low..high; a value outside is recorded at `site` (see `Layout.violations`)."""
+
+    type: Elementary
+    value: "Expr"
+    low: int
+    high: int
+    site: int
+
+
+@dataclass(frozen=True, slots=True)
+class Violates:
+    """BOOL: whether the value is outside of low..high; recorded at `site` when it is, unless `site` is 0."""
+
+    type: Elementary
+    value: "Expr"
+    low: int
+    high: int
+    site: int
+
+
+@dataclass(frozen=True, slots=True)
+class Sequence:
+    """Runs the statements (none leaves: no EXIT, RETURN, CONTINUE or jump out), then gives the value."""
+
+    body: tuple["Stmt", ...]
+    value: "Expr"
+
+    @property
+    def type(self) -> Type | None:
+        return self.value.type
+
+
+Expr = (
+    Const | Load | Unary | Binary | Compare | Convert | Intrinsic | CallFunction | RefOf | Limit | Violates | Sequence
+)
 """Every expression has `.type`. A Load or CallFunction may have an aggregate type (whole array, STRUCT)."""
 
 
@@ -254,6 +331,8 @@ class For:
     exits: bool
     trap: int
     span: Span
+    bounds: tuple[int, int] | None = None
+    """Of a subrange variable: the value stored when the loop ends is brought between these, without a record."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -278,11 +357,51 @@ class Exit:
 
 
 @dataclass(frozen=True, slots=True)
+class Continue:
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class Return:
     span: Span
 
 
-Stmt = Assign | SetBytes | CallBlock | Evaluate | If | Case | For | While | Repeat | Exit | Return
+@dataclass(frozen=True, slots=True)
+class Blocks:
+    """IL with labels: runs the blocks one after the other; `Jump` goes on at the start of one. Never inside a loop or
+    other Blocks."""
+
+    blocks: tuple[tuple["Stmt", ...], ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Jump:
+    """Goes on at block `target` of the Blocks around; stands in a block itself or in an If there. A jump to its own
+    or an earlier block takes one from the loop budget."""
+
+    target: int
+    back: bool
+    trap: int
+    span: Span
+
+
+Stmt = (
+    Assign
+    | SetBytes
+    | CallBlock
+    | Evaluate
+    | If
+    | Case
+    | For
+    | While
+    | Repeat
+    | Exit
+    | Continue
+    | Return
+    | Blocks
+    | Jump
+)
 
 
 # ---- program organisation units -----------------------------------------------------------------------------------
@@ -294,11 +413,11 @@ class Pou:
 
     name: str
     kind: str
-    """`program`, `function_block` or `function`."""
+    """`program`, `function_block` or `function`; a method is a function with the in-out THIS."""
     instance: Record
     """Variables of an instance; empty for a function."""
     frame: Record
-    """Temporaries; for a function: parameters, locals and the result (member with the function's name)."""
+    """Temporaries; for a function: parameters, locals and the result (see `returned`)."""
     parameters: tuple[str, ...]
     """Function: upper-case names of the inputs, in-outs and outputs, in order; keys of `frame.members`."""
     result: Type | None
@@ -307,18 +426,43 @@ class Pou:
     frame_offset: int = 0
     inline: bool = False
     """Small and from the standard library: worth inlining at every call."""
+    first_trap: int = 0
+    """The numbers of trap sites in the body count from here: `Program.traps[first_trap + number - 1]`. So a body stays
+    as it is when another POU has more sites than before."""
+    first_check: int = 0
+    """The same for `Program.checks`."""
+
+    @property
+    def returned(self) -> Member | None:
+        """The member of the frame that holds a function's result: the one of Section.RESULT."""
+        if self.result is None:
+            return None
+        return next((each for each in self.frame.members.values() if each.section is Section.RESULT), None)
 
 
 @dataclass(frozen=True, slots=True)
 class ProgramInstance:
+    """`before` and `after` are what a CONFIGURATION connects: run around the body, with places of Base.IMAGE only.
+
+    Sites in them count from 0 (as with a POU whose `first_check` is 0). `pou` may be a function block that a task
+    runs by itself: `name` is the path of that instance.
+    """
+
     name: str
     pou: Pou
     offset: int
+    before: tuple[Stmt, ...] = ()
+    after: tuple[Stmt, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
 class Task:
-    """Runs in every scan n for which n * base_interval is a multiple of `interval_ns`, in this order of priority."""
+    """Runs in every scan n for which n * base_interval is a multiple of `interval_ns`, in this order of priority.
+
+    With `single`, a BOOL: also in a scan where it is TRUE and was FALSE when this was last looked at (`previous`, a
+    BOOL of the image that the engine keeps), and its interval counts only while it is FALSE. It is looked at in each
+    scan when the task's turn comes. `every` is 0 for a task without an interval.
+    """
 
     name: str
     interval_ns: int
@@ -326,6 +470,17 @@ class Task:
     every: int
     """Due in scans that are multiples of this."""
     programs: tuple[ProgramInstance, ...]
+    single: Place | None = None
+    previous: Place | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class AccessPath:
+    """VAR_ACCESS: another name for a variable, for tools."""
+
+    name: str
+    path: str
+    writable: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -340,3 +495,5 @@ class Program:
     traps: tuple[TrapSite, ...]
     layout: "Layout"
     initial_image: bytes
+    checks: tuple[CheckSite, ...] = ()
+    accesses: tuple[AccessPath, ...] = ()

@@ -3,8 +3,32 @@
 import struct
 from dataclasses import dataclass, field
 
+from scanbench.check.classes import Classes
+from scanbench.check.layout import Layout
+from scanbench.check.names import Space
 from scanbench.check.program import Base, Const, Place, Pou
-from scanbench.check.types import SLOT_BYTES, ULINT, Elementary, Kind, Member, Record, Section, StringType, Type
+from scanbench.check.types import (
+    BOOL,
+    SLOT_BYTES,
+    UDINT,
+    ULINT,
+    Elementary,
+    Kind,
+    Member,
+    Record,
+    Section,
+    StringType,
+    Subrange,
+    Type,
+    base_of,
+)
+from scanbench.problems import Span
+
+_NOWHERE = Span("", 1, 1, 1, 1)
+SYSTEM = Record("$SYSTEM", Kind.STRUCT)
+"""Variables that every program has: of the subrange checks."""
+SYSTEM.place_at(Member("_SubrangeError", BOOL, Section.GLOBAL, _NOWHERE), Layout.SUBRANGE_ERROR)
+SYSTEM.place_at(Member("_SubrangeErrorCount", UDINT, Section.GLOBAL, _NOWHERE, constant=True), Layout.SUBRANGE_COUNT)
 
 
 @dataclass(slots=True)
@@ -18,6 +42,10 @@ class Scope:
     externals: dict[str, Member] = field(default_factory=dict)
     constants: tuple[Record, ...] = ()
     """Records under declaration, for constant expressions."""
+    this: Place | None = None
+    """Slot of THIS, in a method: the variables of the instance stand behind it."""
+    space: Space = Space()
+    """The namespaces whose global variables are visible."""
 
     def find(self, name: str) -> tuple[Member, Base, Record] | None:
         """The member, what its offset counts from, and who owns it."""
@@ -31,39 +59,45 @@ class Scope:
             return self.instance.members[key], Base.SELF, self.instance
         if key in self.externals:
             return self.externals[key], Base.IMAGE, self.globals
-        if key in self.globals.members:
-            return self.globals.members[key], Base.IMAGE, self.globals
+        for full in self.space.candidates(key):
+            if full in self.globals.members:
+                return self.globals.members[full], Base.IMAGE, self.globals
+        if key in SYSTEM.members and not self.constants:
+            return SYSTEM.members[key], Base.IMAGE, SYSTEM
         return None
 
     def names(self) -> list[str]:
         """Everything that `find` would find, for near matches."""
         owners = [owner for owner in (self.frame, self.instance, self.globals) if owner is not None]
-        return [member.name for owner in owners for member in owner.members.values()]
+        return [member.name for owner in owners for member in owner.members.values() if not member.hidden]
 
 
 def place_of(member: Member, base: Base, owner: Record, null_trap: int) -> Place:
     """Where a variable lives; an in-out lives where its slot refers to."""
     if member.located:
         return Place(member.type, Base.IMAGE, member.offset, bit=member.bit, variable="@")
+    if owner is SYSTEM:
+        return Place(member.type, base, member.offset)  # an engine writes it beside the program
     prefix = "frame " if base is Base.FRAME else ""
-    variable = f"{prefix}{owner.name}.{member.name}".upper()
+    variable = f"{prefix}{member.home or owner.name}.{member.name}".upper()
     if member.section is Section.IN_OUT:
         slot = Place(ULINT, base, member.offset, variable=variable)
         assert ULINT.size == SLOT_BYTES
         return Place(member.type, base, 0, slot=slot, null_trap=null_trap)
-    return Place(member.type, base, member.offset, variable=variable)
+    return Place(member.type, base, member.offset, bit=member.bit, variable=variable)
 
 
 def decode(type: Type, data: bytes) -> Const | None:
     """A constant from its bytes in the image; None for arrays and structures."""
     if isinstance(type, StringType):
         length = int.from_bytes(data[:2], "little")
-        return Const(type, data[2 : 2 + length])
+        return Const(type, data[2 : 2 + length * type.width])
     if not isinstance(type, Elementary):
         return None
     if type.kind is Kind.REAL:
         return Const(type, struct.unpack("<f" if type.size == 4 else "<d", data)[0])
-    return Const(type, int.from_bytes(data, "little", signed=type.signed))
+    plain = base_of(type) if isinstance(type, Subrange) else type
+    return Const(plain, int.from_bytes(data, "little", signed=type.signed))
 
 
 @dataclass(slots=True)
@@ -72,6 +106,17 @@ class Pous:
 
     blocks: dict[str, Pou] = field(default_factory=dict)
     functions: dict[str, Pou] = field(default_factory=dict)
+    classes: Classes = field(default_factory=Classes)
+    dispatchers: dict[str, Pou] = field(default_factory=dict)
+    """Generated POUs that go on to the method or body of an instance's class, by name."""
+    ambiguous: dict[str, list[str]] = field(default_factory=dict)
+    """Global variables that several lists have, with the full names to choose from."""
+    broken: set[str] = field(default_factory=set)
+    """Functions whose declaration is wrong: reported once, not at every call."""
+    this_traps: dict[str, int] = field(default_factory=dict)
+    """Trap site of an unbound THIS, by method."""
+    aliases: dict[str, str] = field(default_factory=dict)
+    """`LIST.X` to the name that the global variable of a list is kept under."""
     uses: dict[Pou, dict[Pou, int]] = field(default_factory=dict)
     """Who calls whom, from how many places."""
 

@@ -1,21 +1,23 @@
 """Statements -> checked statements. A rejected statement is left out and the next one is checked all the same."""
 
-from contextlib import suppress
+from dataclasses import replace
 
-from scanbench.check.calls import CallChecker
+from scanbench.check.assignments import AssignmentChecker
 from scanbench.check.context import Rejected
+from scanbench.check.edges import edges
+from scanbench.check.il import InstructionList
+from scanbench.check.needless import without_needless
 from scanbench.check.program import (
     Assign,
     Base,
-    CallFunction,
     Case,
     Const,
-    Evaluate,
+    Continue,
     Exit,
     Expr,
     For,
     If,
-    Place,
+    Limit,
     Repeat,
     Return,
     SetBytes,
@@ -24,28 +26,40 @@ from scanbench.check.program import (
     While,
 )
 from scanbench.check.scopes import decode, place_of
-from scanbench.check.types import BOOL, Elementary, Kind, Record, Section, StringType, has_instance
-from scanbench.check.untyped import ANY_INT, bounds, settle
+from scanbench.check.shown import shown
+from scanbench.check.types import (
+    Elementary,
+    Enumeration,
+    Kind,
+    Section,
+    StringType,
+    Subrange,
+    base_of,
+)
+from scanbench.check.untyped import bounds, settle
 from scanbench.syntax import tree
 
 COUNTED = (Kind.INT, Kind.UINT)
 
 
-class StatementChecker(CallChecker):
-    _counters: list[Place]
-    """Control variables of the FOR loops around."""
+class StatementChecker(AssignmentChecker):
     _loops: int
 
-    def body(self, statements: tuple[tree.Statement, ...]) -> tuple[Stmt, ...]:
+    def body(self, body: tuple[tree.Statement, ...] | tree.IlBody) -> tuple[Stmt, ...]:
+        """The body of a POU, in ST or IL."""
         self._counters, self._loops = [], 0
-        return (*self._prologue(), *self.block(statements))
+        prologue = self._prologue()
+        if self.pou is not None and self.pou.kind != "function":
+            prologue += edges(self.pou.instance)
+        made = InstructionList(self, body).statements() if isinstance(body, tree.IlBody) else self.block(body)
+        return (*prologue, *without_needless(self.report, tuple(made)))
 
     def _prologue(self) -> list[Stmt]:
         """Temporaries start afresh at every call."""
         frame = self.scope.frame
         made: list[Stmt] = []
         for member in frame.members.values() if frame else ():
-            if member.section in (Section.INPUT, Section.IN_OUT) or frame is None:
+            if member.section in (Section.INPUT, Section.IN_OUT) or frame is None or member.hidden:
                 continue
             place = place_of(member, Base.FRAME, frame, 0)
             data = member.initial or bytes(member.type.size)
@@ -57,24 +71,26 @@ class StatementChecker(CallChecker):
         return made
 
     def block(self, statements: tuple[tree.Statement, ...]) -> tuple[Stmt, ...]:
+        """Statements one after the other."""
         made = []
         for statement in statements:
             try:
-                checked = self._statement(statement)
+                checked = self.statement(statement)
             except Rejected:
                 continue
             if checked is not None:
                 made.append(checked)
         return tuple(made)
 
-    def _statement(self, node: tree.Statement) -> Stmt | None:
+    def statement(self, node: tree.Statement) -> Stmt | None:
+        """One statement; None for one that has no effect."""
         match node:
             case tree.Assignment():
-                return self._assign(node)
+                return self.assign(node)
             case tree.ExpressionStatement():
                 return self._expression(node)
             case tree.IfStatement():
-                branches = [(self._condition(condition), self.block(body)) for condition, body in node.branches]
+                branches = [(self.condition(condition), self.block(body)) for condition, body in node.branches]
                 return If(tuple(branches), self.block(node.orelse), node.span)
             case tree.CaseStatement():
                 return self._case(node)
@@ -82,15 +98,19 @@ class StatementChecker(CallChecker):
                 return self._for(node)
             case tree.WhileStatement():
                 trap = self.trap(TrapKind.LOOP, node.span, "this WHILE does not end")
-                return While(self._condition(node.condition), self._loop(node.body), trap, node.span)
+                return While(self.condition(node.condition), self._loop(node.body), trap, node.span)
             case tree.RepeatStatement():
                 trap = self.trap(TrapKind.LOOP, node.span, "this REPEAT does not end")
                 body = self._loop(node.body)
-                return Repeat(body, self._condition(node.until), trap, node.span)
+                return Repeat(body, self.condition(node.until), trap, node.span)
             case tree.ExitStatement(span):
                 if self._loops == 0:
                     raise self.report.reject("T009", "EXIT stands in no loop; RETURN leaves the POU.", span)
                 return Exit(span)
+            case tree.ContinueStatement(span):
+                if self._loops == 0:
+                    raise self.report.reject("T009", "CONTINUE stands in no loop; RETURN leaves the POU.", span)
+                return Continue(span)
             case tree.ReturnStatement(span):
                 return Return(span)
 
@@ -101,68 +121,23 @@ class StatementChecker(CallChecker):
         finally:
             self._loops -= 1
 
-    def _condition(self, node: tree.Expression) -> Expr:
-        """The condition; a wrong one is reported and taken as FALSE, so that the body is checked as well."""
-        try:
-            expr = self.expr(node)
-            if isinstance(expr, Const) and expr.type == ANY_INT and expr.value in (0, 1):
-                return Const(BOOL, expr.value)
-            if expr.type != BOOL:
-                raise self.report.reject("T006", f"A condition is BOOL, not {settle(expr).type}.", node.span)
-        except Rejected:
-            return Const(BOOL, 0)
-        return expr
-
-    def _assign(self, node: tree.Assignment) -> Stmt:
-        try:
-            target = self.target(node.target)
-        except Rejected:
-            self._try(node.value)
-            raise
-        if has_instance(target.type):
-            raise self.report.reject("T003", "An instance of a function block cannot be assigned.", node.span)
-        self._not_counter(target, node)
-        value = self.as_type(node.value, target.type, f"`{_shown(node.target)}`")
-        return Assign(target, value, node.span)
-
-    def _try(self, node: tree.Expression) -> None:
-        with suppress(Rejected):
-            self.expr(node)
-
-    def _not_counter(self, target: Place, node: tree.Assignment) -> None:
-        for counter in self._counters:
-            same = (counter.base, counter.offset, counter.slot, counter.bit)
-            if (target.base, target.offset, target.slot, target.bit) == same and target.type == counter.type:
-                raise self.report.reject(
-                    "T008", f"`{_shown(node.target)}` counts this FOR loop and cannot be assigned in it; use EXIT to leave.",
-                    node.span,
-                )  # fmt: skip
-
     def _expression(self, node: tree.ExpressionStatement) -> Stmt | None:
         call = node.expression
         if not isinstance(call, tree.Call):
-            self._try(call)
-            self.report.warn("W001", "This computes a value and drops it; is an assignment missing?", node.span)
+            try:
+                self.expr(call)
+            finally:
+                self.report.warn("W001", "This computes a value and drops it; is an assignment missing?", node.span)
             return None
-        if self._is_instance(call.callee):
-            return self.call_block(call)
-        value = self.call(call)
-        if isinstance(value, CallFunction):
-            return Evaluate(value, node.span)
-        self.report.warn("W001", "The result of this call is dropped.", node.span)
-        return None
-
-    def _is_instance(self, callee: tree.Expression) -> bool:
-        if isinstance(callee, tree.Name):
-            found = self.scope.find(callee.name)
-            return found is not None and isinstance(found[0].type, Record)
-        return True
+        return self.call_statement(call)
 
     def _case(self, node: tree.CaseStatement) -> Stmt:
         selector = self.value(node.selector)
         type = selector.type
         if not isinstance(type, Elementary) or type.kind not in (*COUNTED, Kind.BITS):
-            raise self.report.reject("T002", f"CASE needs an integer, not {type}.", node.selector.span)
+            raise self.report.reject(
+                "T002", f"CASE needs an integer or an enumeration, not {type}.", node.selector.span
+            )
         branches = []
         taken: list[tuple[int, int]] = []
         for labels, body in node.branches:
@@ -184,51 +159,94 @@ class StatementChecker(CallChecker):
             raise self.report.reject("T007", f"The range {low}..{high} is empty.", first.span)
         for other in taken:
             if low <= other[1] and other[0] <= high:
-                raise self.report.reject("T007", f"{max(low, other[0])} is a label already.", first.span)
+                number = max(low, other[0])
+                raise self.report.reject("T007", f"{_named(number, type)} is a label already.", first.span)
         taken.append((low, high))
         return low, high
 
     def _label_value(self, node: tree.Expression, type: Elementary) -> int:
-        expr = self.expr(node)
+        expr = self.expr(node, type)
         if not isinstance(expr, Const):
             raise self.report.reject("T007", "A label is a constant.", node.span)
         return int(self._plain_label(expr, type, node).value)
 
     def _plain_label(self, expr: Const, type: Elementary, node: tree.Expression) -> Const:
-        low, high = bounds(type)
+        other = expr.type
         kinds = (*COUNTED, Kind.BITS)
-        if not isinstance(expr.type, Elementary) or expr.type.kind not in kinds or isinstance(expr.value, bytes):
+        if not isinstance(other, Elementary) or other.kind not in kinds or isinstance(expr.value, bytes):
             raise self.report.reject("T007", f"A label is {type}, not {settle(expr).type}.", node.span)
+        if isinstance(other, Enumeration) and isinstance(type, Enumeration) and other != type:
+            raise self.report.reject("T007", f"A label is a value of {type}, not of {other}.", node.span)
+        low, high = bounds(type)
         if not low <= expr.value <= high:
             raise self.report.reject(
                 "T007", f"{expr.value} can never be reached: {type} is {low} to {high}.", node.span
             )
         return expr
 
+    # ---- FOR --------------------------------------------------------------------------------------------
+
     def _for(self, node: tree.ForStatement) -> Stmt:
         counter = self.target(node.variable)
         type = counter.type
-        if not isinstance(type, Elementary) or type.kind not in COUNTED or counter.indices:
+        plain = isinstance(type, Elementary) and type.kind in COUNTED and not isinstance(type, Enumeration)
+        if not plain or counter.indices or counter.reference is not None:
             raise self.report.reject(
                 "T008", f"FOR counts with a plain integer variable, not {type}.", node.variable.span
             )
+        assert isinstance(type, Elementary)
         for outer in self._counters:
             if (outer.base, outer.offset, outer.slot) == (counter.base, counter.offset, counter.slot):
                 raise self.report.reject("T008", "This variable counts a loop around already.", node.variable.span)
-        start = self.as_type(node.start, type, "The start value")
-        end = self.as_type(node.end, type, "The end value")
-        step = Const(type, 1) if node.step is None else self._step(node.step, type)
+        base = base_of(type)
+        start = self.as_type(node.start, type, "The start value" if type is base else f"`{shown(node.variable)}`")
+        end = self.as_type(node.end, base, "The end value")
+        step = Const(base, 1) if node.step is None else self._step(node.step, base)
+        if isinstance(type, Subrange):
+            end = self._for_end(node, type, end, step)
         trap = self.trap(TrapKind.LOOP, node.span, "this FOR has more rounds than a scan may take")
         self._counters.append(counter)
         body = self._loop(node.body)
         self._counters.pop()
-        return For(counter, start, end, step, body, _leaves(body, outer=True), trap, node.span)
+        limits = (type.low, type.high) if isinstance(type, Subrange) else None
+        return For(counter, start, end, step, body, _leaves(body, outer=True), trap, node.span, limits)
+
+    def _for_end(self, node: tree.ForStatement, type: Subrange, end: Expr, step: Expr) -> Expr:
+        """The end value of a counter with a subrange, which the counter must not pass; short of it, no round is run."""
+        if not isinstance(step, Const):
+            raise self.report.reject(
+                "T008", "The step of a counter with a subrange is a constant.", (node.step or node.end).span
+            )
+        low, high = bounds(base_of(type))
+        upward = _whole(step) > 0
+        if isinstance(end, Const) and (_whole(end) > type.high if upward else _whole(end) < type.low):
+            raise self.report.reject(
+                "S004", f"{end.value!r} is outside of {type.low}..{type.high}, so `{shown(node.variable)}` would leave it.",
+                node.end.span,
+            )  # fmt: skip
+        reach = replace(type, low=low) if upward else replace(type, high=high)
+        made = self.into(end, reach, node.end.span, shown(node.variable))
+        if isinstance(made, Limit):
+            sites = self.report.checks
+            sites[made.site - 1] = replace(sites[made.site - 1], low=type.low, high=type.high)
+        return made
 
     def _step(self, node: tree.Expression, type: Elementary) -> Expr:
         step = self.as_type(node, type, "The step")
         if isinstance(step, Const) and step.value == 0:
             raise self.report.reject("T008", "A step of 0 never ends.", node.span)
         return step
+
+
+def _whole(constant: Const) -> int:
+    assert isinstance(constant.value, int)
+    return constant.value
+
+
+def _named(number: int, type: Elementary) -> str:
+    """A label for people: the name that an enumeration has for it."""
+    names = [name for name, value in type.values if value == number] if isinstance(type, Enumeration) else []
+    return f"`{names[0]}`" if names else str(number)
 
 
 def _leaves(body: tuple[Stmt, ...], outer: bool) -> bool:
@@ -250,16 +268,3 @@ def _leaves(body: tuple[Stmt, ...], outer: bool) -> bool:
                 if _leaves(inner, outer=False):
                     return True
     return False
-
-
-def _shown(node: tree.Expression) -> str:
-    match node:
-        case tree.Name(name):
-            return name
-        case tree.MemberOf(owner, name):
-            return f"{_shown(owner)}.{name}"
-        case tree.IndexOf(array):
-            return f"{_shown(array)}[...]"
-        case tree.DirectAddress(text):
-            return text
-    return "the target"

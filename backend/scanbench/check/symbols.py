@@ -7,10 +7,22 @@ from difflib import get_close_matches
 
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
-from scanbench.check.types import BOOL, ELEMENTARY, ArrayType, Member, Record, Section, Type
+from scanbench.check.scopes import SYSTEM
+from scanbench.check.types import (
+    BOOL,
+    ELEMENTARY,
+    ArrayType,
+    Kind,
+    Member,
+    OpenArray,
+    Record,
+    Reference,
+    Section,
+    Type,
+)
 from scanbench.plcmodel.model import Access
 
-PART = re.compile(r"\s*\.?\s*([^\W\d]\w*)|\s*\[\s*([-\d\s,]+)\]")
+PART = re.compile(r"\s*\.?\s*([^\W\d]\w*)|\s*\[\s*([-\d\s,]+)\]|\s*\^")
 RAW_TYPES = {1: BOOL, 8: ELEMENTARY["BYTE"], 16: ELEMENTARY["WORD"], 32: ELEMENTARY["DWORD"], 64: ELEMENTARY["LWORD"]}
 MAX_MEMBERS = 10_000
 
@@ -36,7 +48,8 @@ class Symbol:
     """In the image; behind the last of `slots`, relative to where that refers to."""
     bit: int | None = None
     slots: tuple[int, ...] = ()
-    """Offsets of the in-out slots on the way: the first in the image, each further one relative to its forerunner."""
+    """Offsets of the in-out slots and references on the way: the first in the image, each further one relative to its
+    forerunner."""
     address: str | None = None
     tool: Access = "write"
     constant: bool = False
@@ -50,17 +63,19 @@ class Symbol:
         return isinstance(self.type, ArrayType | Record)
 
     def locate(self, memory: memoryview | bytes | bytearray) -> tuple[int, int | None] | None:
-        """Byte offset and bit of the value now; None while an in-out on the way is bound to nothing."""
+        """Byte offset and bit of the value now; None while an in-out or reference on the way refers to nothing."""
         base = 0
         bit = self.bit
         last = len(self.slots) - 1
         for index, slot in enumerate(self.slots):
             reference = int.from_bytes(memory[base + slot : base + slot + 8], "little")
-            if reference == 0:
-                return None
             base = reference & 0xFFFF_FFFF
+            if base < Layout.HEADER_SIZE or reference >> 35 or base >= len(memory):
+                return None
             if self.type == BOOL and index == last and self.offset == 0:
                 bit = reference >> 32 & 7
+        if self.slots and base + self.offset + self.type.size > len(memory):
+            return None
         return base + self.offset, bit
 
 
@@ -69,6 +84,9 @@ def resolve(program: Program, path: str) -> Symbol:
     text = path.strip()
     first = PART.match(text)
     root = _root(program, first.group(1)) if first and first.group(1) else None
+    if root is None and first and (second := PART.match(text, first.end())) and second.group(1):
+        # a program instance behind the name of its resource
+        root, first = _root(program, f"{first.group(1)}.{second.group(1)}"), second
     if root is None or first is None:
         return _raw(program, text)
     symbol, at = root, first.end()
@@ -115,15 +133,25 @@ def complete(program: Program, text: str, limit: int) -> list[Symbol]:
 def _roots(program: Program) -> Iterator[Symbol]:
     for task in program.tasks:
         for instance in task.programs:
-            yield Symbol(instance.name, instance.name, instance.pou.instance, "PROGRAM", instance.offset)
+            if instance.pou.kind == "program":
+                yield Symbol(instance.name, instance.name, instance.pou.instance, "PROGRAM", instance.offset)
     owner = program.layout.globals
     for member in owner.members.values() if owner else ():
+        if member.hidden:
+            continue
         yield _checked(program, _member(Symbol("", "", BOOL, "", 0), member, member.name))
 
 
 def _root(program: Program, name: str) -> Symbol | None:
     upper = name.upper()
-    return next((symbol for symbol in _roots(program) if symbol.name.upper() == upper), None)
+    found = next((symbol for symbol in _roots(program) if symbol.name.upper() == upper), None)
+    access = next((each for each in program.accesses if each.name.upper() == upper), None)
+    if found is None and upper in SYSTEM.members:
+        return _member(Symbol("", "", BOOL, "", 0), SYSTEM.members[upper], SYSTEM.members[upper].name)
+    if found is not None or access is None:
+        return found
+    symbol = resolve(program, access.path)
+    return replace(symbol, path=access.name, name=access.name, constant=symbol.constant or not access.writable)
 
 
 def _member(owner: Symbol, member: Member, path: str) -> Symbol:
@@ -136,25 +164,44 @@ def _member(owner: Symbol, member: Member, path: str) -> Symbol:
         return made
     if member.section is Section.IN_OUT:
         return replace(made, offset=0, slots=(*owner.slots, owner.offset + member.offset))
+    if member.incomplete and isinstance(member.type, Reference) and member.type.target is not None:
+        return replace(made, type=member.type.target, offset=0, slots=(*owner.slots, owner.offset + member.offset))
     return replace(made, offset=owner.offset + member.offset, slots=owner.slots)
 
 
 def _step(program: Program, symbol: Symbol, name: str | None, index: str | None) -> Symbol:
+    if index is None and name is None:
+        return _referred(symbol)
+    if isinstance(symbol.type, Reference) and symbol.type.automatic:
+        symbol = replace(_referred(symbol), path=symbol.path)
     if index is not None:
         return _element(symbol, index)
     record = symbol.type
+    if isinstance(record, Reference):
+        raise UnknownPath(f"`{symbol.path}` is a reference; write `{symbol.path}^.{name}`.")
     if not isinstance(record, Record) or name is None:
         raise UnknownPath(f"`{symbol.path}` is {symbol.type} and has no member `{name}`.")
     member = record.members.get(name.upper())
-    if member is None:
-        names = {each.name.upper(): each.name for each in record.members.values()}
+    if member is None or member.hidden:
+        names = {each.name.upper(): each.name for each in record.members.values() if not each.hidden}
         near = tuple(f"{symbol.path}.{names[each]}" for each in get_close_matches(name.upper(), names, 3, 0.5))
         raise UnknownPath(f"`{symbol.path}` has no member `{name}`.", near)
     return _member(symbol, member, f"{symbol.path}.{member.name}")
 
 
+def _referred(symbol: Symbol) -> Symbol:
+    """What a reference refers to, wherever that is at the moment."""
+    type = symbol.type
+    if not isinstance(type, Reference) or type.target is None:
+        raise UnknownPath(f"`{symbol.path}` is {type}, not a reference.")
+    slots = (*symbol.slots, symbol.offset)
+    return replace(symbol, path=f"{symbol.path}^", name="^", type=type.target, offset=0, slots=slots, address=None)
+
+
 def _element(symbol: Symbol, index: str) -> Symbol:
     array = symbol.type
+    if isinstance(array, OpenArray):
+        raise UnknownPath(f"The bounds of `{symbol.path}` come with each call; look at the array that is passed.")
     if not isinstance(array, ArrayType):
         raise UnknownPath(f"`{symbol.path}` is {symbol.type}, not an array.")
     try:
@@ -178,7 +225,11 @@ def _element(symbol: Symbol, index: str) -> Symbol:
 def _children(program: Program, symbol: Symbol) -> list[Symbol]:
     type = symbol.type
     if isinstance(type, Record):
-        return [_member(symbol, member, f"{symbol.path}.{member.name}") for member in type.members.values()]
+        return [
+            _member(symbol, member, f"{symbol.path}.{member.name}")
+            for member in type.members.values()
+            if not member.hidden
+        ]
     if isinstance(type, ArrayType):
         found = [""]
         for low, high in type.bounds:
@@ -213,6 +264,8 @@ def _near(program: Program, text: str) -> tuple[str, ...]:
     for task in program.tasks:
         for instance in task.programs:
             for member in instance.pou.instance.members.values():
+                if member.hidden:
+                    continue
                 paths[member.name.upper()] = f"{instance.name}.{member.name}"
     return tuple(paths[each] for each in get_close_matches(text.upper(), paths, 3, 0.5))
 
@@ -261,3 +314,35 @@ def _descend(program: Program, symbol: Symbol, offset: int) -> str:
                     return f"{symbol.path}.{member.name} (in-out)"
                 return _descend(program, _member(symbol, member, f"{symbol.path}.{member.name}"), offset)
     return symbol.path
+
+
+def instance_at(program: Program, offset: int, pou: str) -> str:
+    """The path of the instance of this POU (or of a block derived from it) that begins at a byte of the image."""
+    found = ""
+    open_ = [symbol for symbol in _roots(program) if _holds(symbol, offset)]
+    while open_:
+        symbol = open_.pop()
+        if symbol.offset == offset and isinstance(symbol.type, Record) and symbol.type.kind is Kind.BLOCK:
+            if symbol.type.name.upper() == pou.upper():
+                return symbol.path
+            found = found or symbol.path
+        open_ += [each for each in _around(symbol, offset) if _holds(each, offset)]
+    return found or f"image+{offset}"
+
+
+def _holds(symbol: Symbol, offset: int) -> bool:
+    return not symbol.slots and symbol.offset <= offset < symbol.offset + symbol.type.size
+
+
+def _around(symbol: Symbol, offset: int) -> list[Symbol]:
+    """Members, or the one element of an array, that may hold the byte."""
+    if isinstance(symbol.type, Record):
+        members = symbol.type.members.values()
+        return [_member(symbol, each, f"{symbol.path}.{each.name}") for each in members if not each.located]
+    if isinstance(symbol.type, ArrayType):
+        numbers, rest = [], offset - symbol.offset
+        for dimension, (low, _) in enumerate(symbol.type.bounds):
+            number, rest = divmod(rest, symbol.type.stride(dimension))
+            numbers.append(str(low + number))
+        return [_element(symbol, ",".join(numbers))]
+    return []

@@ -1,8 +1,9 @@
 """Types: what a variable is, how many bytes it takes in the image, and what it starts with.
 
 Sizes are bytes. All values are little endian: BOOL is a byte 0 or 1 (or one bit of an area when it is located
-there); TIME is an i64 of nanoseconds; STRING[n] is a u16 with the current length, then n bytes, of which those
-beyond the length mean nothing; an in-out takes a slot of `SLOT_BYTES`, see `Section.IN_OUT`.
+there); durations, dates and times of day are an i64 of nanoseconds (dates since 1970-01-01, times of day since
+midnight); STRING[n] is a u16 with the current length in characters, then n bytes (WSTRING: n units of UTF-16), of
+which those beyond the length mean nothing; an in-out takes a slot of `SLOT_BYTES`; so does a reference.
 """
 
 from dataclasses import dataclass, field
@@ -24,10 +25,18 @@ class Kind(StrEnum):
     BITS = "bits"
     REAL = "real"
     TIME = "time"
+    DATE = "date"
+    """Dates and times of day."""
+    CHAR = "char"
+    REF = "ref"
+    """A reference, in the form of an in-out slot: u64."""
     STRING = "string"
     ARRAY = "array"
     STRUCT = "struct"
+    UNION = "union"
     BLOCK = "block"
+    """Of a FUNCTION_BLOCK, CLASS or PROGRAM."""
+    INTERFACE = "interface"
 
 
 @dataclass(frozen=True, slots=True)
@@ -48,22 +57,56 @@ class Elementary:
 
     @property
     def signed(self) -> bool:
-        return self.kind in (Kind.INT, Kind.TIME)
+        return self.kind in (Kind.INT, Kind.TIME, Kind.DATE)
 
     def __str__(self) -> str:
         return self.name
 
 
 @dataclass(frozen=True, slots=True)
+class Enumeration(Elementary):
+    """Named numbers; `kind` and `size` are those of the base type, which is all that an engine looks at."""
+
+    values: tuple[tuple[str, int], ...] = ()
+    """As declared, in their order."""
+    base_name: str = "INT"
+
+
+@dataclass(frozen=True, slots=True)
+class Subrange(Elementary):
+    """An integer that keeps between `low` and `high`; `kind` and `size` are those of the base type.
+
+    A `Load` may have such a type, and a `Place`; every other expression has the base type.
+    """
+
+    low: int = 0
+    high: int = 0
+    base_name: str = "INT"
+
+
+@dataclass(frozen=True, slots=True)
+class Reference(Elementary):
+    """REF_TO, REFERENCE TO or POINTER TO `target`; to an interface, it refers to an instance that implements it."""
+
+    target: "Type | None" = None
+    """None for NULL, which fits every reference."""
+    pointer: bool = False
+    """POINTER TO: it can be computed with, in bytes."""
+    automatic: bool = False
+    """REFERENCE TO: every use of the variable dereferences it."""
+
+
+@dataclass(frozen=True, slots=True)
 class StringType:
-    """STRING[capacity]: one byte a character."""
+    """STRING[capacity], one byte a character; or WSTRING[capacity], with `width` 2 bytes a character."""
 
     capacity: int
+    width: int = 1
     kind: Kind = Kind.STRING
 
     @property
     def size(self) -> int:
-        return (2 + self.capacity + 1) // 2 * 2
+        return (2 + self.capacity * self.width + 1) // 2 * 2
 
     @property
     def align(self) -> int:
@@ -71,7 +114,7 @@ class StringType:
 
     @property
     def name(self) -> str:
-        return f"STRING[{self.capacity}]"
+        return f"{'W' if self.width == 2 else ''}STRING[{self.capacity}]"
 
     def __str__(self) -> str:
         return self.name
@@ -116,6 +159,33 @@ class ArrayType:
         return self.name
 
 
+@dataclass(frozen=True, slots=True)
+class OpenArray:
+    """ARRAY[*] OF element: the type of an in-out whose bounds come with the call, in hidden variables beside the slot.
+
+    The members `name$low1`, `name$high1`, `name$low2`, ... are LINT inputs of the same owner.
+    """
+
+    dimensions: int
+    element: "Type"
+    kind: Kind = Kind.ARRAY
+
+    @property
+    def size(self) -> int:
+        return 0
+
+    @property
+    def align(self) -> int:
+        return self.element.align
+
+    @property
+    def name(self) -> str:
+        return f"ARRAY[{', '.join('*' * self.dimensions)}] OF {self.element.name}"
+
+    def __str__(self) -> str:
+        return self.name
+
+
 class Section(StrEnum):
     VAR = "VAR"
     INPUT = "VAR_INPUT"
@@ -144,6 +214,16 @@ class Member:
     """Vendor notation, when the variable is located (AT)."""
     bit: int | None = None
     """Bit within the byte at `offset`, when the variable is a located BOOL. `offset` is then absolute."""
+    home: str = ""
+    """Name of the record that declared it: a derived block has the members of its base, at the same offsets."""
+    access: str = "PUBLIC"
+    """PUBLIC, PROTECTED, PRIVATE or INTERNAL."""
+    retain: bool = False
+    """RETAIN or PERSISTENT."""
+    hidden: bool = False
+    """Made by the compiler (a name with `$` in it): never shown."""
+    incomplete: str = ""
+    """`%I*`: VAR_CONFIG gives each instance its address. The type is a REFERENCE TO what was declared."""
 
     @property
     def located(self) -> bool:
@@ -170,15 +250,38 @@ class Record:
     """By upper-case name, in order of declaration."""
     size: int = 0
     align: int = 1
+    overlaps: bool = False
+    """A UNION, or a STRUCT with OVERLAP: its members share bytes."""
+    base: "Record | None" = None
+    """What a block or class extends."""
+    interfaces: tuple["Record", ...] = ()
+    """What it implements; of an interface, those that it extends."""
+
+    def inherit(self, base: "Record") -> None:
+        """Begins with the members of `base`, at the same offsets."""
+        self.members.update(base.members)
+        self.size, self.align = max(self.size, base.size), max(self.align, base.align)
 
     def place(self, member: Member) -> None:
-        """Gives the member the next aligned offset."""
+        """Gives the member the next aligned offset; in a UNION all begin at 0."""
         self.members[member.name.upper()] = member
+        member.home = member.home or self.name
         if member.storage == 0:
+            return
+        if self.kind is Kind.UNION:
+            self.place_at(member, 0, member.type.align)
             return
         align = SLOT_BYTES if member.section is Section.IN_OUT else member.type.align
         member.offset = -(-self.size // align) * align
         self.size = member.offset + member.storage
+        self.align = max(self.align, align)
+
+    def place_at(self, member: Member, offset: int, align: int = 1) -> None:
+        """Gives the member this offset, whatever else is there."""
+        self.members[member.name.upper()] = member
+        member.home = member.home or self.name
+        member.offset = offset
+        self.size = max(self.size, offset + member.storage)
         self.align = max(self.align, align)
 
     def close(self) -> None:
@@ -188,16 +291,28 @@ class Record:
     def initial(self) -> bytes:
         """Image of a fresh instance."""
         image = bytearray(self.size)
+        started = bytearray(self.size if self.overlaps else 0)
         for member in self.members.values():
-            if member.initial and not member.located:
+            if member.located or not member.initial:
+                continue
+            if member.bit is not None:
+                image[member.offset] |= (member.initial[0] & 1) << member.bit
+                continue
+            if not self.overlaps:
                 image[member.offset : member.offset + len(member.initial)] = member.initial
+                continue
+            # where members share bytes, the first one that says something wins
+            for at, byte in enumerate(member.initial, member.offset):
+                if not started[at]:
+                    image[at] = byte
+                    started[at] = byte != 0
         return bytes(image)
 
     def __str__(self) -> str:
         return self.name
 
 
-Type = Elementary | StringType | ArrayType | Record
+Type = Elementary | StringType | ArrayType | OpenArray | Record
 
 BOOL = Elementary("BOOL", Kind.BOOL, 1)
 SINT = Elementary("SINT", Kind.INT, 1)
@@ -215,13 +330,43 @@ LWORD = Elementary("LWORD", Kind.BITS, 8)
 REAL = Elementary("REAL", Kind.REAL, 4)
 LREAL = Elementary("LREAL", Kind.REAL, 8)
 TIME = Elementary("TIME", Kind.TIME, 8)
+LTIME = Elementary("LTIME", Kind.TIME, 8)
+DATE = Elementary("DATE", Kind.DATE, 8)
+LDATE = Elementary("LDATE", Kind.DATE, 8)
+TIME_OF_DAY = Elementary("TIME_OF_DAY", Kind.DATE, 8)
+LTIME_OF_DAY = Elementary("LTIME_OF_DAY", Kind.DATE, 8)
+DATE_AND_TIME = Elementary("DATE_AND_TIME", Kind.DATE, 8)
+LDATE_AND_TIME = Elementary("LDATE_AND_TIME", Kind.DATE, 8)
+CHAR = Elementary("CHAR", Kind.CHAR, 1)
+WCHAR = Elementary("WCHAR", Kind.CHAR, 2)
+NULL = Reference("NULL", Kind.REF, 8)
 
 ELEMENTARY: dict[str, Elementary] = {
     type.name: type
     for type in (
-        BOOL, SINT, INT, DINT, LINT, USINT, UINT, UDINT, ULINT, BYTE, WORD, DWORD, LWORD, REAL, LREAL, TIME
+        BOOL, SINT, INT, DINT, LINT, USINT, UINT, UDINT, ULINT, BYTE, WORD, DWORD, LWORD, REAL, LREAL, TIME,
+        LTIME, DATE, LDATE, TIME_OF_DAY, LTIME_OF_DAY, DATE_AND_TIME, LDATE_AND_TIME, CHAR, WCHAR,
     )
 }  # fmt: skip
+
+ABBREVIATIONS = {
+    "TOD": TIME_OF_DAY, "LTOD": LTIME_OF_DAY, "DT": DATE_AND_TIME, "LDT": LDATE_AND_TIME, "LT": LTIME, "T": TIME,
+    "D": DATE, "LD": LDATE,
+}  # fmt: skip
+"""In names of types (TOD, LTOD, DT, LDT), and all of them in literals."""
+
+
+def base_of(type: Elementary) -> Elementary:
+    """What an enumeration or subrange computes like; any other type itself."""
+    return ELEMENTARY[type.base_name] if isinstance(type, Enumeration | Subrange) else type
+
+
+def is_derived(record: Record, base: Record) -> bool:
+    """Whether a reference to `base` may refer to a `record`: it is the same, extends it or implements it."""
+    if record is base:
+        return True
+    parents = (*record.interfaces, record.base) if record.base else record.interfaces
+    return any(is_derived(parent, base) for parent in parents)
 
 
 def has_instance(type: Type) -> bool:
@@ -239,4 +384,8 @@ def initial_of(type: Type) -> bytes:
         return type.initial()
     if isinstance(type, ArrayType):
         return initial_of(type.element) * type.count
+    if isinstance(type, Enumeration) and type.values:
+        return (type.values[0][1] & (1 << type.bits) - 1).to_bytes(type.size, "little")
+    if isinstance(type, Subrange):
+        return (type.low & (1 << type.bits) - 1).to_bytes(type.size, "little")
     return bytes(type.size)

@@ -10,9 +10,12 @@ from scanbench.check.types import (
     LREAL,
     ULINT,
     Elementary,
+    Enumeration,
     Kind,
     StringType,
+    Subrange,
     Type,
+    base_of,
 )
 
 ANY_INT = Elementary("integer literal", Kind.INT, 0)
@@ -57,8 +60,12 @@ def widens(source: Type, target: Type) -> bool:
     if source == target:
         return True
     if isinstance(source, StringType) and isinstance(target, StringType):
-        return True
-    if not isinstance(source, Elementary) or not isinstance(target, Elementary):
+        return source.width == target.width
+    if isinstance(source, Elementary) and base_of(source) is not source:
+        return widens(base_of(source), target)  # a subrange or enumeration as a number, never back to another enumeration
+    if isinstance(target, Subrange):
+        return widens(source, base_of(target))
+    if isinstance(target, Enumeration) or not isinstance(source, Elementary) or not isinstance(target, Elementary):
         return False
     match source.kind, target.kind:
         case (Kind.INT, Kind.INT) | (Kind.UINT, Kind.UINT) | (Kind.BITS, Kind.BITS) | (Kind.REAL, Kind.REAL):
@@ -69,12 +76,16 @@ def widens(source: Type, target: Type) -> bool:
             return source.size < target.size
         case (Kind.BOOL, Kind.BITS):
             return True
+        case (Kind.TIME, Kind.TIME) | (Kind.DATE, Kind.DATE):
+            return target.name == f"L{source.name}"
     return False
 
 
 @cache
 def common(left: Elementary, right: Elementary) -> Elementary | None:
-    """The smallest type that both widen to."""
+    """The smallest type that both widen to; of one enumeration, that."""
+    if left == right and not isinstance(left, Subrange):
+        return left
     for type in sorted(ELEMENTARY.values(), key=lambda type: type.size):
         if widens(left, type) and widens(right, type):
             return type

@@ -1,20 +1,44 @@
 """Values as people write them: text to bytes and back, for every type that has one value."""
 
 import math
+import re
 import struct
+from datetime import date as calendar_date
 
 from scanbench.check.fold import round_real
-from scanbench.check.types import ArrayType, Elementary, Kind, Record, StringType, Type
+from scanbench.check.types import (
+    ELEMENTARY,
+    ArrayType,
+    Elementary,
+    Enumeration,
+    Kind,
+    OpenArray,
+    Record,
+    StringType,
+    Type,
+    base_of,
+)
 from scanbench.check.untyped import bounds
 from scanbench.syntax import literals
 
 TRUE, FALSE = ("TRUE", "1", "ON", "BOOL#TRUE", "BOOL#1"), ("FALSE", "0", "OFF", "BOOL#FALSE", "BOOL#0")
 WORDS = ((86_400_000_000_000, "d"), (3_600_000_000_000, "h"), (60_000_000_000, "m"), (1_000_000_000, "s"),
          (1_000_000, "ms"), (1_000, "us"), (1, "ns"))  # fmt: skip
+DAY_NS = literals.UNITS_NS["d"]
+DATES = {
+    "DATE": ("D", literals.date, "D#2026-11-21"),
+    "TIME_OF_DAY": ("TOD", literals.time_of_day, "TOD#12:30:15.5"),
+    "DATE_AND_TIME": ("DT", literals.date_and_time, "DT#2026-11-21-12:30:15"),
+}
+"""By name of the type without its L: short prefix, reader, example."""
 
 
 def parse_value(type: Type, text: str) -> bytes:
-    """The bytes of a value as typed: TRUE, 42, 16#FF, T#5s, 1.5, 'text'. Raises ValueError that says what fits."""
+    """The bytes of a value as typed: TRUE, 42, 16#FF, T#5s, D#2026-11-21, 1.5, 'text', "wide", RED, NULL.
+
+    Raises ValueError that says what fits. A tool may write a subrange variable outside of its bounds, as on a PLC:
+    that is how one tries out what a program does then. An enumeration takes its values only.
+    """
     text = text.strip()
     if isinstance(type, StringType):
         return _parse_string(type, text)
@@ -28,11 +52,57 @@ def parse_value(type: Type, text: str) -> bytes:
         raise ValueError(f"`{text}` is not a BOOL; write TRUE or FALSE")
     if type.kind is Kind.REAL:
         return _parse_real(type, text)
-    number = _parse_time(text) if type.kind is Kind.TIME else _parse_integer(type, text)
+    number = _parse_number(type, text)
     low, high = bounds(type)
     if not low <= number <= high:
         raise ValueError(f"{number} is outside of {type} ({low} to {high})")
     return number.to_bytes(type.size, "little", signed=type.signed)
+
+
+def _parse_number(type: Elementary, text: str) -> int:
+    """Of everything that an integer stands for in the image."""
+    if isinstance(type, Enumeration):
+        return _parse_enumeration(type, text)
+    match type.kind:
+        case Kind.TIME:
+            return _parse_time(text)
+        case Kind.DATE:
+            return _parse_date(type, text)
+        case Kind.CHAR:
+            return _parse_character(type, text)
+        case Kind.REF:
+            return 0 if text.upper() == "NULL" else _parse_integer(ELEMENTARY["ULINT"], text)
+    return _parse_integer(base_of(type), text)
+
+
+def _parse_enumeration(type: Enumeration, text: str) -> int:
+    name = re.split(r"[#.]", text)[-1].strip().upper()
+    for each, number in type.values:
+        if name in (each.upper(), str(number)):
+            return number
+    raise ValueError(f"`{text}` is not {type}; write {', '.join(each for each, _ in type.values)}")
+
+
+def _parse_date(type: Elementary, text: str) -> int:
+    prefix, reader, example = DATES[type.name.removeprefix("L")]
+    body = text.upper()
+    for each in (f"L{type.name.removeprefix('L')}#", f"L{prefix}#", f"{type.name.removeprefix('L')}#", f"{prefix}#"):
+        body = body.removeprefix(each)
+    try:
+        return reader(body)
+    except ValueError as error:
+        raise ValueError(f"`{text}` is not {type}: {error}; write {example}") from None
+
+
+def _parse_character(type: Elementary, text: str) -> int:
+    quote = "'" if type.size == 1 else '"'
+    if len(text) >= 3 and text[0] == text[-1] == quote:
+        data = literals.string(text[1:-1]) if type.size == 1 else literals.wide_string(text[1:-1])
+        if len(data) == type.size:
+            return int.from_bytes(data, "little")
+    elif text[:1].isdigit():
+        return _parse_integer(type, text)
+    raise ValueError(f"`{text}` is not {type}; write one character in quotes, {quote}a{quote}")
 
 
 def _parse_integer(type: Elementary, text: str) -> int:
@@ -47,7 +117,7 @@ def _parse_integer(type: Elementary, text: str) -> int:
 
 def _parse_time(text: str) -> int:
     body = text.upper()
-    for prefix in ("TIME#", "T#"):
+    for prefix in ("LTIME#", "TIME#", "LT#", "T#"):
         body = body.removeprefix(prefix)
     try:
         return literals.duration(body)
@@ -68,41 +138,88 @@ def _parse_real(type: Elementary, text: str) -> bytes:
 
 
 def _parse_string(type: StringType, text: str) -> bytes:
-    quoted = len(text) >= 2 and text[0] == text[-1] == "'"
-    data = literals.string(text[1:-1] if quoted else text.replace("$", "$$"))
-    if len(data) > type.capacity:
-        raise ValueError(f"{len(data)} characters do not fit {type}; at most {type.capacity}")
-    return len(data).to_bytes(2, "little") + data
+    wide = type.width == 2
+    quoted = len(text) >= 2 and text[0] == text[-1] and text[0] in (("'", '"') if wide else "'")
+    body = text[1:-1] if quoted else text.replace("$", "$$")
+    data = literals.wide_string(body) if wide else literals.string(body)
+    length = len(data) // type.width
+    if length > type.capacity:
+        raise ValueError(f"{length} characters do not fit {type}; at most {type.capacity}")
+    return length.to_bytes(2, "little") + data
 
 
 def python_value(type: Type, data: bytes) -> bool | int | float | str | None:
-    """A value for JSON: TIME as integer nanoseconds; NaN and infinities as text, since JSON has no such numbers."""
+    """A value for JSON: durations, dates and references as integers (ns, ns, address), characters and values of
+    enumerations as text; NaN and infinities as text, since JSON has no such numbers."""
     if isinstance(type, StringType):
-        return data[2 : 2 + min(int.from_bytes(data[:2], "little"), type.capacity)].decode("latin-1")
-    if isinstance(type, ArrayType | Record):
+        length = min(int.from_bytes(data[:2], "little"), type.capacity)
+        text = data[2 : 2 + length * type.width]
+        return text.decode("utf-16-le", "replace") if type.width == 2 else text.decode("latin-1")
+    if isinstance(type, ArrayType | OpenArray | Record):
         return None
     if type.kind is Kind.BOOL:
         return data[0] != 0
     if type.kind is Kind.REAL:
         value = float(struct.unpack("<f" if type.size == 4 else "<d", data)[0])
         return value if math.isfinite(value) else str(value)
-    return int.from_bytes(data, "little", signed=type.signed)
+    number = int.from_bytes(data, "little", signed=type.signed)
+    if isinstance(type, Enumeration):
+        return next((name for name, value in type.values if value == number), number)
+    return chr(number) if type.kind is Kind.CHAR else number
 
 
 def format_value(type: Type, data: bytes) -> str:
-    """A value as people read it: TRUE, 42, 16#00FF, T#1s500ms, 1.5, 'text'."""
+    """A value as people read it: TRUE, 42, 16#00FF, T#1s500ms, D#2026-11-21, 1.5, 'text', "wide", RED, NULL."""
     value = python_value(type, data)
     if isinstance(value, bool):
         return "TRUE" if value else "FALSE"
     if isinstance(type, StringType):
-        return f"'{value}'"
-    if isinstance(type, Elementary) and isinstance(value, int):
-        if type.kind is Kind.TIME:
-            return format_time(value)
-        return f"16#{value:0{2 * type.size}X}" if type.kind is Kind.BITS else str(value)
-    if isinstance(value, float) and isinstance(type, Elementary) and type.size == 4:
-        return _shortest(value, type)
+        return f'"{value}"' if type.width == 2 else f"'{value}'"
+    if isinstance(type, Elementary):
+        if isinstance(value, int):
+            return _format_integer(type, value)
+        if isinstance(value, str) and type.kind is Kind.CHAR:
+            return _format_character(value, type.size)
+        if isinstance(value, float) and type.size == 4:
+            return _shortest(value, type)
     return str(value)
+
+
+def _format_integer(type: Elementary, value: int) -> str:
+    match type.kind:
+        case Kind.TIME:
+            text = format_time(value)
+            return text if type.name == "TIME" else f"L{text}"
+        case Kind.DATE:
+            return format_date(type, value)
+        case Kind.REF:
+            return "NULL" if value == 0 else f"16#{value:08X}"
+        case Kind.BITS:
+            return f"16#{value:0{2 * type.size}X}"
+    return str(value)
+
+
+def _format_character(value: str, size: int) -> str:
+    quote = "'" if size == 1 else '"'
+    shown = value if value.isprintable() and value not in (quote, "$") else f"${ord(value):0{2 * size}X}"
+    return f"{quote}{shown}{quote}"
+
+
+def format_date(type: Elementary, ns: int) -> str:
+    """`D#2026-11-21`, `TOD#12:30:15.5`, `DT#2026-11-21-12:30:15`, with an L before the long ones."""
+    prefix, _, _ = DATES[type.name.removeprefix("L")]
+    head = f"{'L' if type.name.startswith('L') else ''}{prefix}#"
+    days, rest = divmod(ns, DAY_NS)
+    if prefix == "TOD":
+        return f"{head}{_clock(ns)}" if 0 <= ns < DAY_NS else f"{head}{ns}ns"
+    day = calendar_date.fromordinal(literals.EPOCH + days).isoformat()
+    return f"{head}{day}" if prefix == "D" else f"{head}{day}-{_clock(rest)}"
+
+
+def _clock(ns: int) -> str:
+    seconds, fraction = divmod(ns, 1_000_000_000)
+    text = f"{seconds // 3600:02}:{seconds // 60 % 60:02}:{seconds % 60:02}"
+    return f"{text}.{fraction:09}".rstrip("0") if fraction else text
 
 
 def _shortest(value: float, type: Elementary) -> str:

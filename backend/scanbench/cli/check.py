@@ -7,6 +7,7 @@ from pathlib import Path
 import typer
 
 from scanbench.check.build import check_sources
+from scanbench.cli.check_report import report_files, report_json, report_lines
 from scanbench.cli.inputs import find_model, problem_json, read_sources
 from scanbench.problems import Severity
 
@@ -22,12 +23,19 @@ def check(
     paths: list[Path] = typer.Argument(metavar="FILE|DIR...", help="ST files; a folder gives all .st files below it."),
     format: Format = typer.Option(Format.TEXT, help="text: `file:line:column: code message`, one a line."),
     model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else project.json's, else GENERIC-IEC."),
+    report: bool = typer.Option(False, help="Count supported and refused constructs per file instead."),
 ) -> None:
     """Check programs. Exit 0 without errors, 1 with, 2 for wrong usage. All files given are one program."""
     sources = read_sources(paths)
     checked = check_sources(sources.texts, find_model(model, sources))
     errors = sum(problem.severity is Severity.ERROR for problem in checked.problems)
-    if format is Format.JSON:
+    if report:
+        files = report_files(sources.texts, checked.problems)
+        if format is Format.JSON:
+            typer.echo(json.dumps({"files": report_json(files), "errors": errors}, ensure_ascii=False))
+        else:
+            typer.echo("\n".join(report_lines(files)))
+    elif format is Format.JSON:
         shown = {"problems": [problem_json(problem) for problem in checked.problems], "errors": errors}
         typer.echo(json.dumps(shown, ensure_ascii=False))
     else:

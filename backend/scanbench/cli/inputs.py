@@ -11,9 +11,9 @@ import typer
 from scanbench.plcmodel.load import NoModels, load_all, model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem
+from scanbench.syntax.parse_file import ENDINGS, is_program_file
 from scanbench.syntax.source import decode
 
-ENDINGS = (".st", ".iecst")
 DEFAULT_MODEL = "GENERIC-IEC"
 PROJECT_FILE = "project.json"
 
@@ -33,14 +33,14 @@ def usage(message: str) -> NoReturn:
 
 
 def read_sources(paths: list[Path]) -> Sources:
-    """A file is taken whatever its ending; a folder gives every .st file in it and below."""
+    """A file is taken whatever its ending; a folder gives every program file in it and below."""
     texts: dict[str, str] = {}
     model = None
     for path in paths:
         if path.is_dir():
-            found = sorted(each for each in path.rglob("*") if each.suffix.lower() in ENDINGS and each.is_file())
+            found = sorted(each for each in path.rglob("*") if is_program_file(each.name) and each.is_file())
             if not found:
-                usage(f"there is no .st file in {path}")
+                usage(f"there is no program file ({', '.join(ENDINGS)}) in {path}")
             model = model or _project_model(path / PROJECT_FILE)
         elif path.exists():
             found = [path]

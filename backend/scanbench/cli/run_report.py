@@ -8,6 +8,7 @@ import typer
 from scanbench.check.symbols import Symbol, members
 from scanbench.check.types import ArrayType, Record
 from scanbench.check.values import format_value, python_value
+from scanbench.check.violations import read_violations
 from scanbench.runtime.headless import HeadlessRun
 from scanbench.runtime.resource import Resource
 
@@ -34,6 +35,7 @@ def report_json(result: Result, shown: Shown, problems: list[dict[str, str | int
         **({"hash": _hash(resource)} if with_hash else {}),
         "problems": problems,
         "refused": [{"scan": each.scan, "message": each.refusal.message} for each in result.refused],
+        "violations": _violations(resource),
         "state": _state(resource),
         "trap": _trap(resource),
     }
@@ -49,6 +51,9 @@ def report_text(result: Result, shown: Shown, with_hash: bool) -> None:
         typer.echo(f"{path} = {_text(resource, symbol)}")
     if with_hash:
         typer.echo(f"sha256 {_hash(resource)}")
+    for each in read_violations(resource.program, resource.memory).entries:
+        times = f"{each.times} times, scans {each.first_scan} to {each.last_scan}"
+        typer.echo(f"{each.span}: subrange: {each}, {times}", err=True)
     typer.echo(f"{result.scans} scans, {result.scans * resource.program.interval_ns / 1e9:g} s of PLC time", err=True)
 
 
@@ -68,6 +73,18 @@ def _state(resource: Resource) -> str:
     if resource.header.halt:
         return "fatal"
     return "running" if resource.runnable else "stopped"
+
+
+def _violations(resource: Resource) -> list[Json]:
+    """Subrange violations, in the order in which they first happened."""
+    return [
+        {
+            "file": each.span.file, "line": each.span.line, "column": each.span.column, "pou": each.pou,
+            "instance": each.instance, "variable": each.variable, "value": each.value, "low": each.low,
+            "high": each.high, "times": each.times, "first_scan": each.first_scan, "last_scan": each.last_scan,
+        }
+        for each in read_violations(resource.program, resource.memory).entries
+    ]  # fmt: skip
 
 
 def _trap(resource: Resource) -> Json:

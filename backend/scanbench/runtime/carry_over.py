@@ -1,14 +1,24 @@
 """A new program on a running PLC: what the old image hands over to the new one.
 
 Areas stay as they are; a variable is kept when the new program has one of the same path and type. Constants take the
-new value; in-out slots start unconnected, as their references count in the old layout.
+new value; in-out slots and references start unconnected, as they count in the old layout.
 """
 
 from dataclasses import dataclass
 
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
-from scanbench.check.types import ArrayType, Elementary, Record, Section, StringType, Type
+from scanbench.check.types import (
+    ArrayType,
+    Elementary,
+    Enumeration,
+    Record,
+    Reference,
+    Section,
+    StringType,
+    Subrange,
+    Type,
+)
 
 _HEADER = ((Layout.CLOCK, 8), (Layout.SCAN, 8), (Layout.BUDGET_LIMIT, 8), (Layout.MODE, 2))
 
@@ -41,6 +51,8 @@ def carry_over(old: Program, old_memory: bytearray, new: Program, new_memory: by
     before = {instance.name.upper(): instance for task in old.tasks for instance in task.programs}
     for task in new.tasks:
         for instance in task.programs:
+            if instance.pou.kind != "program":
+                continue  # a block that a task runs: it is inside of its program
             was = before.get(instance.name.upper())
             if was is None:
                 report.lost += len(instance.pou.instance.members)
@@ -55,7 +67,9 @@ class _Carrier:
 
     def record(self, old: Record, old_offset: int, new: Record, new_offset: int) -> None:
         for name, member in new.members.items():
-            if member.located or member.constant or member.section in (Section.IN_OUT, Section.EXTERNAL):
+            if member.located or member.constant or member.hidden:
+                continue
+            if member.section in (Section.IN_OUT, Section.EXTERNAL):
                 continue
             was = old.members.get(name)
             if was is None or was.located or was.constant or was.section is Section.IN_OUT or not member.storage:
@@ -64,7 +78,9 @@ class _Carrier:
             self._value(was.type, old_offset + was.offset, member.type, new_offset + member.offset)
 
     def _value(self, old: Type, old_offset: int, new: Type, new_offset: int) -> None:
-        if isinstance(new, Record) and isinstance(old, Record) and old.kind is new.kind and old.name == new.name:
+        if isinstance(new, Reference):
+            self._report.lost += 1
+        elif isinstance(new, Record) and isinstance(old, Record) and old.kind is new.kind and old.name == new.name:
             self.record(old, old_offset, new, new_offset)
         elif isinstance(new, ArrayType) and isinstance(old, ArrayType) and old.bounds == new.bounds:
             if isinstance(new.element, Elementary | StringType) and new.element == old.element:
@@ -75,7 +91,7 @@ class _Carrier:
                         old.element, old_offset + index * old.element.size,
                         new.element, new_offset + index * new.element.size,
                     )  # fmt: skip
-        elif isinstance(new, Elementary | StringType) and new == old:
+        elif isinstance(new, Elementary | StringType) and (new == old or _same_numbers(old, new)):
             self._copy(old_offset, new_offset, new.size)
         else:
             self._report.lost += 1
@@ -83,3 +99,12 @@ class _Carrier:
     def _copy(self, old_offset: int, new_offset: int, size: int) -> None:
         self._new[new_offset : new_offset + size] = self._old[old_offset : old_offset + size]
         self._report.kept += 1
+
+
+def _same_numbers(old: Type, new: Type) -> bool:
+    """An enumeration that got more values, a subrange with other bounds: the numbers mean the same."""
+    return (
+        isinstance(old, Enumeration | Subrange)
+        and isinstance(new, Enumeration | Subrange)
+        and (old.name, old.kind, old.size) == (new.name, new.kind, new.size)
+    )

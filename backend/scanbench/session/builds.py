@@ -3,18 +3,28 @@
 import asyncio
 import ctypes
 import multiprocessing
+import os
 import signal
 from collections.abc import Mapping
 from concurrent.futures import ProcessPoolExecutor
 from dataclasses import dataclass
+from pathlib import Path
 
-from scanbench.check.build import PouInfo, check_sources
+from scanbench.check.build import PouInfo
+from scanbench.check.incremental import Checks
+from scanbench.check.program import CheckSite
+from scanbench.engines.cache import BlobCache
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem, Severity
+from scanbench.session.known import keep, key_of
+from scanbench.session.protocol import Sources
 from scanbench.store.records import ProjectRow
 
 INTERVAL_NS = 10_000_000
 """A scan where no CONFIGURATION says another."""
+_NICENESS = 10
+_checks = Checks()
+"""In the child process: what it checked last."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -23,6 +33,8 @@ class CheckOutcome:
 
     problems: tuple[Problem, ...]
     pous: tuple[PouInfo, ...]
+    checks: tuple[CheckSite, ...] = ()
+    """Subrange checks that the compiler embedded, or proved needless; none while there are errors."""
 
     @property
     def errors(self) -> int:
@@ -43,7 +55,9 @@ class BuildOutcome:
 class Checker:
     """Checks sources in a child process."""
 
-    def __init__(self) -> None:
+    def __init__(self, cache: Path | None = None) -> None:
+        """`cache` is a directory where accepted programs are kept, for hosts to start with."""
+        self._cache = cache
         self._pool = ProcessPoolExecutor(1, multiprocessing.get_context("spawn"), initializer=_prepare)
 
     async def check(self, sources: Mapping[str, str], model: Model) -> CheckOutcome:
@@ -55,17 +69,35 @@ class Checker:
         """Starts the process, and reads the standard library in it, before somebody waits for it."""
         await self.check({"warm.st": "PROGRAM warm\nEND_PROGRAM\n"}, model)
 
+    def keep(self, sources: Sources, model: Model) -> None:
+        """Keeps the program of an accepted build, some time soon."""
+        if self._cache is not None:
+            self._pool.submit(_keep, sources, model, BlobCache(self._cache))
+
     async def close(self) -> None:
         """Ends the process."""
         await asyncio.to_thread(self._pool.shutdown, cancel_futures=True)
 
 
 def _check(sources: dict[str, str], model: Model) -> CheckOutcome:
-    checked = check_sources(sources, model, INTERVAL_NS)
-    return CheckOutcome(checked.problems, checked.pous)
+    checked = _checks.check(sources, model, INTERVAL_NS)
+    return CheckOutcome(checked.problems, checked.pous, checked.program.checks if checked.program else ())
+
+
+def _keep(sources: Sources, model: Model, cache: BlobCache) -> None:
+    """Writes the program from a copy of this process, so that the next check need not wait."""
+    program = _checks.check(sources.files, model, sources.interval_ns).program
+    if program is None or os.fork():
+        return
+    try:
+        os.nice(_NICENESS)
+        keep(cache, key_of(sources, model), program)
+    finally:
+        os._exit(0)
 
 
 def _prepare() -> None:
-    """The checker ends with its parent, and leaves Ctrl-C to it."""
+    """The checker ends with its parent, leaves Ctrl-C to it, and does not ask how copies of it ended."""
     ctypes.CDLL(None).prctl(1, signal.SIGKILL)
+    signal.signal(signal.SIGCHLD, signal.SIG_IGN)
     signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -9,8 +9,11 @@ from dataclasses import fields, is_dataclass
 
 import msgpack  # type: ignore[import-untyped]
 
+from scanbench.check.violations import Violation, Violations
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef
+from scanbench.problems import Span
+from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.command import Entry, Patch, Plan
 from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.modes import SetMode
@@ -26,8 +29,9 @@ _OBJECT = 1
 _CLASSES: dict[str, type] = {
     cls.__name__: cls
     for cls in (
-        Entry, Force, Generate, Patch, Plan, ErrorRef, ProgramChange, Recover, Release, SetMode, TrapInfo, Trapped, Write,
-        protocol.Ack, protocol.Build, protocol.Checkpoint, protocol.ColdStart, protocol.Drive, protocol.Entered, protocol.Found,
+        ClearViolations, Entry, Force, Generate, Patch, Plan, ErrorRef, ProgramChange, Recover, Release, SetMode, Span, TrapInfo, Trapped,
+        Violation, Violations, Write,
+        protocol.Ack, protocol.Build, protocol.Checkpoint, protocol.ColdStart, protocol.Diagnosed, protocol.Drive, protocol.Entered, protocol.Found,
         protocol.Frame, protocol.HostState, protocol.Lookup, protocol.Quit, protocol.Ready, protocol.Sources,
         protocol.Start, protocol.StartFailed, protocol.Submit, protocol.SymbolInfo, protocol.UnwatchIds,
         protocol.WantSnapshot, protocol.WatchItem, protocol.WatchPaths, protocol.Watching,

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Protocol
 
+from scanbench.check.violations import Violations
 from scanbench.faults.history import ErrorRow
 from scanbench.runtime.forces import Force
 from scanbench.runtime.trap import TrapInfo
@@ -119,6 +120,13 @@ class ForcesChanged:
 
 
 @dataclass(frozen=True, slots=True)
+class DiagnosticsChanged:
+    """The runtime diagnostics, all of them, whenever one changes."""
+
+    violations: Violations
+
+
+@dataclass(frozen=True, slots=True)
 class Watching:
     """Answer to the `watch` of a subscriber; with ref None what all ids mean now that the variables moved."""
 
@@ -136,6 +144,7 @@ Event = (
     | FileDeleted
     | ValueWritten
     | ForcesChanged
+    | DiagnosticsChanged
     | Watching
 )
 

@@ -11,6 +11,7 @@ import subprocess
 import sys
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field, replace
+from pathlib import Path
 
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Command, Entry
@@ -62,8 +63,11 @@ class Instance:
     """Supervises the process of one PLC. `on_message` gets what the host says, in order."""
 
     def __init__(
-        self, sources: protocol.Sources, on_state: Callable[[PlcState], None], on_message: Callable[[object], None]
-    ) -> None:
+        self, sources: protocol.Sources, on_state: Callable[[PlcState], None], on_message: Callable[[object], None],
+        cache: Path | None = None,
+    ) -> None:  # fmt: skip
+        """`cache` is a directory where hosts keep what they built."""
+        self._cache = cache
         self.state = PlcState(
             "starting", "MONITOR", "starting", 0, 0, sources.interval_ns, 0.0, 1.0, None, 0, None, 0, sources.version
         )
@@ -128,7 +132,7 @@ class Instance:
     async def _live(self) -> str | None:
         """One life of the process; returns why it must not be started again, or None."""
         ours, theirs = socket.socketpair()
-        self._process = process = _spawn(theirs)
+        self._process = process = _spawn(theirs, self._cache)
         theirs.close()
         reader, writer = await asyncio.open_unix_connection(sock=ours, limit=1 << 20)
         self._writer = writer
@@ -255,9 +259,9 @@ class Instance:
         self._answers.clear()
 
 
-def _spawn(sock: socket.socket) -> "subprocess.Popen[bytes]":
+def _spawn(sock: socket.socket, cache: Path | None) -> "subprocess.Popen[bytes]":
     fd = sock.fileno()
-    command = [sys.executable, "-m", "scanbench.session.host", str(fd)]
+    command = [sys.executable, "-m", "scanbench.session.host", str(fd), *([str(cache)] if cache is not None else [])]
     return subprocess.Popen(command, pass_fds=(fd,), stdin=subprocess.DEVNULL)
 
 

@@ -9,6 +9,7 @@ from scanbench.session.protocol import Sources
 from scanbench.session.session import Session
 from scanbench.store.records import FileInfo, FileRow, ProjectRow
 from scanbench.store.store import Store
+from scanbench.syntax.parse_file import ENDINGS, is_program_file
 
 
 class Refused(Exception):
@@ -118,6 +119,7 @@ class Projects:
         build = Sources(project.model, sources, INTERVAL_NS, version)
         sessions = self._sessions_of(id)
         acks = await asyncio.gather(*(session.build(build, author) for session in sessions))
+        self._checker.keep(build, self.model(project.model))
         lines = [f"{session.name}: {ack.message}" for session, ack in zip(sessions, acks, strict=True)]
         message = "; ".join([f"version {version} built", *lines])
         return BuildOutcome(all(ack.ok for ack in acks), message, found, await self.get(id))
@@ -125,5 +127,5 @@ class Projects:
 
 def _check_path(path: str) -> None:
     parts = path.split("/")
-    if not path.lower().endswith(".st") or len(path) > 200 or any(part.strip(". ") == "" for part in parts):
-        raise Refused(f"{path!r} cannot be a file of a project: name it like motor.st")
+    if not is_program_file(path) or len(path) > 200 or any(part.strip(". ") == "" for part in parts):
+        raise Refused(f"{path!r} cannot be a file of a project: name it like motor.st, or {', '.join(ENDINGS[1:])}")

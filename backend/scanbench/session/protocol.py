@@ -7,6 +7,7 @@ command; `Checkpoint` says from which entry on a replay needs the journal.
 
 from dataclasses import dataclass
 
+from scanbench.check.violations import Violations
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.trap import TrapInfo
 
@@ -153,6 +154,13 @@ class Frame:
 
 
 @dataclass(frozen=True, slots=True)
+class Diagnosed:
+    """The runtime diagnostics are others than before."""
+
+    violations: Violations
+
+
+@dataclass(frozen=True, slots=True)
 class Entered:
     """A new entry of the journal."""
 
@@ -188,6 +196,8 @@ class SymbolInfo:
     writable: bool
     section: str
     expandable: bool
+    values: tuple[tuple[str, int], ...] = ()
+    """Names of an enumeration's numbers."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -221,4 +231,6 @@ class Found:
 
 
 ToHost = Start | Submit | Drive | Build | WatchPaths | UnwatchIds | WantSnapshot | Lookup | Quit
-FromHost = Ready | StartFailed | HostState | Frame | Entered | ColdStart | Checkpoint | Ack | Watching | Found
+FromHost = (
+    Ready | StartFailed | HostState | Frame | Diagnosed | Entered | ColdStart | Checkpoint | Ack | Watching | Found
+)

@@ -1,10 +1,13 @@
 """One PLC and the people at it: commands in, events out, history and log kept."""
 
 from collections.abc import Awaitable, Iterable, Sequence
+from pathlib import Path
 
+from scanbench.check.violations import Violations
 from scanbench.faults.history import ErrorRow, History
 from scanbench.faults.inject import Generate, Recover
 from scanbench.plcmodel.model import Model
+from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import Force, Release, forced
@@ -23,7 +26,7 @@ LOG_LINES = 500
 _EVERYBODY = 0
 _LOG_KINDS: dict[type, str] = {
     Write: "write", Force: "force", Release: "force", Generate: "error", Recover: "recover", SetMode: "mode",
-    ProgramChange: "build", Trapped: "system",
+    ProgramChange: "build", Trapped: "system", ClearViolations: "run",
 }  # fmt: skip
 
 
@@ -32,7 +35,7 @@ class Session:
 
     def __init__(
         self, id: int, name: str, project_id: int, model: Model, sources: protocol.Sources, keeper: Keeper,
-        rows: dict[str, ErrorRow], lines: Sequence[LogEntry],
+        rows: dict[str, ErrorRow], lines: Sequence[LogEntry], cache: Path | None = None,
     ) -> None:  # fmt: skip
         self.id, self.name, self.project_id, self.model = id, name, project_id, model
         self._keeper = keeper
@@ -44,7 +47,8 @@ class Session:
         self._questions: dict[int, tuple[int, int]] = {}
         self._next_question = _EVERYBODY + 1
         self._unwatched = False  # what is watched must be told to the next host
-        self._instance = Instance(sources, self._on_state, self._on_message)
+        self._violations = Violations()
+        self._instance = Instance(sources, self._on_state, self._on_message, cache)
         self._last_state = self._instance.state
 
     # ---- what it is -----------------------------------------------------------------------------------------------
@@ -68,6 +72,11 @@ class Session:
     def forces(self) -> tuple[Force, ...]:
         """The forces that hold, in the order in which they were made."""
         return tuple(forced(self._instance.entries).values())
+
+    @property
+    def violations(self) -> Violations:
+        """The runtime diagnostics."""
+        return self._violations
 
     @property
     def users(self) -> tuple[User, ...]:
@@ -185,6 +194,9 @@ class Session:
             case protocol.ColdStart():
                 self._cleared_by_cold_start()
                 self._publish(events.ForcesChanged(self.forces))
+                self._on_diagnosed(Violations())
+            case protocol.Diagnosed():
+                self._on_diagnosed(message.violations)
             case protocol.Ready():
                 self._on_ready(message)
             case protocol.Watching():
@@ -207,6 +219,16 @@ class Session:
             self._publish(events.ForcesChanged(self.forces))
         kind = _LOG_KINDS.get(type(command), "system")
         self._add_line(LogEntry(entry.at, entry.scan, command.author, entry.plan.message, kind))
+
+    def _on_diagnosed(self, violations: Violations) -> None:
+        """Everybody gets the list; a place that is new in it also gets a line of the log."""
+        before = {(each.site, each.instance) for each in self._violations.entries}
+        self._violations = violations
+        self._publish(events.DiagnosticsChanged(violations))
+        for each in violations.entries:
+            if (each.site, each.instance) not in before:
+                text = f"{each}, {each.span.file}:{each.span.line}"
+                self._add_line(LogEntry(wall_time(), each.first_scan, "PLC", text, "system"))
 
     def _on_ready(self, ready: protocol.Ready) -> None:
         if ready.message:

@@ -3,6 +3,7 @@
 import asyncio
 import logging
 from collections.abc import Mapping
+from pathlib import Path
 
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
@@ -22,13 +23,14 @@ FIRST_INSTANCE = "line-1"
 class Workbench:
     """Starts and ends with the server."""
 
-    def __init__(self, store: Store) -> None:
-        self._store = store
+    def __init__(self, store: Store, cache: Path | None = None) -> None:
+        """`cache` is a directory where programs and their code are kept between starts."""
+        self._store, self._cache = store, cache
         models, problems = load_all(model_directory())
         for problem in problems:
             log.error("%s", problem)
         self.models: Mapping[str, Model] = {model.name: model for model in models}
-        self._checker = Checker()
+        self._checker = Checker(cache)
         self._keeper = Keeper(store)
         self._sessions: dict[int, Session] = {}
         self._warming: asyncio.Task[None] | None = None
@@ -98,7 +100,7 @@ class Workbench:
         rows = [row_of(model, each) for each in await asyncio.to_thread(self._store.history, row.id)]
         lines = [line_of(each) for each in await asyncio.to_thread(self._store.log, row.id, LOG_LINES)]
         kept = {each.id: each for each in rows if each is not None}
-        session = Session(row.id, row.name, project.id, model, sources, self._keeper, kept, lines)
+        session = Session(row.id, row.name, project.id, model, sources, self._keeper, kept, lines, self._cache)
         self._sessions[row.id] = session
         session.start()
         return session

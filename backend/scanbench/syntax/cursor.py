@@ -1,11 +1,15 @@
 """A place in the tokens of one file, and the problems met on the way."""
 
 from scanbench.problems import Problem, Span
-from scanbench.syntax.lexer import Lex, Token, span_of, tokenize
-from scanbench.syntax.source import Source
+from scanbench.syntax.lexer import Lex, Tokens, tokenize
+from scanbench.syntax.source import Source, Stretch
 
 MAX_DEPTH = 200
 """Nesting of statements and parentheses; deeper text is refused, as no one can read it and recursion must end."""
+MAX_PROBLEMS = 1000
+"""Of one file; a text with more is not a program, and nobody reads so many."""
+
+NAME = Lex.NAME
 
 
 class Unexpected(Exception):
@@ -13,80 +17,121 @@ class Unexpected(Exception):
 
 
 class Cursor:
-    def __init__(self, source: Source) -> None:
+    """A token is the number of its place; `texts[token]` is what was written, keywords in upper case.
+
+    No name, number or string is spelt like a keyword or operator, so comparing texts is enough to find those. Words
+    that are keywords only in places (METHOD, BY, ...) are names here, and are asked for with `word` and `accept_word`.
+    """
+
+    def __init__(self, source: Source, tokens: Tokens | None = None) -> None:
+        """`tokens` are given where only parts of the text are to be read."""
         self.source = source
-        self.tokens, self.problems = tokenize(source)
+        self.problems: list[Problem] = []
+        if tokens is None:
+            tokens, self.problems = tokenize(source)
+        self.kinds, self.texts, self.starts, self.pragmas = tokens.kinds, tokens.texts, tokens.starts, tokens.pragmas
         self.at = 0
         self.depth = 0
 
-    @property
-    def token(self) -> Token:
-        return self.tokens[self.at]
-
-    def ahead(self, count: int) -> Token:
-        return self.tokens[min(self.at + count, len(self.tokens) - 1)]
-
-    def take(self) -> Token:
-        token = self.tokens[self.at]
-        if token.kind is not Lex.END:
-            self.at += 1
-        return token
+    def take(self) -> int:
+        """The next token; the end is never passed."""
+        at = self.at
+        if self.kinds[at] is not Lex.END:
+            self.at = at + 1
+        return at
 
     def is_(self, *texts: str) -> bool:
         """The next token is one of these operators or keywords."""
-        token = self.tokens[self.at]
-        return token.kind in (Lex.OPERATOR, Lex.KEYWORD) and token.text in texts
+        return self.texts[self.at] in texts
 
-    def accept(self, *texts: str) -> bool:
-        if self.is_(*texts):
+    def ended(self) -> bool:
+        return self.kinds[self.at] is Lex.END
+
+    def accept(self, text: str) -> bool:
+        if self.texts[self.at] == text:
             self.at += 1
             return True
         return False
 
-    def expect(self, text: str, where: str) -> Token:
-        if not self.is_(text):
-            self.fail(f"`{text}` expected {where}")
+    def word(self, ahead: int = 0) -> str:
+        """The name that comes next, in upper case; empty when something else comes."""
+        at = self.at + ahead
+        return self.texts[at].upper() if self.kinds[at] is NAME else ""
+
+    def accept_word(self, *words: str) -> bool:
+        if self.word() in words:
+            self.at += 1
+            return True
+        return False
+
+    def expect(self, text: str, where: str) -> int:
+        if self.texts[self.at] != text:
+            raise self.fail(f"`{text}` expected {where}")
         return self.take()
 
     def close(self, text: str, where: str) -> None:
         """Expects a closing mark that can be missing without harm: reported behind the last token, then gone on."""
-        if not self.accept(text):
-            last = self.tokens[max(self.at - 1, 0)]
-            span = self.source.span(max(last.end - 1, 0), last.end)
-            self.problems.append(Problem("S003", f"`{text}` expected {where}{self._found()}.", span))
+        if self.texts[self.at] == text:
+            self.at += 1
+            return
+        end = self._end_of(max(self.at - 1, 0))
+        self.report("S003", f"`{text}` expected {where}{self._found()}.", self.source.span(max(end - 1, 0), end))
 
-    def name(self, what: str) -> Token:
-        token = self.token
-        if token.kind is Lex.NAME:
-            return self.take()
-        if token.kind is Lex.KEYWORD:
-            self.fail(f"{what} expected; `{token.text}` is a keyword and cannot be a name")
-        self.fail(f"{what} expected")
-        raise AssertionError
+    def name(self, what: str) -> int:
+        kind = self.kinds[self.at]
+        if kind is NAME:
+            self.at += 1
+            return self.at - 1
+        if kind is Lex.KEYWORD:
+            raise self.fail(f"{what} expected; `{self.texts[self.at]}` is a keyword and cannot be a name")
+        if kind is Lex.STRING and self.texts[self.at][0] == '"':
+            self.report("X001", f"Names in quotes are not supported; write {self.texts[self.at][1:-1]}.", self.here())
+            raise Unexpected
+        raise self.fail(f"{what} expected")
 
-    def fail(self, message: str, token: Token | None = None) -> None:
-        token = token or self.token
-        self.report("S003", message + self._found(token) + ".", span_of(self.source, token))
-        raise Unexpected
+    def qualified(self, what: str) -> str:
+        """`Name.Name`, as written."""
+        parts = [self.texts[self.name(what)]]
+        while self.texts[self.at] == "." and self.kinds[self.at + 1] is NAME:
+            parts.append(self.texts[self.at + 1])
+            self.at += 2
+        return ".".join(parts)
+
+    def fail(self, message: str, token: int | None = None) -> Unexpected:
+        """To be raised, after reporting what is wrong with this token."""
+        self.report("S003", message + self._found(token) + ".", self.span_of(self.at if token is None else token))
+        return Unexpected()
 
     def report(self, code: str, message: str, span: Span) -> None:
-        self.problems.append(Problem(code, message, span))
+        if len(self.problems) < MAX_PROBLEMS:
+            self.problems.append(Problem(code, message, span))
 
     def here(self) -> Span:
-        return span_of(self.source, self.token)
+        return self.span_of(self.at)
 
-    def span_from(self, start: Token) -> Span:
-        """From `start` to the last token taken."""
-        return self.source.span(start.start, max(self.tokens[max(self.at - 1, 0)].end, start.end))
+    def span_of(self, token: int) -> Span:
+        start = self.starts[token]
+        return Stretch(self.source, start, start + (len(self.texts[token]) or 1))
 
-    def _found(self, token: Token | None = None) -> str:
-        token = token or self.token
-        return ", but the file ends here" if token.kind is Lex.END else f", found `{token.text}`"
+    def span_from(self, token: int) -> Span:
+        """From `token` to the last one taken."""
+        end = self._end_of(max(self.at - 1, 0))
+        return Stretch(self.source, self.starts[token], max(end, self._end_of(token)))
+
+    def _end_of(self, token: int) -> int:
+        return self.starts[token] + len(self.texts[token])
+
+    def line_of(self, token: int) -> int:
+        return self.source.line(self.starts[token])
+
+    def _found(self, token: int | None = None) -> str:
+        text = self.texts[self.at if token is None else token]
+        return f", found `{text[:40]}`" if text else ", but the file ends here"
 
     def enter(self) -> None:
         self.depth += 1
         if self.depth > MAX_DEPTH:
-            self.fail(f"nested more than {MAX_DEPTH} deep; split this up")
+            raise self.fail(f"nested more than {MAX_DEPTH} deep; split this up")
 
     def leave(self) -> None:
         self.depth -= 1

@@ -1,172 +1,206 @@
 """Expressions of Structured Text."""
 
 from scanbench.problems import Span
-from scanbench.syntax import literals, tree
-from scanbench.syntax.cursor import Cursor
-from scanbench.syntax.lexer import Lex, span_of
+from scanbench.syntax import tree
+from scanbench.syntax.cursor import NAME, Unexpected
+from scanbench.syntax.lexer import Lex
+from scanbench.syntax.parse_literal import LiteralParser
+from scanbench.syntax.source import Stretch
 
 BINARY: dict[str, tuple[int, str]] = {
-    "OR": (0, "or"), "XOR": (1, "xor"), "AND": (2, "and"), "&": (2, "and"), "=": (3, "eq"), "<>": (3, "ne"),
-    "<": (4, "lt"), ">": (4, "gt"), "<=": (4, "le"), ">=": (4, "ge"), "+": (5, "add"), "-": (5, "sub"),
-    "*": (6, "mul"), "/": (6, "div"), "MOD": (6, "mod"), "**": (7, "pow"),
+    "OR": (0, "or"), "OR_ELSE": (0, "or_else"), "XOR": (1, "xor"), "AND": (2, "and"), "&": (2, "and"),
+    "AND_THEN": (2, "and_then"), "=": (3, "eq"), "<>": (3, "ne"), "<": (4, "lt"), ">": (4, "gt"), "<=": (4, "le"),
+    ">=": (4, "ge"), "+": (5, "add"), "-": (5, "sub"), "*": (6, "mul"), "/": (6, "div"), "MOD": (6, "mod"),
+    "**": (7, "pow"),
 }  # fmt: skip
-"""Strength of the operators, 0 the weakest (IEC 61131-3, table 71); all are left-associative."""
+"""Strength of the operators, 0 the weakest (IEC 61131-3, table 71); all are left-associative, and `-x` is stronger than all."""
 
+UNARY = {"-": "neg", "+": "plus", "NOT": "not"}
+POSTFIX = frozenset((".", "[", "(", "^"))
+FUNCTION_FORMS = ("AND", "OR", "XOR", "MOD")
+"""Operators that are also functions: `AND(a, b)`."""
+LITERALS = frozenset((Lex.INTEGER, Lex.REAL, Lex.TIME, Lex.STRING, Lex.TYPED))
+REFUSED = {
+    "__NEW": "memory that is allocated while the program runs",
+    "__DELETE": "memory that is allocated while the program runs",
+    "__QUERYINTERFACE": "use `?=`",
+    "__QUERYPOINTER": "use `?=`",
+    "__ISVALIDREF": "compare the reference with NULL",
+    "__VARINFO": "there is no information about variables at run time",
+    "__CURRENTTASK": "there is no information about tasks at run time",
+    "__POUNAME": "there is no information about POUs at run time",
+    "__POSITION": "there is no information about positions at run time",
+}
 MAX_CHAIN = 1000
 
 
-class ExpressionParser(Cursor):
-    def expression(self) -> tree.Expression:
-        self.enter()
-        result = self._binary(0)
-        self.leave()
-        return result
-
-    def _binary(self, weakest: int) -> tree.Expression:
+class ExpressionParser(LiteralParser):
+    def expression(self, weakest: int = 0) -> tree.Expression:
         """Operands joined by operators that are no weaker than this."""
-        left, count = self._unary(), 0
-        while True:
-            token = self.token
-            if token.kind is not Lex.OPERATOR and token.kind is not Lex.KEYWORD:
-                return left
-            strength, op = BINARY.get(token.text, (-1, ""))
-            if strength < weakest:
-                return left
-            self.take()
-            right = self._binary(strength + 1)
-            left = tree.BinaryOp(op, left, right, left.span.to(right.span))
+        left, count = self._operand(), 0
+        texts = self.texts
+        while (found := BINARY.get(texts[self.at])) is not None and found[0] >= weakest:
+            self.at += 1
+            right = self.expression(found[0] + 1)
+            left = tree.BinaryOp(found[1], left, right, left.span.to(right.span))
             count += 1
             if count > MAX_CHAIN:
-                self.fail(f"more than {MAX_CHAIN} operands in one expression; split it up")
+                raise self.fail(f"more than {MAX_CHAIN} operands in one expression; split it up")
+        return left
 
-    def _unary(self) -> tree.Expression:
-        if not self.is_("-", "+", "NOT"):
-            return self._primary()
-        self.enter()
-        start = self.take()
-        operand = self._unary()
-        self.leave()
-        op = {"-": "neg", "+": "plus", "NOT": "not"}[start.text]
-        return tree.UnaryOp(op, operand, self.span_from(start))
+    def _operand(self) -> tree.Expression:
+        at = self.at
+        kind = self.kinds[at]
+        if kind is NAME:
+            text = self.texts[at]
+            self.at = at + 1
+            start = self.starts[at]
+            name = tree.Name(text, Stretch(self.source, start, start + len(text)))
+            return self._postfix(name) if self.texts[at + 1] in POSTFIX else name
+        if kind in LITERALS:
+            self.at = at + 1
+            return self._postfix(self.literal(at)) if self.texts[self.at] == "." else self.literal(at)
+        if kind is Lex.ADDRESS:
+            self.at = at + 1
+            return tree.DirectAddress(self.texts[at], self.span_of(at))
+        return self._marked(at, self.texts[at])
 
-    def _primary(self) -> tree.Expression:
-        token = self.token
-        match token.kind:
-            case Lex.INTEGER | Lex.REAL | Lex.TIME | Lex.STRING:
-                return self._literal(None)
-            case Lex.ADDRESS:
-                self.take()
-                return tree.DirectAddress(token.text, span_of(self.source, token))
-            case Lex.NAME:
-                self.take()
-                return self._postfix(tree.Name(token.text, span_of(self.source, token)))
-        if self.is_("TRUE", "FALSE"):
+    def _marked(self, at: int, text: str) -> tree.Expression:
+        """An operand that begins with an operator or keyword."""
+        if text == "(":
             self.take()
-            return tree.Literal("bool", int(token.text == "TRUE"), None, span_of(self.source, token))
-        if token.kind is Lex.OPERATOR and token.text.endswith("#") and len(token.text) > 1:
-            return self._typed_literal()
-        if self.accept("("):
+            self.enter()
             inner = self.expression()
+            self.leave()
             self.expect(")", "to close the parenthesis")
-            return inner
-        self.fail("an expression (a value, variable or call) expected")
-        raise AssertionError
-
-    def _typed_literal(self) -> tree.Expression:
-        start = self.take()
-        type_name = start.text[:-1]
-        if self.token.kind in (Lex.INTEGER, Lex.REAL, Lex.STRING):
-            return self._literal(type_name, start.start)
-        if self.is_("-", "+") and self.ahead(1).kind in (Lex.INTEGER, Lex.REAL):
-            negative = self.take().text == "-"
-            literal = self._literal(type_name, start.start)
-            if negative and not isinstance(literal.value, bytes):
-                return tree.Literal(literal.kind, -literal.value, type_name, literal.span)
-            return literal
-        if self.is_("TRUE", "FALSE"):
-            value = int(self.take().text == "TRUE")
-            return tree.Literal("bool", value, type_name, self.span_from(start))
-        if self.token.kind is Lex.NAME:
+            return self._postfix(inner) if self.is_("^", ".", "[") else inner
+        if text in ("TRUE", "FALSE"):
             self.take()
-            self.report("X001", "Values of enumerations (`Type#Value`) are not supported yet.", self.span_from(start))
-            return tree.Literal("int", 0, None, self.span_from(start))
-        self.fail(f"a value expected behind `{start.text}`")
-        raise AssertionError
+            return tree.Literal("bool", int(text == "TRUE"), None, self.span_of(at))
+        formal_not = text == "NOT" and self.texts[at + 1] == "(" and self.texts[at + 3] == ":="
+        if (text in FUNCTION_FORMS or formal_not) and self.texts[at + 1] == "(":
+            self.take()
+            return self._postfix(tree.Name(text, self.span_of(at)))
+        if text in UNARY:
+            self.take()
+            self.enter()
+            operand = self._operand()
+            self.leave()
+            return tree.UnaryOp(UNARY[text], operand, self.span_from(at))
+        if text == "#" and self.kinds[at + 1] is NAME:
+            self.take()  # `#local`, as one vendor writes its local variables
+            return self._operand()
+        raise self.fail("an expression (a value, variable or call) expected")
 
-    def _literal(self, type_name: str | None, begin: int | None = None) -> tree.Literal:
-        token = self.take()
-        span = self.source.span(token.start if begin is None else begin, token.end)
-        text = token.text
-        try:
-            match token.kind:
-                case Lex.INTEGER:
-                    parts = text.split("#")
-                    if len(parts) == 3 or (len(parts) == 2 and not parts[0].isdigit()):
-                        type_name, text = parts[0], text.split("#", 1)[1]
-                    return tree.Literal("int", literals.integer(text), type_name, span)
-                case Lex.REAL:
-                    return tree.Literal("real", literals.real(text), type_name, span)
-                case Lex.TIME:
-                    prefix, digits = text.split("#", 1)
-                    if prefix.upper() in ("LTIME", "LT"):
-                        self.report("X001", "LTIME is not supported yet; use TIME.", span)
-                    return tree.Literal("time", literals.duration(digits), None, span)
-        except ValueError as error:
-            self.report("S004", f"`{token.text[:40]}` cannot be read: {error}.", span)
-            return tree.Literal("time" if token.kind is Lex.TIME else "int", 0, type_name, span)
-        return self._string(text, type_name, span)
-
-    def _string(self, text: str, type_name: str | None, span: Span) -> tree.Literal:
-        if text[0] == '"':
-            self.report("X001", "WSTRING is not supported yet; write the string in single quotes.", span)
-        try:
-            return tree.Literal("string", literals.string(text[1:-1]), type_name, span)
-        except ValueError as error:
-            self.report("S004", f"This string cannot be read: {error}.", span)
-            return tree.Literal("string", b"", type_name, span)
-
-    def _postfix(self, base: tree.Expression) -> tree.Expression:
-        while True:
-            if self.accept("."):
-                if self.token.kind is Lex.INTEGER:
-                    self.report("X001", "Partial access (`.3`) is not supported yet.", self.here())
-                    self.take()
-                    continue
-                name = self.name("the name of a member")
-                base = tree.MemberOf(base, name.text, base.span.to(span_of(self.source, name)))
-            elif self.accept("["):
-                indices = [self.expression()]
-                while self.accept(","):
-                    indices.append(self.expression())
+    def _postfix(self, base: tree.Expression, calls: bool = True) -> tree.Expression:
+        """What follows a variable: `.member`, `[index]`, `(arguments)`, `^`, `.3`."""
+        count = 0
+        while (text := self.texts[self.at]) in POSTFIX:
+            if text == ".":
+                self.at += 1
+                base = self._member(base)
+            elif text == "[":
+                self.at += 1
+                self.enter()
+                indices = self._list()
+                self.leave()
                 end = self.expect("]", "to close the index")
-                base = tree.IndexOf(base, tuple(indices), base.span.to(span_of(self.source, end)))
-            elif self.accept("("):
+                base = tree.IndexOf(base, indices, base.span.to(self.span_of(end)))
+            elif text == "^":
+                base = tree.Dereference(base, base.span.to(self.here()))
+                self.at += 1
+            elif calls:
                 base = self._call(base)
-            elif self.is_("^"):
-                self.report("X001", "References (`^`) are not supported yet.", self.here())
-                self.take()
             else:
-                return base
+                break
+            count += 1
+            if count > MAX_CHAIN:
+                raise self.fail(f"more than {MAX_CHAIN} members, indices and calls in a row")
+        return base
+
+    def _list(self) -> tuple[tree.Expression, ...]:
+        found = [self.expression()]
+        while self.accept(","):
+            found.append(self.expression())
+        return tuple(found)
+
+    def _member(self, base: tree.Expression) -> tree.Expression:
+        at = self.at
+        text, kind = self.texts[at], self.kinds[at]
+        if kind is NAME:
+            self.at = at + 1
+            return tree.MemberOf(base, text, base.span.to(self.span_of(at)))
+        if kind is Lex.INTEGER and text.isdigit() and len(text) < 4:
+            self.at = at + 1
+            return tree.PartialAccess(base, "X", int(text), base.span.to(self.span_of(at)))
+        if kind is Lex.ADDRESS:
+            size, number = text[1:2].upper(), text[2:]
+            if size in "XBWDL" and number.isdigit() and len(number) < 4:
+                self.at = at + 1
+                return tree.PartialAccess(base, size, int(number), base.span.to(self.span_of(at)))
+            raise self.fail("a part of a variable is written like x.%X3, x.%B1, x.%W0 or x.%D0")
+        if kind is Lex.TYPED and (owner := _path(base)):
+            self.at = at + 1
+            return self.literal(at, owner + ".")
+        if kind is Lex.KEYWORD and text not in ("AND", "OR", "XOR", "MOD", "NOT"):
+            raise self.fail(f"the name of a member expected; `{text}` is a keyword and cannot be a name")
+        raise self.fail("the name of a member expected")
 
     def _call(self, callee: tree.Expression) -> tree.Call:
-        arguments: list[tree.Argument] = []
-        while not self.is_(")"):
-            arguments.append(self._argument())
+        self._refuse(callee)
+        return tree.Call(callee, self.arguments("call"), self._through(callee))
+
+    def _through(self, first: tree.Expression) -> Span:
+        """From an expression to the last token taken."""
+        return first.span.to(self.span_of(self.at - 1))
+
+    def _refuse(self, callee: tree.Expression) -> None:
+        if isinstance(callee, tree.Name) and callee.name.upper() in REFUSED:
+            why = REFUSED[callee.name.upper()]
+            self.report("X001", f"`{callee.name}` is not supported: {why}.", callee.span)
+            raise Unexpected
+
+    def arguments(self, of: str) -> tuple[tree.Argument, ...]:
+        """`(a, name := b, name => c)`."""
+        self.expect("(", f"to open the {of}")
+        self.enter()
+        found: list[tree.Argument] = []
+        while self.texts[self.at] != ")":
+            if (
+                self.kinds[self.at] is NAME
+                and self.texts[self.at + 1] == ":="
+                and self.texts[self.at + 2] in (",", ")")
+            ):
+                self.at += 2  # `name := ,` of vendors: the input keeps its value
+            else:
+                found.append(self._argument())
             if not self.accept(","):
                 break
-        end = self.expect(")", "to close the call")
-        return tree.Call(callee, tuple(arguments), callee.span.to(span_of(self.source, end)))
+        self.leave()
+        self.expect(")", f"to close the {of}")
+        return tuple(found)
 
     def _argument(self) -> tree.Argument:
-        start = self.token
-        if start.kind is Lex.NAME and self.ahead(1).text in (":=", "=>"):
-            name = self.take().text
-            output = self.take().text == "=>"
-            if output and self.is_(",", ")"):
-                return tree.Argument(name, True, None, self.span_from(start))
+        at = self.at
+        if self.kinds[at] is NAME and self.texts[at + 1] in (":=", "=>"):
+            self.at = at + 2
+            output = self.texts[at + 1] == "=>"
+            if output and self.texts[self.at] in (",", ")"):
+                return tree.Argument(self.texts[at], output, None, self.span_from(at))
             value = self.expression()
-            return tree.Argument(name, output, value, self.span_from(start))
-        if self.is_("NOT") and self.ahead(1).kind is Lex.NAME and self.ahead(2).text == "=>":
-            self.fail("a negated output (`NOT name => variable`) is not supported; assign it after the call", start)
+            return tree.Argument(self.texts[at], output, value, self.span_from(at))
+        if self.texts[at] == "NOT" and self.kinds[at + 1] is NAME and self.texts[at + 2] == "=>":
+            self.at = at + 3
+            value = self.expression()
+            return tree.Argument(self.texts[at + 1], True, value, self.span_from(at), negated=True)
         value = self.expression()
         return tree.Argument(None, False, value, value.span)
+
+
+def _path(expression: tree.Expression) -> str:
+    """`A.B` of names joined by dots, else nothing."""
+    parts: list[str] = []
+    while isinstance(expression, tree.MemberOf):
+        parts.append(expression.name)
+        expression = expression.owner
+    return ".".join([expression.name, *reversed(parts)]) if isinstance(expression, tree.Name) else ""

@@ -1,122 +1,146 @@
 """Statements of Structured Text. A bad statement is reported and skipped; the next one is read as usual."""
 
+from collections.abc import Callable
+
 from scanbench.syntax import tree
-from scanbench.syntax.cursor import Unexpected
+from scanbench.syntax.cursor import NAME, Unexpected
 from scanbench.syntax.lexer import Lex
-from scanbench.syntax.parse_expression import ExpressionParser
+from scanbench.syntax.parse_declaration import POU_ENDS, POU_STARTS, SECTIONS, DeclarationParser
 
-POU_ENDS = ("END_PROGRAM", "END_FUNCTION", "END_FUNCTION_BLOCK")
-POU_STARTS = ("PROGRAM", "FUNCTION", "FUNCTION_BLOCK", "TYPE", "CONFIGURATION", "VAR_GLOBAL")
-BLOCK_ENDS = ("END_IF", "ELSIF", "ELSE", "END_CASE", "END_FOR", "END_WHILE", "UNTIL", "END_REPEAT")
-STARTS = ("IF", "CASE", "FOR", "WHILE", "REPEAT", "EXIT", "CONTINUE", "RETURN")
+BLOCK_ENDS = frozenset(("END_IF", "ELSIF", "ELSE", "END_CASE", "END_FOR", "END_WHILE", "UNTIL", "END_REPEAT"))
+STOPS = BLOCK_ENDS | POU_ENDS | POU_STARTS | SECTIONS | {"VAR_ACCESS", "VAR_CONFIG", "END_VAR", ""}
+"""What a statement cannot begin with, and where a list of them therefore ends."""
+STARTS = frozenset(("IF", "CASE", "FOR", "WHILE", "REPEAT", "EXIT", "RETURN"))
+DECLARATIONS = frozenset(
+    ("METHOD", "PROPERTY", "PROPERTY_GET", "PROPERTY_SET", "ACTION", "CLASS", "INTERFACE", "NAMESPACE", "USING")
+)
+"""Words that begin a declaration when a name follows; no statement begins with two names."""
+OPERATORS_WITH_NAME = ("S", "R", "REF")
+REFUSED = {
+    "JMP": "use IF and loops",
+    "GOTO": "use IF and loops",
+    "__TRY": "check before you compute; a trap stops the PLC",
+    "TRY": "check before you compute; a trap stops the PLC",
+    "REGION": "remove it, and its END_REGION",
+}
+LABEL_KINDS = frozenset((NAME, Lex.INTEGER, Lex.TYPED, Lex.STRING, Lex.TIME))
+LABEL_TEXTS = frozenset((",", "..", ".", "-", "+", "TRUE", "FALSE"))
+MAX_LABELS = 1000
 
 
-class StatementParser(ExpressionParser):
+class StatementParser(DeclarationParser):
     def statements(self, labels: bool = False) -> tuple[tree.Statement, ...]:
         """Statements up to something that ends a block; with `labels` also up to the next label of a CASE."""
         found: list[tree.Statement] = []
         depth = self.depth
-        while not self._at_end():
-            if self.accept(";"):
+        while (text := self.texts[self.at]) not in STOPS:
+            if text == ";":
+                self.at += 1
                 continue
+            name = self.kinds[self.at] is NAME
+            if name and self.kinds[self.at + 1] is NAME and self.declaration_follows():
+                break
             if labels and self._at_label():
                 break
             before = self.at
             try:
-                self.enter()
-                statement = self._statement()
-                self.leave()
-                if statement is not None:
-                    found.append(statement)
+                keyword = KEYWORDS.get(text)
+                if keyword is None:
+                    found.append(self._simple(name))
+                else:
+                    self.enter()
+                    found.append(keyword(self))
+                    self.depth = depth
             except Unexpected:
                 self.depth = depth
                 self._skip(before)
         return tuple(found)
 
-    def _at_end(self) -> bool:
-        return self.token.kind is Lex.END or self.is_(*BLOCK_ENDS, *POU_ENDS, *POU_STARTS, "METHOD")
+    def declaration_follows(self) -> bool:
+        """METHOD and the like, with a name behind."""
+        return self.word() in DECLARATIONS and (
+            self.word(1) not in OPERATORS_WITH_NAME or self.texts[self.at + 2] != "="
+        )
 
     def _skip(self, before: int) -> None:
         """To the beginning of what may be the next statement; always at least one token on."""
         if self.at == before:
             self.take()
-        line = self.source.span(self.tokens[self.at - 1].start, self.tokens[self.at - 1].end).line
-        while not self._at_end() and not self.is_(*STARTS):
-            token = self.token
-            if self._begins_line(line) and self._at_assignment():
-                return
+        line = self.line_of(self.at - 1)
+        while (text := self.texts[self.at]) not in STOPS and text not in STARTS:
+            if self.kinds[self.at] is NAME and self.line_of(self.at) > line:
+                if self.texts[self.at + 1] in (":=", "(", ".", "[") or self.declaration_follows():
+                    return
             self.take()
-            if token.text == ";":
+            if text == ";":
                 return
 
-    def _begins_line(self, line: int) -> bool:
-        return self.source.span(self.token.start, self.token.end).line > line
-
-    def _at_assignment(self) -> bool:
-        """A name, and `:=` or a call before the line ends: most likely a statement."""
-        return self.token.kind is Lex.NAME and self.ahead(1).text in (":=", "(", ".", "[")
-
-    def _statement(self) -> tree.Statement | None:
-        start = self.token
-        if start.kind is Lex.KEYWORD:
-            match start.text:
-                case "IF":
-                    return self._if()
-                case "CASE":
-                    return self._case()
-                case "FOR":
-                    return self._for()
-                case "WHILE":
-                    return self._while()
-                case "REPEAT":
-                    return self._repeat()
-                case "EXIT" | "RETURN":
-                    self.take()
-                    self.close(";", f"behind {start.text}")
-                    span = self.span_from(start)
-                    return tree.ExitStatement(span) if start.text == "EXIT" else tree.ReturnStatement(span)
-                case "CONTINUE":
-                    self.report(
-                        "X001", "CONTINUE is not supported yet; put the rest of the loop in an IF.", self.here()
-                    )
-                    self.take()
-                    self.close(";", "behind CONTINUE")
-                    return None
-                case "TRUE" | "FALSE" | "NOT":
-                    pass
-                case _:
-                    self.fail("a statement expected")
-        return self._assignment()
-
-    def _assignment(self) -> tree.Statement:
-        start = self.token
+    def _simple(self, name: bool) -> tree.Statement:
+        """An assignment, a call, or a word that is a statement only where it stands alone."""
+        start = self.at
+        if name and self.texts[start + 1] not in (":=", "(", ".", "["):
+            word = self.word()
+            if word == "CONTINUE" and (self.texts[start + 1] == ";" or self.texts[start + 1] in STOPS):
+                self.take()
+                self.close(";", "behind CONTINUE")
+                return tree.ContinueStatement(self.span_of(start))
+            self._refused(word)
         target = self.expression()
         if self.accept(":="):
             value = self.expression()
             span = self.span_from(start)
+            if self.is_(":="):
+                self.report(
+                    "X001", "Several assignments in one (`a := b := c`) are not supported; write one for each.", span
+                )
+                raise Unexpected
             self.close(";", "at the end of the assignment")
             return tree.Assignment(target, value, span)
+        return self._other(start, target)
+
+    def _other(self, start: int, target: tree.Expression) -> tree.Statement:
+        word = self.word()
+        if word in OPERATORS_WITH_NAME and self.texts[self.at + 1] == "=":
+            self.at += 2
+            return self._assigned(start, target, word + "=")
+        if self.accept("?="):
+            return self._assigned(start, target, "?=")
         if isinstance(target, tree.BinaryOp) and target.op == "eq":
             self.report("S003", "An assignment is written `:=`; `=` compares.", target.span)
             self.close(";", "at the end of the statement")
             return tree.Assignment(target.left, target.right, target.span)
         span = self.span_from(start)
         if not isinstance(target, tree.Call) and not self.is_(";"):
-            self.fail("`:=` or `;` expected")
+            raise self.fail("`:=` or `;` expected")
         self.close(";", "at the end of the call" if isinstance(target, tree.Call) else "at the end of the statement")
         return tree.ExpressionStatement(target, span)
 
-    def _end(self, keyword: str, of: str) -> None:
-        """The closing keyword; the `;` behind it may be missing, as vendors allow."""
-        if not self.accept(keyword):
-            self.report("S003", f"`{keyword}` expected to close the {of}{self._found()}.", self.here())
-        self.accept(";")
+    def _assigned(self, start: int, target: tree.Expression, operator: str) -> tree.Statement:
+        value = self.expression()
+        span = self.span_from(start)
+        self.close(";", "at the end of the assignment")
+        return tree.Assignment(target, value, span, operator)
+
+    def _refused(self, word: str) -> None:
+        if word in REFUSED and self.texts[self.at + 1] not in (";", "?=", "=", "^"):
+            self.report("X001", f"{word} is not supported; {REFUSED[word]}.", self.here())
+            raise Unexpected
+        if self.texts[self.at + 1] == ":":
+            message = f"`{self.texts[self.at]}:` is a label to jump to, which is not supported; use IF and loops."
+            self.report("X001", message, self.span_of(self.at))
+            self.at += 2
+            raise Unexpected
+
+    def _exit(self) -> tree.Statement:
+        start = self.take()
+        self.close(";", f"behind {self.texts[start]}")
+        span = self.span_of(start)
+        return tree.ExitStatement(span) if self.texts[start] == "EXIT" else tree.ReturnStatement(span)
 
     def _condition(self, keyword: str) -> tree.Expression:
         condition = self.expression()
         if not self.accept(keyword):
-            where = "behind the condition" if keyword in ("THEN", "DO") else "behind the selector"
-            self.close(keyword, where)
+            self.close(keyword, "behind the selector" if keyword == "OF" else "behind the condition")
         return condition
 
     def _if(self) -> tree.Statement:
@@ -128,8 +152,14 @@ class StatementParser(ExpressionParser):
         if self.accept("ELSE"):
             orelse = self.statements()
         span = self.span_from(start)
-        self._end("END_IF", f"IF of line {span.line}")
+        self._close_block("END_IF", start)
         return tree.IfStatement(tuple(branches), orelse, span)
+
+    def _close_block(self, keyword: str, start: int) -> None:
+        if not self.accept(keyword):
+            of = f"{self.texts[start]} of line {self.line_of(start)}"
+            self.report("S003", f"`{keyword}` expected to close the {of}{self._found()}.", self.here())
+        self.accept(";")
 
     def _case(self) -> tree.Statement:
         start = self.take()
@@ -137,17 +167,23 @@ class StatementParser(ExpressionParser):
         span = self.span_from(start)
         branches = []
         orelse: tuple[tree.Statement, ...] = ()
-        while not self._at_end():
+        while self.texts[self.at] not in STOPS:
+            if self.accept(";"):
+                continue
+            before = self.at
             labels = self._labels()
             branches.append((labels, self.statements(labels=True)))
+            if self.at == before:
+                break
         if self.accept("ELSE"):
             self.accept(":")
             orelse = self.statements()
-        self._end("END_CASE", f"CASE of line {span.line}")
+        self._close_block("END_CASE", start)
         return tree.CaseStatement(selector, tuple(branches), orelse, span)
 
     def _labels(self) -> tuple[tuple[tree.Expression, tree.Expression | None], ...]:
         labels = []
+        depth = self.depth
         try:
             while True:
                 first = self.expression()
@@ -156,22 +192,18 @@ class StatementParser(ExpressionParser):
                     break
             self.expect(":", "behind the label of the CASE")
         except Unexpected:
+            self.depth = depth
             self._skip(self.at)
         return tuple(labels)
 
     def _at_label(self) -> bool:
         """Looks for `value [.. value] {, ...} :` from here."""
-        ahead = 0
-        while True:
-            token = self.ahead(ahead)
-            if (
-                token.kind in (Lex.INTEGER, Lex.NAME)
-                or token.text in (",", "..", ".", "-", "+")
-                or (token.kind is Lex.OPERATOR and token.text.endswith("#"))
-            ):
-                ahead += 1
-            else:
-                return ahead > 0 and token.kind is Lex.OPERATOR and token.text == ":"
+        at = self.at
+        kinds, texts = self.kinds, self.texts
+        last = min(at + MAX_LABELS, len(texts) - 1)
+        while at < last and (kinds[at] in LABEL_KINDS or texts[at] in LABEL_TEXTS):
+            at += 1
+        return at > self.at and texts[at] == ":"
 
     def _for(self) -> tree.Statement:
         start = self.take()
@@ -180,11 +212,11 @@ class StatementParser(ExpressionParser):
         first = self.expression()
         self.expect("TO", "behind the start value of the FOR")
         last = self.expression()
-        step = self.expression() if self.accept("BY") else None
+        step = self.expression() if self.accept_word("BY") else None
         self.close("DO", "behind the bounds of the FOR")
         span = self.span_from(start)
         body = self.statements()
-        self._end("END_FOR", f"FOR of line {span.line}")
+        self._close_block("END_FOR", start)
         return tree.ForStatement(variable, first, last, step, body, span)
 
     def _while(self) -> tree.Statement:
@@ -192,15 +224,26 @@ class StatementParser(ExpressionParser):
         condition = self._condition("DO")
         span = self.span_from(start)
         body = self.statements()
-        self._end("END_WHILE", f"WHILE of line {span.line}")
+        self._close_block("END_WHILE", start)
         return tree.WhileStatement(condition, body, span)
 
     def _repeat(self) -> tree.Statement:
         start = self.take()
         span = self.span_from(start)
         body = self.statements()
-        self.expect("UNTIL", f"to close the REPEAT of line {span.line}")
+        self.expect("UNTIL", f"to close the REPEAT of line {self.line_of(start)}")
         until = self.expression()
         self.accept(";")
-        self._end("END_REPEAT", f"REPEAT of line {span.line}")
+        self._close_block("END_REPEAT", start)
         return tree.RepeatStatement(body, until, span)
+
+
+KEYWORDS: dict[str, Callable[[StatementParser], tree.Statement]] = {
+    "IF": StatementParser._if,
+    "CASE": StatementParser._case,
+    "FOR": StatementParser._for,
+    "WHILE": StatementParser._while,
+    "REPEAT": StatementParser._repeat,
+    "EXIT": StatementParser._exit,
+    "RETURN": StatementParser._exit,
+}

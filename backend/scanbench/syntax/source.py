@@ -1,32 +1,105 @@
 """A source text and its places."""
 
 from bisect import bisect_right
-from dataclasses import dataclass, field
 
 from scanbench.problems import Span
 
 
-@dataclass(slots=True)
 class Source:
     """One file's text under the name that problems show."""
 
-    name: str
-    text: str
-    _starts: list[int] = field(default_factory=list)
+    __slots__ = ("_starts", "name", "text")
 
-    def __post_init__(self) -> None:
-        self._starts = [0]
-        at = self.text.find("\n")
-        while at >= 0:
-            self._starts.append(at + 1)
-            at = self.text.find("\n", at + 1)
+    def __init__(self, name: str, text: str) -> None:
+        self.name, self.text = name, text
+        self._starts: list[int] | None = None
 
     def span(self, start: int, end: int) -> Span:
         """The span of text[start:end]."""
-        line = bisect_right(self._starts, start)
-        end_line = line if end - start < 2 else bisect_right(self._starts, end)
-        first, last = self._starts[line - 1], self._starts[end_line - 1]
-        return Span(self.name, line, start - first + 1, end_line, end - last + 1)
+        return Stretch(self, start, end)
+
+    def line(self, at: int) -> int:
+        """The line of the character at this position, from 1."""
+        return bisect_right(self._line_starts(), at)
+
+    def place(self, at: int) -> tuple[int, int]:
+        """Line and column of the character at this position, from 1."""
+        starts = self._line_starts()
+        line = bisect_right(starts, at)
+        return line, at - starts[line - 1] + 1
+
+    def _line_starts(self) -> list[int]:
+        if self._starts is None:
+            self._starts = starts = [0]
+            at = self.text.find("\n")
+            while at >= 0:
+                starts.append(at + 1)
+                at = self.text.find("\n", at + 1)
+        return self._starts
+
+
+class Stretch(Span):
+    """A span that finds its lines and columns only when someone asks: most spans of a tree are never shown."""
+
+    __slots__ = ("_end", "_source", "_start")
+
+    # plain assignment, which a frozen dataclass forbids and its speed needs
+    __setattr__ = object.__setattr__
+
+    def __init__(self, source: Source, start: int, end: int) -> None:
+        self._source = source
+        self._start = start
+        self._end = end
+
+    @property
+    def file(self) -> str:
+        return self._source.name
+
+    @property
+    def line(self) -> int:
+        return self._source.line(self._start)
+
+    @property
+    def column(self) -> int:
+        return self._source.place(self._start)[1]
+
+    @property
+    def end_line(self) -> int:
+        return self._source.place(self._end)[0] if self._end - self._start > 1 else self.line
+
+    @property
+    def end_column(self) -> int:
+        # the end of a single character is on its line, also when that character ends the line
+        return (
+            self._source.place(self._end)[1] if self._end - self._start > 1 else self.column + self._end - self._start
+        )
+
+    def to(self, last: Span) -> Span:
+        if isinstance(last, Stretch) and last._source is self._source:
+            return Stretch(self._source, self._start, last._end)
+        return Span(self.file, self.line, self.column, last.end_line, last.end_column)
+
+    def plain(self) -> Span:
+        """The same as a span of its own, which keeps no text alive."""
+        line, column = self._source.place(self._start)
+        return Span(self.file, line, column, self.end_line, self.end_column)
+
+    def __eq__(self, other: object) -> bool:
+        if isinstance(other, Stretch) and other._source is self._source:
+            return self._start == other._start and self._end == other._end
+        if not isinstance(other, Span):
+            return NotImplemented
+        mine = (self.file, self.line, self.column, self.end_line, self.end_column)
+        return mine == (other.file, other.line, other.column, other.end_line, other.end_column)
+
+    def __hash__(self) -> int:
+        return hash((self.file, self.line, self.column, self.end_line, self.end_column))
+
+    def __repr__(self) -> str:
+        return repr(self.plain())
+
+    def __reduce__(self) -> tuple[type[Span], tuple[str, int, int, int, int]]:
+        return Span, (self.file, self.line, self.column, self.end_line, self.end_column)
 
 
 def decode(data: bytes) -> str:

@@ -9,7 +9,12 @@ from scanbench.problems import Span
 
 @dataclass(frozen=True, slots=True)
 class Literal:
-    """`kind` is int, real, time, string or bool; `type_name` is what stood before the `#`, if anything."""
+    """`kind` is int, real, bool, time, date, tod, dt, string or wstring; `type_name` is what stood before the `#`.
+
+    time, date, tod and dt are integers of nanoseconds: a duration, since 1970-01-01, since midnight, since
+    1970-01-01; their `type_name` is the type (TIME, LTIME, DATE, LDATE, TIME_OF_DAY, LTIME_OF_DAY, DATE_AND_TIME,
+    LDATE_AND_TIME). string has one byte a character (Latin-1), wstring is UTF-16, little endian.
+    """
 
     kind: str
     value: int | float | bytes
@@ -19,6 +24,15 @@ class Literal:
 
 @dataclass(frozen=True, slots=True)
 class Name:
+    name: str
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class TypedName:
+    """`Color#RED`: a value of an enumeration."""
+
+    type_name: str
     name: str
     span: Span
 
@@ -46,6 +60,24 @@ class IndexOf:
 
 
 @dataclass(frozen=True, slots=True)
+class Dereference:
+    """`pointer^`."""
+
+    reference: "Expression"
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class PartialAccess:
+    """`x.3`, `x.%X3`, `x.%B1`: bit or part number `index` of a bit string or integer; `size` is X, B, W, D or L."""
+
+    owner: "Expression"
+    size: str
+    index: int
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class UnaryOp:
     """`-`, `+` or `NOT`."""
 
@@ -64,12 +96,14 @@ class BinaryOp:
 
 @dataclass(frozen=True, slots=True)
 class Argument:
-    """`value`, `name := value` or `name => value`."""
+    """`value`, `name := value`, `name => value` or `NOT name => value`."""
 
     name: str | None
     output: bool
     value: "Expression | None"
     span: Span
+    negated: bool = False
+    """`NOT name => value`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -79,13 +113,28 @@ class Call:
     span: Span
 
 
-Expression = Literal | Name | DirectAddress | MemberOf | IndexOf | UnaryOp | BinaryOp | Call
+Expression = (
+    Literal
+    | Name
+    | TypedName
+    | DirectAddress
+    | MemberOf
+    | IndexOf
+    | Dereference
+    | PartialAccess
+    | UnaryOp
+    | BinaryOp
+    | Call
+)
+"""THIS and SUPER are a Name; `THIS^.x` (vendors) dereferences it, `THIS.x` (the standard) does not."""
 
 # ---- declarations --------------------------------------------------------------------------------------------
 
 
 @dataclass(frozen=True, slots=True)
 class NamedType:
+    """`name` may be qualified: `Motion.Axis`."""
+
     name: str
     span: Span
 
@@ -94,6 +143,8 @@ class NamedType:
 class StringSpec:
     length: Expression | None
     span: Span
+    wide: bool = False
+    """WSTRING."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -104,21 +155,56 @@ class ArraySpec:
 
 
 @dataclass(frozen=True, slots=True)
-class StructSpec:
-    members: tuple["Variable", ...]
+class OpenArraySpec:
+    """`ARRAY[*, *] OF element`, of an in-out."""
+
+    dimensions: int
+    element: "TypeSpec"
     span: Span
 
 
 @dataclass(frozen=True, slots=True)
-class UnsupportedSpec:
-    """A type that was reported as not supported; what is declared with it is known, but has no type."""
+class StructSpec:
+    """STRUCT or UNION. Members may have a relative address (`AT %B4`), which may overlap only with OVERLAP."""
 
+    members: tuple["Variable", ...]
     span: Span
-    values: tuple[str, ...] = ()
-    """Names that an enumeration would declare."""
+    union: bool = False
+    overlap: bool = False
+    extends: str | None = None
 
 
-TypeSpec = NamedType | StringSpec | ArraySpec | StructSpec | UnsupportedSpec
+@dataclass(frozen=True, slots=True)
+class EnumSpec:
+    """`(RED, GREEN := 5) INT`: the values with their numbers where they are stated."""
+
+    values: tuple[tuple[str, Expression | None, Span], ...]
+    base: "NamedType | None"
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class SubrangeSpec:
+    """`INT (-6..12)`."""
+
+    base: NamedType
+    low: Expression
+    high: Expression
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class ReferenceSpec:
+    """`REF_TO type` or `REFERENCE TO type`; `pointer`: `POINTER TO type`, with arithmetic."""
+
+    target: "TypeSpec"
+    pointer: bool
+    span: Span
+    automatic: bool = False
+    """`REFERENCE TO` (vendors): dereferenced wherever it is used, bound with `REF=`."""
+
+
+TypeSpec = NamedType | StringSpec | ArraySpec | OpenArraySpec | StructSpec | EnumSpec | SubrangeSpec | ReferenceSpec
 
 
 @dataclass(frozen=True, slots=True)
@@ -148,6 +234,10 @@ class Variable:
     address: str | None
     span: Span
     address_span: Span | None = None
+    arguments: tuple["Argument", ...] = ()
+    """`inst : FB(a := 1)` of vendors: initial values of an instance."""
+    edge: str = ""
+    """R or F: what stands behind an input with R_EDGE or F_EDGE."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -158,6 +248,11 @@ class VariableSection:
     qualifiers: tuple[str, ...]
     variables: tuple[Variable, ...]
     span: Span
+    access: str = "PROTECTED"
+    """PUBLIC, PROTECTED, PRIVATE or INTERNAL, of a class's or block's VAR."""
+    namespace: str = ""
+    list_name: str = ""
+    """Name of the global variable list (`GVL.x`) that a VAR_GLOBAL came from; its variables are visible without it too."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -166,19 +261,64 @@ class TypeDeclaration:
     type: TypeSpec
     initial: Initial | None
     span: Span
+    namespace: str = ""
+    using: tuple[str, ...] = ()
+    qualified_only: bool = False
+    """An enumeration whose values are only known with its name in front (a vendor's attribute)."""
+
+
+@dataclass(frozen=True, slots=True)
+class IlInstruction:
+    """`label: ANDN( operand`. A label alone has operator ''; a closing parenthesis has operator ')'.
+
+    `operator` is in upper case without modifiers: LD ST S R AND OR XOR NOT ADD SUB MUL DIV MOD GT GE EQ NE LE LT JMP
+    CAL RET, an input of a standard block (S1 R1 CLK CU CD PV IN PT, with the instance as operand), or the name of a
+    function. `arguments` are those of CAL (behind its operand), or of a function (formal ones, or operands but the first).
+    """
+
+    label: str | None
+    operator: str
+    negated: bool
+    conditional: bool
+    deferred: bool
+    """The modifier `(`: the operator is applied at the closing parenthesis."""
+    operand: Expression | None
+    arguments: tuple[Argument, ...]
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class IlBody:
+    instructions: tuple[IlInstruction, ...]
+    span: Span
 
 
 @dataclass(frozen=True, slots=True)
 class PouDeclaration:
-    """`kind` is program, function_block or function."""
+    """`kind` is program, function_block, function, class, interface, method, or get and set of a property.
+
+    A property `p` stands among `methods` as one or two declarations of that name with kind get and set; `result` is
+    its type for both.
+    """
 
     kind: str
     name: str
     result: TypeSpec | None
     sections: tuple[VariableSection, ...]
-    body: tuple["Statement", ...]
+    body: "tuple[Statement, ...] | IlBody"
     span: Span
     """Of the name."""
+    methods: tuple["PouDeclaration", ...] = ()
+    extends: tuple[str, ...] = ()
+    """One base of a class or block; any number for an interface."""
+    implements: tuple[str, ...] = ()
+    modifiers: tuple[str, ...] = ()
+    """ABSTRACT, FINAL, OVERRIDE."""
+    access: str = "PUBLIC"
+    namespace: str = ""
+    """`A.B`, empty at the top."""
+    using: tuple[str, ...] = ()
+    """Namespaces whose names are visible without qualification, the enclosing ones not included."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -187,25 +327,56 @@ class TaskDeclaration:
     interval: Expression | None
     priority: Expression | None
     span: Span
+    single: Expression | None = None
+    """The variable whose rising edge starts the task."""
 
 
 @dataclass(frozen=True, slots=True)
 class ProgramDeclaration:
-    """`PROGRAM name WITH task : type;`"""
+    """`PROGRAM name WITH task : type (input := x, output => y, instance WITH task);`"""
 
     name: str
     task: str | None
     type_name: str
     span: Span
+    connections: tuple[Argument, ...] = ()
+    block_tasks: tuple[tuple[str, str, Span], ...] = ()
+    """(instance of a block, task): it runs in that task instead."""
 
 
 @dataclass(frozen=True, slots=True)
-class Configuration:
+class ResourceDeclaration:
     name: str
     globals: tuple[VariableSection, ...]
     tasks: tuple[TaskDeclaration, ...]
     programs: tuple[ProgramDeclaration, ...]
     span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class AccessDeclaration:
+    """VAR_ACCESS: `name : resource.program.variable : type READ_WRITE;`"""
+
+    name: str
+    path: str
+    type: TypeSpec
+    writable: bool
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
+class Configuration:
+    """What stands outside of a RESOURCE is in `globals`, `tasks` and `programs`."""
+
+    name: str
+    globals: tuple[VariableSection, ...]
+    tasks: tuple[TaskDeclaration, ...]
+    programs: tuple[ProgramDeclaration, ...]
+    span: Span
+    resources: tuple[ResourceDeclaration, ...] = ()
+    settings: tuple[Variable, ...] = ()
+    """VAR_CONFIG: `name` is the path `resource.program.instance.variable`."""
+    accesses: tuple[AccessDeclaration, ...] = ()
 
 
 @dataclass(slots=True)
@@ -224,9 +395,12 @@ class File:
 
 @dataclass(frozen=True, slots=True)
 class Assignment:
+    """`operator` is `:=`, `S=` and `R=` (latch and unlatch), `REF=` (bind a reference), or `?=` (assignment attempt)."""
+
     target: Expression
     value: Expression
     span: Span
+    operator: str = ":="
 
 
 @dataclass(frozen=True, slots=True)
@@ -284,6 +458,11 @@ class ExitStatement:
 
 
 @dataclass(frozen=True, slots=True)
+class ContinueStatement:
+    span: Span
+
+
+@dataclass(frozen=True, slots=True)
 class ReturnStatement:
     span: Span
 
@@ -297,5 +476,6 @@ Statement = (
     | WhileStatement
     | RepeatStatement
     | ExitStatement
+    | ContinueStatement
     | ReturnStatement
 )

@@ -139,4 +139,4 @@ def _text(memory: bytearray, symbol: Symbol) -> bytes | None:
         return None
     start = place[0]
     length = min(_U16.unpack_from(memory, start)[0], symbol.type.capacity)
-    return bytes(memory[start + 2 : start + 2 + length])
+    return bytes(memory[start + 2 : start + 2 + length * symbol.type.width])

@@ -81,9 +81,24 @@ class Pou(Wire):
     line: int
 
 
+class EmbeddedCheck(Wire):
+    """A subrange check that the compiler embedded at this place, or left out."""
+
+    file: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+    variable: str
+    low: str = Field(description="a number as text: a ULINT is beyond what JSON numbers keep")
+    high: str
+    needless: str = Field(description="why no check was embedded; empty when there is one")
+
+
 class CheckResult(Wire):
     problems: list[Problem]
     pous: list[Pou]
+    checks: list[EmbeddedCheck] = Field(description="none while there are errors")
 
 
 class BuildResult(Wire):
@@ -171,7 +186,7 @@ Mode = Literal["PROGRAM", "MONITOR", "RUN"]
 class TrapInfo(Wire):
     """Why the program was stopped by itself."""
 
-    kind: Literal["bounds", "division", "null", "string", "loop"]
+    kind: Literal["bounds", "division", "null", "string", "loop", "abstract"]
     message: str
     file: str
     line: int
@@ -210,18 +225,40 @@ class NewInstance(Wire):
     name: str = Field(min_length=1, max_length=100)
 
 
+class EnumValue(Wire):
+    name: str
+    value: int
+
+
 class Symbol(Wire):
     """A variable, or an address, by its instance path."""
 
     path: str
     name: str
     type: str = Field(description="as declared, e.g. INT, ARRAY[0..9] OF REAL, TON")
-    kind: Literal["bool", "int", "uint", "bits", "real", "time", "string", "array", "struct", "block"]
+    kind: Literal[
+        "bool",
+        "int",
+        "uint",
+        "bits",
+        "real",
+        "time",
+        "string",
+        "array",
+        "struct",
+        "block",
+        "union",
+        "interface",
+        "date",
+        "char",
+        "ref",
+    ]
     size: int = Field(description="bytes of the value")
     address: str | None = Field(description="vendor notation when it is located")
     writable: bool
     section: str = Field(description="VAR, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_GLOBAL, address or member")
     expandable: bool
+    values: list[EnumValue] = Field(description="of an enumeration: the names of its numbers")
 
 
 class ErrorHistoryRow(Wire):
@@ -240,6 +277,26 @@ class ErrorHistoryRow(Wire):
     by: str | None
     origin: Literal["simulator", "plc", "program"] | None
     count: int
+
+
+class Violation(Wire):
+    """A place and instance at which a value left its subrange."""
+
+    file: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+    pou: str
+    instance: str = Field(description="path of the instance that ran; empty in a FUNCTION")
+    variable: str
+    value: str
+    low: str
+    high: str
+    text: str
+    times: int
+    first_scan: int
+    last_scan: int
 
 
 class LogLine(Wire):
@@ -336,8 +393,14 @@ class Run(Wire):
     speed: float | None = None
 
 
+class ClearDiagnostics(Wire):
+    type: Literal["clear_diagnostics"] = "clear_diagnostics"
+    ref: int
+
+
 ClientMessage = Annotated[
-    Watch | Unwatch | Write | Force | Release | Generate | Recover | SetMode | Run, Field(discriminator="type")
+    Watch | Unwatch | Write | Force | Release | Generate | Recover | SetMode | Run | ClearDiagnostics,
+    Field(discriminator="type"),
 ]
 
 # ---- WebSocket: server to browser -------------------------------------------------------------------------------
@@ -351,6 +414,15 @@ class ForceInfo(Wire):
     author: str
 
 
+class Diagnostics(Wire):
+    """The runtime diagnostics, whenever they change: the list is bounded, and says what did not fit."""
+
+    type: Literal["diagnostics"] = "diagnostics"
+    violations: list[Violation]
+    dropped: int
+    count: int
+
+
 class Hello(Wire):
     """First message after connecting, and after every reconnection: everything but the values."""
 
@@ -361,6 +433,7 @@ class Hello(Wire):
     errors: list[ErrorHistoryRow]
     log: list[LogLine]
     forces: list[ForceInfo]
+    diagnostics: Diagnostics
 
 
 class State(Wire):
@@ -461,6 +534,19 @@ class Alive(Wire):
 
 
 ServerMessage = Annotated[
-    Hello | State | Watching | Done | Errors | Log | Users | Built | Saved | Deleted | Forces | Written | Alive,
+    Hello
+    | State
+    | Watching
+    | Done
+    | Errors
+    | Log
+    | Users
+    | Built
+    | Saved
+    | Deleted
+    | Forces
+    | Diagnostics
+    | Written
+    | Alive,
     Field(discriminator="type"),
 ]

@@ -12,6 +12,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef
+from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.command import Command
 from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.modes import SetMode
@@ -99,6 +100,7 @@ class Client:
             errors=list(map(translate.error_row, self._session.rows)),
             log=list(map(translate.log_line, self._session.lines)),
             forces=list(map(translate.force, self._session.forces)),
+            diagnostics=translate.diagnostics(self._session.violations),
         )
         self._texts.appendleft(hello.model_dump_json())
         writer = asyncio.get_running_loop().create_task(self._write())
@@ -171,7 +173,14 @@ class Client:
         self._answer(run.ref, ack.ok, ack.message, ack.scan, ack.near)
 
     def _command(
-        self, message: wire.Write | wire.Force | wire.Release | wire.Generate | wire.Recover | wire.SetMode
+        self,
+        message: wire.Write
+        | wire.Force
+        | wire.Release
+        | wire.Generate
+        | wire.Recover
+        | wire.SetMode
+        | wire.ClearDiagnostics,
     ) -> Command:
         author = self.user.name
         match message:
@@ -188,3 +197,5 @@ class Client:
                 return Recover(author, None if message.ids is None else tuple(message.ids))
             case wire.SetMode():
                 return SetMode(author, message.mode)
+            case wire.ClearDiagnostics():
+                return ClearViolations(author)

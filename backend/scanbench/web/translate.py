@@ -3,6 +3,8 @@
 from collections.abc import Iterable
 
 from scanbench.check.build import PouInfo
+from scanbench.check.program import CheckSite
+from scanbench.check.violations import Violation, Violations
 from scanbench.faults.history import ErrorRow
 from scanbench.plcmodel import model as plc
 from scanbench.problems import Problem
@@ -55,7 +57,20 @@ def pou(info: PouInfo) -> wire.Pou:
 
 def check_result(found: CheckOutcome) -> wire.CheckResult:
     """Problems and declarations."""
-    return wire.CheckResult(problems=list(map(problem, found.problems)), pous=list(map(pou, found.pous)))
+    return wire.CheckResult(
+        problems=list(map(problem, found.problems)),
+        pous=list(map(pou, found.pous)),
+        checks=list(map(embedded_check, found.checks)),
+    )  # fmt: skip
+
+
+def embedded_check(site: CheckSite) -> wire.EmbeddedCheck:
+    """A subrange check with its place."""
+    span = site.span
+    return wire.EmbeddedCheck(
+        file=span.file, line=span.line, column=span.column, end_line=span.end_line, end_column=span.end_column,
+        variable=site.variable, low=str(site.low), high=str(site.high), needless=site.needless,
+    )  # fmt: skip
 
 
 def build_result(outcome: BuildOutcome) -> wire.BuildResult:
@@ -99,6 +114,7 @@ def symbol(info: SymbolInfo) -> wire.Symbol:
             "path": info.path, "name": info.name, "type": info.type, "kind": info.kind, "size": info.size,
             "address": info.address, "writable": info.writable, "section": info.section,
             "expandable": info.expandable,
+            "values": [{"name": name, "value": value} for name, value in info.values],
         }
     )  # fmt: skip
 
@@ -137,6 +153,21 @@ def force(held: Force) -> wire.ForceInfo:
     return wire.ForceInfo(path=held.path, value=held.value, author=held.author)
 
 
+def diagnostics(found: Violations) -> wire.Diagnostics:
+    """The runtime diagnostics."""
+    return wire.Diagnostics(violations=list(map(_violation, found.entries)), dropped=found.dropped, count=found.count)
+
+
+def _violation(found: Violation) -> wire.Violation:
+    span = found.span
+    return wire.Violation(
+        file=span.file, line=span.line, column=span.column, end_line=span.end_line, end_column=span.end_column,
+        pou=found.pou, instance=found.instance, variable=found.variable, value=str(found.value), low=str(found.low),
+        high=str(found.high), text=str(found), times=found.times, first_scan=found.first_scan,
+        last_scan=found.last_scan,
+    )  # fmt: skip
+
+
 def event(happened: events.Event) -> wire.ServerMessage:
     """What a session tells, as a message."""
     match happened:
@@ -157,6 +188,8 @@ def event(happened: events.Event) -> wire.ServerMessage:
             return wire.Deleted(path=happened.path, author=happened.author)
         case events.ForcesChanged():
             return wire.Forces(forces=list(map(force, happened.forces)))
+        case events.DiagnosticsChanged():
+            return diagnostics(happened.violations)
         case events.ValueWritten():
             return wire.Written(
                 path=happened.path, author=happened.author, scan=happened.scan, forced=happened.forced

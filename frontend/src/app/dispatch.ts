@@ -67,6 +67,9 @@ function dispatch(message: ServerMessage): void {
     case "forces":
       onForces(message.forces);
       return;
+    case "diagnostics":
+      usePlc.setState({ diagnostics: message });
+      return;
     case "written":
       onWritten(message.path, message.author, message.scan);
       return;

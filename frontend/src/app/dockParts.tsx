@@ -3,6 +3,7 @@ import { type MouseEvent, useEffect } from "react";
 import { allErrors } from "../logic/catalogue";
 import { baseName } from "../logic/paths";
 import { t } from "../logic/text";
+import { DiagnosticsPanel } from "../panels/diagnostics/DiagnosticsPanel";
 import { EditorPanel } from "../panels/editor/EditorPanel";
 import { ErrorsPanel } from "../panels/errors/ErrorsPanel";
 import { HistoryPanel } from "../panels/history/HistoryPanel";
@@ -22,6 +23,7 @@ export const components = {
   editor: ({ params }: IDockviewPanelProps<{ path: string }>) => <EditorPanel path={params.path} />,
   watch: WatchPanel,
   problems: ProblemsPanel,
+  diagnostics: DiagnosticsPanel,
   log: LogPanel,
   errors: ErrorsPanel,
   history: HistoryPanel,
@@ -45,12 +47,14 @@ function useTitle(api: PanelApi, title: string): void {
 
 function FixedTab({ api }: { api: PanelApi }) {
   const problems = useDocuments((documents) => (api.id === "problems" ? documents.problems.length : 0));
+  const violations = usePlc((plc) => (api.id === "diagnostics" ? plc.diagnostics.violations.length : 0));
+  const count = problems + violations;
   const name = t(`panel.${api.id as "watch"}`);
-  useTitle(api, problems > 0 ? `${name} (${problems})` : name);
+  useTitle(api, count > 0 ? `${name} (${count})` : name);
   return (
     <span className="tab">
       {name}
-      {problems > 0 && <span className="n">{problems}</span>}
+      {count > 0 && <span className="n">{count}</span>}
     </span>
   );
 }

@@ -28,13 +28,13 @@ export function standardLayout(dock: DockviewApi): void {
     position: { referencePanel: "start", direction: "below" },
     initialHeight: innerHeight < 800 ? 280 : 386,
   });
-  for (const id of ["problems", "log", "history"]) {
+  for (const id of ["problems", "diagnostics", "log", "history"]) {
     dock.addPanel({ id, component: id, position: { referencePanel: "watch" }, inactive: true });
   }
   dock.getPanel("start")?.api.setActive();
 }
 
-const FIXED = ["errors", "watch", "problems", "log", "history"];
+const FIXED = ["errors", "watch", "problems", "diagnostics", "log", "history"];
 
 /** What was kept, when it still fits this version of the page; else the usual arrangement. */
 export function restoreLayout(dock: DockviewApi, kept: unknown): void {

@@ -30,6 +30,21 @@ describe("formatValue", () => {
     expect(text({ kind: "real", size: 4 }, (v) => v.setFloat32(0, Number.NaN, true))).toBe("NaN");
   });
 
+  it("shows an enumeration by name, and a number without one as it is", () => {
+    const colour: ValueShape = { kind: "int", size: 2, type: "Color", values: [{ name: "RED", value: -1 }] };
+    expect(text(colour, (v) => v.setInt16(0, -1, true))).toBe("RED");
+    expect(text(colour, (v) => v.setInt16(0, 7, true))).toBe("7");
+  });
+
+  it("shows dates, characters and references as literals", () => {
+    const at = (type: string, ns: bigint) => text({ kind: "date", size: 8, type }, (v) => v.setBigInt64(0, ns, true));
+    expect(at("DATE", 0n)).toBe("D#1970-01-01");
+    expect(at("DATE_AND_TIME", -1_000_000_000n)).toBe("DT#1969-12-31-23:59:59");
+    expect(at("LTIME_OF_DAY", 45_000_500_000_000n)).toBe("LTOD#12:30:00.5");
+    expect(text({ kind: "char", size: 1 }, (v) => v.setUint8(0, 39))).toBe("'$''");
+    expect(text({ kind: "ref", size: 8 }, () => undefined)).toBe("NULL");
+  });
+
   it("shows BOOL as the language writes it", () => {
     expect(text({ kind: "bool", size: 1 }, (v) => v.setUint8(0, 1))).toBe("TRUE");
     expect(text({ kind: "bool", size: 1 }, () => undefined)).toBe("FALSE");

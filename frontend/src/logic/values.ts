@@ -2,7 +2,7 @@
 import type { PlcSymbol } from "../wire/types";
 
 export type Format = "default" | "decimal" | "hex" | "binary";
-export type ValueShape = Pick<PlcSymbol, "kind" | "size">;
+export type ValueShape = Pick<PlcSymbol, "kind" | "size"> & Partial<Pick<PlcSymbol, "type" | "values">>;
 
 /** True, false, or null for what is not a BOOL: decides about the lamp in front of the value. */
 export function lampOf(shape: ValueShape, view: DataView, offset: number): boolean | null {
@@ -11,6 +11,8 @@ export function lampOf(shape: ValueShape, view: DataView, offset: number): boole
 
 /** The text of the value that stands in the eight bytes from `offset`. */
 export function formatValue(shape: ValueShape, view: DataView, offset: number, format: Format = "default"): string {
+  const name = format === "default" ? enumName(shape, view, offset) : null;
+  if (name !== null) return name;
   switch (shape.kind) {
     case "bool":
       return view.getUint8(offset) !== 0 ? "TRUE" : "FALSE";
@@ -29,10 +31,28 @@ export function formatValue(shape: ValueShape, view: DataView, offset: number, f
     case "real":
       return shape.size === 4 ? formatReal32(view.getFloat32(offset, true)) : formatReal(view.getFloat64(offset, true));
     case "time":
-      return formatTime(view.getBigInt64(offset, true));
+      return formatTime(view.getBigInt64(offset, true), shape.type === "LTIME" ? "LTIME" : "T");
+    case "date":
+      return formatDate(shape.type ?? "", view.getBigInt64(offset, true));
+    case "char":
+      return formatString(
+        String.fromCharCode(shape.size === 2 ? view.getUint16(offset, true) : view.getUint8(offset)),
+        shape.size === 2 ? '"' : "'",
+      );
+    case "ref": {
+      const reference = view.getBigUint64(offset, true);
+      return reference === 0n ? "NULL" : `-> ${reference & 0xffffffffn}`;
+    }
     default:
       return "";
   }
+}
+
+/** The name of an enumeration's value; null for other types, and for numbers without a name. */
+function enumName(shape: ValueShape, view: DataView, offset: number): string | null {
+  if (!shape.values?.length) return null;
+  const value = shape.kind === "int" ? signed(shape.size, view, offset) : unsigned(shape.size, view, offset);
+  return shape.values.find((known) => BigInt(known.value) === value)?.name ?? null;
 }
 
 function signed(size: number, view: DataView, offset: number): bigint {
@@ -85,10 +105,10 @@ const UNITS: [string, bigint][] = [
 ];
 
 /** T#1m5s250ms: the units that are not zero, as IEC 61131-3 writes durations. */
-export function formatTime(ns: bigint): string {
-  if (ns === 0n) return "T#0s";
+export function formatTime(ns: bigint, prefix = "T"): string {
+  if (ns === 0n) return `${prefix}#0s`;
   let rest = ns < 0n ? -ns : ns;
-  let text = ns < 0n ? "T#-" : "T#";
+  let text = ns < 0n ? `${prefix}#-` : `${prefix}#`;
   for (const [unit, size] of UNITS) {
     const count = rest / size;
     if (count > 0n) text += `${count}${unit}`;
@@ -97,13 +117,48 @@ export function formatTime(ns: bigint): string {
   return text;
 }
 
+const DAY = 86_400_000_000_000n;
+const DATE_PREFIXES: Record<string, string> = {
+  DATE: "D",
+  LDATE: "LDATE",
+  TIME_OF_DAY: "TOD",
+  LTIME_OF_DAY: "LTOD",
+  DATE_AND_TIME: "DT",
+  LDATE_AND_TIME: "LDT",
+};
+
+/** D#2026-11-21, TOD#12:30:00.5, DT#2026-11-21-12:30:00: nanoseconds since 1970 or since midnight, as a literal. */
+export function formatDate(type: string, ns: bigint): string {
+  const days = ns >= 0n ? ns / DAY : -((-ns + DAY - 1n) / DAY);
+  const date = new Date(Number(days) * 86_400_000).toISOString().replace(/T.*/, "");
+  const time = clock(ns - days * DAY);
+  const prefix = DATE_PREFIXES[type] ?? type;
+  if (prefix.endsWith("TOD")) return `${prefix}#${time}`;
+  return prefix === "D" || prefix === "LDATE" ? `${prefix}#${date}` : `${prefix}#${date}-${time}`;
+}
+
+function clock(ns: bigint): string {
+  const two = (value: bigint) => value.toString().padStart(2, "0");
+  const seconds = ns / 1_000_000_000n;
+  const rest = (ns % 1_000_000_000n).toString().padStart(9, "0").replace(/0+$/, "");
+  const whole = `${two(seconds / 3600n)}:${two((seconds / 60n) % 60n)}:${two(seconds % 60n)}`;
+  return rest ? `${whole}.${rest}` : whole;
+}
+
 /** 'it''s' the IEC way: $-escapes for quotes, control characters and the dollar itself. */
-export function formatString(text: string): string {
-  const names: Record<string, string> = { "'": "$'", $: "$$", "\n": "$L", "\r": "$R", "\t": "$T", "\f": "$P" };
-  let out = "'";
+export function formatString(text: string, quote = "'"): string {
+  const names: Record<string, string> = {
+    [quote]: `$${quote}`,
+    $: "$$",
+    "\n": "$L",
+    "\r": "$R",
+    "\t": "$T",
+    "\f": "$P",
+  };
+  let out = quote;
   for (const c of text) {
     const code = c.charCodeAt(0);
     out += names[c] ?? (code < 0x20 ? `$${code.toString(16).toUpperCase().padStart(2, "0")}` : c);
   }
-  return `${out}'`;
+  return `${out}${quote}`;
 }

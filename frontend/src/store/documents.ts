@@ -3,7 +3,7 @@ import { create } from "zustand";
 import { skeleton } from "../logic/explorer";
 import { t } from "../logic/text";
 import { rest } from "../wire/rest";
-import type { BuildResult, FileInfo, FileText, Pou, Problem } from "../wire/types";
+import type { BuildResult, EmbeddedCheck, FileInfo, FileText, Pou, Problem } from "../wire/types";
 import { forget, keep, recall } from "./keep";
 import { usePlc } from "./plc";
 
@@ -38,6 +38,8 @@ interface Documents {
   cursor: { line: number; column: number } | null;
   pous: readonly Pou[];
   problems: readonly Problem[];
+  /** Subrange checks of the texts as they stand; the last good ones while there are errors. */
+  checks: readonly EmbeddedCheck[];
   build: BuildState;
   /** Something that failed and is not about one line: shown at the top of the problem list. */
   trouble: string | null;
@@ -50,6 +52,7 @@ const nothing: Omit<Documents, "project"> = {
   cursor: null,
   pous: [],
   problems: [],
+  checks: [],
   build: { phase: "idle" },
   trouble: null,
 };
@@ -322,7 +325,9 @@ async function check(): Promise<void> {
       project,
       Object.fromEntries(dirty.map((document) => [document.path, document.text])),
     );
-    if (turn === checkTurn && get().project === project) set({ problems: result.problems, pous: result.pous });
+    if (turn !== checkTurn || get().project !== project) return;
+    const broken = result.problems.some((problem) => problem.severity === "error");
+    set({ problems: result.problems, pous: result.pous, ...(broken ? {} : { checks: result.checks }) });
   } catch (error) {
     if (turn === checkTurn) set({ trouble: messageOf(error) });
   }

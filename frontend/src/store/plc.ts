@@ -1,7 +1,7 @@
 /** The virtual PLC this browser is connected to: state, users, errors and log, as the server last told. */
 import { create } from "zustand";
 import type { LinkStatus } from "../wire/socket";
-import type { ErrorHistoryRow, Hello, InstanceState, LogLine, User } from "../wire/types";
+import type { Diagnostics, ErrorHistoryRow, Hello, InstanceState, LogLine, User } from "../wire/types";
 import { setClock } from "./clock";
 
 export type { LinkStatus } from "../wire/socket";
@@ -15,7 +15,11 @@ interface Plc {
   users: User[];
   errors: ReadonlyMap<string, ErrorHistoryRow>;
   log: readonly LogLine[];
+  /** What the compiler's embedded checks found while the program ran. */
+  diagnostics: Diagnostics;
 }
+
+const NO_DIAGNOSTICS: Diagnostics = { type: "diagnostics", violations: [], dropped: 0, count: 0 };
 
 const nothing: Plc = {
   link: { state: "none", lostAt: null, attempt: 0, nextTryAt: null },
@@ -24,6 +28,7 @@ const nothing: Plc = {
   users: [],
   errors: new Map(),
   log: [],
+  diagnostics: NO_DIAGNOSTICS,
 };
 
 export const usePlc = create<Plc>(() => nothing);
@@ -47,6 +52,7 @@ export function onHello(hello: Hello): void {
     users: hello.users,
     errors: new Map(hello.errors.map((row) => [row.id, row])),
     log: hello.log,
+    diagnostics: hello.diagnostics,
   });
 }
 

@@ -9,6 +9,8 @@ export type Theme = (typeof themes)[number];
 interface Prefs {
   theme: Theme;
   language: Language;
+  /** Show in the editor where the compiler embedded subrange checks. */
+  checks: boolean;
 }
 
 function systemLanguage(): Language {
@@ -22,6 +24,7 @@ function initial(): Prefs {
   return {
     theme: painted ?? "dark",
     language: languages.find((language) => language === kept.language) ?? systemLanguage(),
+    checks: kept.checks ?? false,
   };
 }
 
@@ -46,6 +49,10 @@ usePrefs.subscribe((prefs) => {
 
 export function nextTheme(): void {
   usePrefs.setState(({ theme }) => ({ theme: themes[(themes.indexOf(theme) + 1) % themes.length] ?? "dark" }));
+}
+
+export function toggleChecks(): void {
+  usePrefs.setState(({ checks }) => ({ checks: !checks }));
 }
 
 export function chooseLanguage(language: Language): void {

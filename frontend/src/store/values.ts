@@ -3,7 +3,7 @@
  * themselves; React does not see twenty frames a second.
  */
 import { type Format, formatString, formatValue, hexWord, lampOf } from "../logic/values";
-import type { Frame } from "../wire/frames";
+import { type Frame, textOf } from "../wire/frames";
 import type { PlcSymbol } from "../wire/types";
 
 export interface Reading {
@@ -83,9 +83,10 @@ export function apply(frame: Frame): void {
     const entry = byId.get(frame.ids[i] ?? -1);
     if (entry) take(entry, frame.values, i * 8);
   }
-  for (const { id, text } of frame.strings) {
+  for (const { id, bytes: data } of frame.strings) {
     const entry = byId.get(id);
     if (!entry) continue;
+    const text = textOf(data, entry.symbol?.type.startsWith("WSTRING") ?? false);
     mark(entry, entry.known && entry.string !== text);
     entry.string = text;
   }
@@ -131,7 +132,8 @@ function read(entry: Entry, format: CellFormat): Reading {
   const offset = entry.slot * 8;
   if (!entry.known || !symbol) return { text: "", lamp: null, changed: false };
   if (symbol.kind === "string") {
-    return { text: formatString(entry.string ?? ""), lamp: null, changed: entry.changed };
+    const quote = symbol.type.startsWith("WSTRING") ? '"' : "'";
+    return { text: formatString(entry.string ?? "", quote), lamp: null, changed: entry.changed };
   }
   const text = format === "word" ? hexWord(view, offset) : formatValue(symbol, view, offset, format);
   return { text, lamp: lampOf(symbol, view, offset), changed: entry.changed };

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { parseFrame } from "./frames";
+import { parseFrame, textOf } from "./frames";
 
 function frame(ids: number[], values: bigint[], strings: [number, string][]): ArrayBuffer {
   const text = strings.reduce((sum, [, s]) => sum + 8 + s.length, 0);
@@ -43,7 +43,9 @@ describe("parseFrame", () => {
     expect(parsed.timeNs).toBe(47_110_000_000);
     expect([...parsed.ids]).toEqual([7, 9, 11]);
     expect(new DataView(parsed.values.buffer, parsed.values.byteOffset).getBigInt64(8, true)).toBe(-2n);
-    expect(parsed.strings).toEqual([{ id: 12, text: "Größe" }]);
+    expect(parsed.strings.map(({ id, bytes }) => ({ id, text: textOf(bytes, false) }))).toEqual([
+      { id: 12, text: "Größe" },
+    ]);
   });
 
   it("pads an odd number of ids to eight bytes", () => {
@@ -58,5 +60,11 @@ describe("parseFrame", () => {
     new DataView(wrong).setUint8(0, 9);
     expect(() => parseFrame(wrong)).toThrow("kind 9");
     expect(() => parseFrame(frame([1, 2], [1n, 2n], []).slice(0, 40))).toThrow("cut off");
+  });
+});
+
+describe("textOf", () => {
+  it("reads a WSTRING two bytes a character", () => {
+    expect(textOf(new Uint8Array([0x42, 0x30, 0x41, 0x00]), true)).toBe("\u3042A");
   });
 });

@@ -12,7 +12,8 @@ export interface Frame {
   ids: Uint32Array;
   /** Eight bytes for each id, in the order of `ids`: the raw little-endian bytes of the variable, zero padded. */
   values: Uint8Array;
-  strings: { id: number; text: string }[];
+  /** Bytes of a STRING (Latin-1) or WSTRING (UTF-16, little endian). */
+  strings: { id: number; bytes: Uint8Array }[];
 }
 
 /** Reads one frame without copying the values; throws on a frame that is not ours. */
@@ -35,23 +36,26 @@ export function parseFrame(buffer: ArrayBuffer): Frame {
   };
 }
 
-function parseStrings(buffer: ArrayBuffer, view: DataView, start: number): { id: number; text: string }[] {
-  const strings: { id: number; text: string }[] = [];
+function parseStrings(buffer: ArrayBuffer, view: DataView, start: number): Frame["strings"] {
+  const strings: Frame["strings"] = [];
   const count = view.getUint32(start, true);
   let at = start + 4;
   for (let i = 0; i < count; i += 1) {
     const id = view.getUint32(at, true);
     const length = view.getUint32(at + 4, true);
-    const bytes = new Uint8Array(buffer, at + 8, length);
-    strings.push({ id, text: latin1(bytes) });
+    strings.push({ id, bytes: new Uint8Array(buffer, at + 8, length) });
     at += 8 + length;
   }
   return strings;
 }
 
-// Not TextDecoder: its "latin1" is windows-1252, which differs in 0x80 to 0x9F.
-function latin1(bytes: Uint8Array): string {
+/** The characters of a STRING, or with two bytes each of a WSTRING. */
+export function textOf(bytes: Uint8Array, wide: boolean): string {
   let text = "";
-  for (const byte of bytes) text += String.fromCharCode(byte);
+  // Not TextDecoder: its "latin1" is windows-1252, which differs in 0x80 to 0x9F.
+  if (wide)
+    for (let i = 0; i + 1 < bytes.length; i += 2)
+      text += String.fromCharCode((bytes[i] ?? 0) | ((bytes[i + 1] ?? 0) << 8));
+  else for (const byte of bytes) text += String.fromCharCode(byte);
   return text;
 }

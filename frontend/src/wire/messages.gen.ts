@@ -397,12 +397,27 @@ export interface components {
         };
         /** CheckResult */
         CheckResult: {
+            /**
+             * Checks
+             * @description none while there are errors
+             */
+            checks: components["schemas"]["EmbeddedCheck"][];
             /** Pous */
             pous: components["schemas"]["Pou"][];
             /** Problems */
             problems: components["schemas"]["Problem"][];
         };
-        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["SetMode"] | components["schemas"]["Run"];
+        /** ClearDiagnostics */
+        ClearDiagnostics: {
+            /** Ref */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "clear_diagnostics";
+        };
+        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["SetMode"] | components["schemas"]["Run"] | components["schemas"]["ClearDiagnostics"];
         /**
          * Deleted
          * @description Somebody deleted a file of this project.
@@ -417,6 +432,23 @@ export interface components {
              * @enum {string}
              */
             type: "deleted";
+        };
+        /**
+         * Diagnostics
+         * @description The runtime diagnostics, whenever they change: the list is bounded, and says what did not fit.
+         */
+        Diagnostics: {
+            /** Count */
+            count: number;
+            /** Dropped */
+            dropped: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "diagnostics";
+            /** Violations */
+            violations: components["schemas"]["Violation"][];
         };
         /**
          * Done
@@ -438,6 +470,43 @@ export interface components {
              * @enum {string}
              */
             type: "done";
+        };
+        /**
+         * EmbeddedCheck
+         * @description A subrange check that the compiler embedded at this place, or left out.
+         */
+        EmbeddedCheck: {
+            /** Column */
+            column: number;
+            /** End Column */
+            end_column: number;
+            /** End Line */
+            end_line: number;
+            /** File */
+            file: string;
+            /** High */
+            high: string;
+            /** Line */
+            line: number;
+            /**
+             * Low
+             * @description a number as text: a ULINT is beyond what JSON numbers keep
+             */
+            low: string;
+            /**
+             * Needless
+             * @description why no check was embedded; empty when there is one
+             */
+            needless: string;
+            /** Variable */
+            variable: string;
+        };
+        /** EnumValue */
+        EnumValue: {
+            /** Name */
+            name: string;
+            /** Value */
+            value: number;
         };
         /** ErrorChoiceInfo */
         ErrorChoiceInfo: {
@@ -671,6 +740,7 @@ export interface components {
          * @description First message after connecting, and after every reconnection: everything but the values.
          */
         Hello: {
+            diagnostics: components["schemas"]["Diagnostics"];
             /** Errors */
             errors: components["schemas"]["ErrorHistoryRow"][];
             /** Forces */
@@ -980,7 +1050,7 @@ export interface components {
             /** Version */
             version: number;
         };
-        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["Forces"] | components["schemas"]["Written"] | components["schemas"]["Alive"];
+        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Written"] | components["schemas"]["Alive"];
         /** SetMode */
         SetMode: {
             /**
@@ -1021,7 +1091,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "bool" | "int" | "uint" | "bits" | "real" | "time" | "string" | "array" | "struct" | "block";
+            kind: "bool" | "int" | "uint" | "bits" | "real" | "time" | "string" | "array" | "struct" | "block" | "union" | "interface" | "date" | "char" | "ref";
             /** Name */
             name: string;
             /** Path */
@@ -1041,6 +1111,11 @@ export interface components {
              * @description as declared, e.g. INT, ARRAY[0..9] OF REAL, TON
              */
             type: string;
+            /**
+             * Values
+             * @description of an enumeration: the names of its numbers
+             */
+            values: components["schemas"]["EnumValue"][];
             /** Writable */
             writable: boolean;
         };
@@ -1057,7 +1132,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "bounds" | "division" | "null" | "string" | "loop";
+            kind: "bounds" | "division" | "null" | "string" | "loop" | "abstract";
             /** Line */
             line: number;
             /** Message */
@@ -1091,6 +1166,45 @@ export interface components {
             type: "users";
             /** Users */
             users: components["schemas"]["User"][];
+        };
+        /**
+         * Violation
+         * @description A place and instance at which a value left its subrange.
+         */
+        Violation: {
+            /** Column */
+            column: number;
+            /** End Column */
+            end_column: number;
+            /** End Line */
+            end_line: number;
+            /** File */
+            file: string;
+            /** First Scan */
+            first_scan: number;
+            /** High */
+            high: string;
+            /**
+             * Instance
+             * @description path of the instance that ran; empty in a FUNCTION
+             */
+            instance: string;
+            /** Last Scan */
+            last_scan: number;
+            /** Line */
+            line: number;
+            /** Low */
+            low: string;
+            /** Pou */
+            pou: string;
+            /** Text */
+            text: string;
+            /** Times */
+            times: number;
+            /** Value */
+            value: string;
+            /** Variable */
+            variable: string;
         };
         /** Watch */
         Watch: {

@@ -7,7 +7,9 @@ export type AppInfo = Shapes["AppInfo"];
 export type Area = Shapes["Area"];
 export type BuildResult = Shapes["BuildResult"];
 export type CheckResult = Shapes["CheckResult"];
+export type Diagnostics = Shapes["Diagnostics"];
 export type Done = Shapes["Done"];
+export type EmbeddedCheck = Shapes["EmbeddedCheck"];
 export type ErrorDetail = Shapes["ErrorDetail"];
 export type ErrorGroup = Shapes["ErrorGroup"];
 export type ErrorHistoryRow = Shapes["ErrorHistoryRow"];
@@ -31,6 +33,7 @@ export type RunState = InstanceState["state"];
 export type SaveConflict = Shapes["SaveConflict"];
 export type PlcSymbol = Shapes["Symbol"];
 export type User = Shapes["User"];
+export type Violation = Shapes["Violation"];
 export type Watched = Shapes["Watched"];
 
 export type ServerMessage = Shapes["ServerMessage"];

@@ -7,13 +7,15 @@ from collections.abc import Callable
 
 from scanbench.check.types import Elementary, Kind
 
+Number = int | float
+Operand = Callable[[int], Number]
+"""Takes the offset of the running instance."""
+
 SINGLE = struct.Struct("<f")
-COMPARE: dict[str, Callable[..., bool]] = {
-    "eq": operator.eq, "ne": operator.ne, "lt": operator.lt, "le": operator.le, "gt": operator.gt, "ge": operator.ge,
-}  # fmt: skip
 
 
 def bounds(type: Elementary) -> tuple[int, int]:
+    """The smallest and the largest integer."""
     if type.signed:
         return -(1 << type.bits - 1), (1 << type.bits - 1) - 1
     return 0, (1 << type.bits) - 1
@@ -62,13 +64,59 @@ def modulo(a: int, b: int) -> int:
     return -rest if a < 0 else rest
 
 
-REAL_OPERATORS: dict[str, Callable[[float, float], float]] = {
-    "add": operator.add, "sub": operator.sub, "mul": operator.mul, "div": divide_real,
-}  # fmt: skip
-INTEGER_OPERATORS: dict[str, Callable[[int, int], int]] = {
-    "add": operator.add, "sub": operator.sub, "mul": operator.mul, "mod": modulo,
-    "and": operator.and_, "or": operator.or_, "xor": operator.xor,
-}  # fmt: skip
+# An operator stands in the closure itself: a call of its function would take as long again.
+
+
+def compare(op: str, left: Operand, right: Operand) -> Operand:
+    """A comparison of two operands, as a BOOL."""
+    match op:
+        case "eq":
+            return lambda instance: left(instance) == right(instance)
+        case "ne":
+            return lambda instance: left(instance) != right(instance)
+        case "lt":
+            return lambda instance: left(instance) < right(instance)
+        case "le":
+            return lambda instance: left(instance) <= right(instance)
+        case "gt":
+            return lambda instance: left(instance) > right(instance)
+        case _:
+            return lambda instance: left(instance) >= right(instance)
+
+
+def real(op: str, type: Elementary, left: Operand, right: Operand) -> Operand:
+    """An operator on REAL or LREAL, rounded."""
+    to_type = rounder(type)
+    match op:
+        case "add":
+            return lambda instance: to_type(left(instance) + right(instance))
+        case "sub":
+            return lambda instance: to_type(left(instance) - right(instance))
+        case "mul":
+            return lambda instance: to_type(left(instance) * right(instance))
+        case _:
+            return lambda instance: to_type(divide_real(left(instance), right(instance)))
+
+
+def integer(op: str, type: Elementary, left: Operand, right: Operand) -> Operand:
+    """An operator on integers, bit strings, BOOL and times, but for `div`; cut to the width."""
+    if op in BITWISE:
+        function = BITWISE[op]
+        return lambda instance: function(left(instance), right(instance))
+    mask, half = (1 << type.bits) - 1, (1 << type.bits - 1) if type.signed else 0
+    match op:
+        case "add":
+            return lambda instance: (left(instance) + right(instance) + half & mask) - half  # type: ignore[operator]
+        case "sub":
+            return lambda instance: (left(instance) - right(instance) + half & mask) - half  # type: ignore[operator]
+        case "mul":
+            return lambda instance: (left(instance) * right(instance) + half & mask) - half  # type: ignore[operator]
+        case _:
+            return lambda instance: modulo(left(instance), right(instance))  # type: ignore[arg-type]
+
+
+BITWISE: dict[str, Callable[..., int]] = {"and": operator.and_, "or": operator.or_, "xor": operator.xor}
+"""Of operands within the width, so the result is."""
 
 
 def converter(source: Elementary, target: Elementary) -> Callable[[float], int | float]:
@@ -78,7 +126,7 @@ def converter(source: Elementary, target: Elementary) -> Callable[[float], int |
             return rounder(target)
         return to_single_exact if target.size == 4 else float
     if target.kind is Kind.BOOL:
-        return lambda value: int(value != 0)
+        return lambda value: value != 0
     wrap = wrapper(target)
     if source.kind is not Kind.REAL:
         return wrap  # type: ignore[return-value]

@@ -1,13 +1,15 @@
 """The reference engine: the scan loop in Python."""
 
 import time
+from collections.abc import Callable
 
 from scanbench.check.layout import Layout
-from scanbench.check.program import Pou, Program
+from scanbench.check.program import Expr, Pou, Program, ProgramInstance, Task
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.interpreter.expressions import Body
-from scanbench.engines.interpreter.places import Trapped
+from scanbench.engines.interpreter.places import Places, Read, Trapped
 from scanbench.engines.interpreter.statements import Statements
+from scanbench.engines.interpreter.violations import recorder
 
 SLICE_NS = 2_000_000
 LOST_NS = 100_000_000
@@ -21,18 +23,47 @@ class ReferenceEngine(Engine):
     def __init__(self, program: Program, memory: bytearray) -> None:
         self.program = program
         self.memory = memory
+        self.record = recorder(memory, program.layout.violations)
         self._bodies: dict[Pou, Body] = {}
         for pou in program.pous:
             self._bodies[pou] = Statements(self, pou).block(pou.body)
-        self._tasks = [
-            (task.every, [(instance.offset, self._bodies[instance.pou]) for instance in task.programs])
-            for task in program.tasks
-        ]
+        self._tasks = [(self._due(task), [self._program(each) for each in task.programs]) for task in program.tasks]
         self._knocked = False
 
     def body(self, pou: Pou) -> Body:
         """The body of a callee; `Program.pous` lists callees first."""
         return self._bodies[pou]
+
+    def _program(self, instance: ProgramInstance) -> Callable[[], None]:
+        """One program instance of a task, with what is connected to it."""
+        make = Statements(self, instance.pou)
+        steps = (make.block(instance.before), self._bodies[instance.pou], make.block(instance.after))
+
+        def run() -> None:
+            for step in steps:
+                step(instance.offset)
+
+        return run
+
+    def _due(self, task: Task) -> Callable[[int], bool]:
+        """Whether a task runs in a scan; asked when its turn comes."""
+        every = task.every
+        if task.single is None:
+            return lambda scan: scan % every == 0
+        assert task.previous is not None
+        places = Places(self.memory, 0, self._no_indices)
+        read, read_previous = places.read(task.single), places.read(task.previous)
+        write_previous = places.write(task.previous)
+
+        def due(scan: int) -> bool:
+            single, previous = read(0), read_previous(0)
+            write_previous(0, single)
+            return not previous if single else every != 0 and scan % every == 0
+
+        return due
+
+    def _no_indices(self, expr: Expr) -> Read:
+        raise AssertionError(f"the place of a task computes nothing, but {expr}")
 
     def knock(self) -> None:
         self._knocked = True
@@ -80,10 +111,10 @@ class ReferenceEngine(Engine):
         # 2 input refresh: inputs are changed in the seam; forces
         self._force()
         # 3 user program
-        for every, programs in self._tasks:
-            if scan % every == 0:
-                for offset, body in programs:
-                    body(offset)
+        for due, programs in self._tasks:
+            if due(scan):
+                for run in programs:
+                    run()
         # 4 forces again, output refresh
         self._force()
         memory[Layout.SCAN : Layout.SCAN + 8] = (scan + 1).to_bytes(8, "little")

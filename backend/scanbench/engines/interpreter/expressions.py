@@ -1,8 +1,8 @@
 """Expressions -> closures that give their value."""
 
-from collections.abc import Callable
-from operator import itemgetter
-from typing import Protocol
+from abc import ABC, abstractmethod
+from collections.abc import Callable, Sequence
+from typing import Protocol, cast
 
 from scanbench.check.layout import Layout
 from scanbench.check.program import (
@@ -14,41 +14,60 @@ from scanbench.check.program import (
     Convert,
     Expr,
     Intrinsic,
+    Limit,
     Load,
     Place,
     Pou,
+    RefOf,
+    Stmt,
     Unary,
+    Violates,
 )
+from scanbench.check.program import Sequence as SequenceNode
 from scanbench.check.types import Elementary, Kind, Section, StringType
 from scanbench.engines.interpreter import arithmetic
+from scanbench.engines.interpreter.arithmetic import Operand
 from scanbench.engines.interpreter.intrinsics import intrinsic
-from scanbench.engines.interpreter.places import REFERENCE, Places, Read, Trapped, Value
+from scanbench.engines.interpreter.memory import Put, Value, decode, putter
+from scanbench.engines.interpreter.places import Places, Read, Trapped, Write
+from scanbench.engines.interpreter.violations import Record
 
 Body = Callable[[int], int]
-"""Runs a body on an instance; the result says how it ended, see `statements`."""
+"""Runs statements on an instance; the result says how they ended, see `statements`."""
 
 
 class Bodies(Protocol):
     """Where bodies that are called can be found."""
 
     memory: bytearray
+    record: Record
 
     def body(self, pou: Pou) -> Body: ...
 
 
-class Expressions:
-    """Makes closures for the expressions of one POU."""
+class Expressions(ABC):
+    """Makes closures for the expressions of one POU.
 
-    def __init__(self, bodies: Bodies, pou: Pou) -> None:
+    `caller`, when given, holds the offset of the instance that subrange violations are recorded for, instead of the
+    one that the closures are called with.
+    """
+
+    def __init__(self, bodies: Bodies, pou: Pou, caller: list[int] | None = None) -> None:
         self.bodies = bodies
         self.pou = pou
+        self.caller = caller
         self.memory = bodies.memory
         self.places = Places(bodies.memory, pou.frame_offset, self.evaluate)
 
+    @abstractmethod
+    def block(self, statements: Sequence[Stmt]) -> Body:
+        """The closure of statements."""
+
     def evaluate(self, node: Expr) -> Read:
+        """The closure of an expression."""
         match node:
-            case Const(_, value):
-                return lambda instance: value
+            case Const():
+                return self._const(node)
             case Load(place):
                 return self.places.read(place)
             case Unary():
@@ -56,44 +75,58 @@ class Expressions:
             case Binary():
                 return self._binary(node)
             case Compare():
-                left, right = self.evaluate(node.left), self.evaluate(node.right)
-                compare = arithmetic.COMPARE[node.op]
-                return lambda instance: int(compare(left(instance), right(instance)))
+                return cast(Read, arithmetic.compare(node.op, self._number(node.left), self._number(node.right)))
             case Convert():
                 return self._convert(node)
             case Intrinsic():
                 return self._intrinsic(node)
             case CallFunction():
                 return self.call(node)
+            case RefOf(place):
+                return self.places.reference(place)
+            case Limit():
+                return self._limit(node)
+            case Violates():
+                return self._violates(node)
+            case SequenceNode():
+                return self._sequence(node)
+
+    def _number(self, node: Expr) -> Operand:
+        return cast(Operand, self.evaluate(node))
+
+    def _const(self, node: Const) -> Read:
+        value = node.value
+        if isinstance(node.type, StringType):
+            assert isinstance(value, bytes)
+            text = decode(value, node.type.width)
+            return lambda instance: text
+        return lambda instance: value
 
     def _unary(self, node: Unary) -> Read:
-        operand, type = self.evaluate(node.operand), node.type
+        operand, type = self._number(node.operand), node.type
         if node.op == "not":
             mask = (1 << type.bits) - 1
             return lambda instance: operand(instance) ^ mask  # type: ignore[operator]
         if type.kind is Kind.REAL:
-            return lambda instance: -operand(instance)  # type: ignore[operator]
+            return lambda instance: -operand(instance)
         wrap = arithmetic.wrapper(type)
-        return lambda instance: wrap(-operand(instance))  # type: ignore[operator,arg-type]
+        return lambda instance: wrap(-operand(instance))  # type: ignore[arg-type]
 
     def _binary(self, node: Binary) -> Read:
-        left, right, type = self.evaluate(node.left), self.evaluate(node.right), node.type
+        left, right, type = self._number(node.left), self._number(node.right), node.type
         if type.kind is Kind.REAL:
-            compute, to_type = arithmetic.REAL_OPERATORS[node.op], arithmetic.rounder(type)
-            return lambda instance: to_type(compute(left(instance), right(instance)))  # type: ignore[arg-type]
-        wrap = arithmetic.wrapper(type)
-        if node.op == "div":
-            trap = node.trap
+            return arithmetic.real(node.op, type, left, right)
+        if node.op != "div":
+            return arithmetic.integer(node.op, type, left, right)
+        wrap, trap = arithmetic.wrapper(type), node.trap
 
-            def divide(instance: int) -> Value:
-                a, b = left(instance), right(instance)
-                if b == 0:
-                    raise Trapped(trap)
-                return wrap(arithmetic.divide_integer(a, b))  # type: ignore[arg-type]
+        def divide(instance: int) -> Value:
+            a, b = left(instance), right(instance)
+            if b == 0:
+                raise Trapped(trap)
+            return wrap(arithmetic.divide_integer(a, b))  # type: ignore[arg-type]
 
-            return divide
-        operate = arithmetic.INTEGER_OPERATORS[node.op]
-        return lambda instance: wrap(operate(left(instance), right(instance)))  # type: ignore[arg-type]
+        return divide
 
     def _convert(self, node: Convert) -> Read:
         operand, source, target = self.evaluate(node.operand), node.operand.type, node.type
@@ -114,46 +147,93 @@ class Expressions:
             return lambda instance: function(only(instance))
         return lambda instance: function(*[arg(instance) for arg in args])
 
+    # ---- subrange checks --------------------------------------------------------------------------------------
+
+    def _limit(self, node: Limit) -> Read:
+        value, low, high, record = self._number(node.value), node.low, node.high, self._recorder(node.site)
+
+        def limit(instance: int) -> Value:
+            number = value(instance)
+            if low <= number <= high:
+                return number
+            record(instance, number)  # type: ignore[arg-type]
+            return low if number < low else high
+
+        return limit
+
+    def _violates(self, node: Violates) -> Read:
+        value, low, high = self._number(node.value), node.low, node.high
+        if node.site == 0:
+            return lambda instance: not low <= value(instance) <= high
+        record = self._recorder(node.site)
+
+        def violates(instance: int) -> Value:
+            number = value(instance)
+            if low <= number <= high:
+                return False
+            record(instance, number)  # type: ignore[arg-type]
+            return True
+
+        return violates
+
+    def _recorder(self, site: int) -> Callable[[int, int], None]:
+        record, caller = self.bodies.record, self.caller
+        if caller is None:
+            return lambda instance, value: record(site, instance, value)
+        return lambda instance, value: record(site, caller[0], value)
+
+    # ---- running code ------------------------------------------------------------------------------------------
+
+    def _sequence(self, node: SequenceNode) -> Read:
+        body, value = self.block(node.body), self.evaluate(node.value)
+
+        def sequence(instance: int) -> Value:
+            body(instance)
+            return value(instance)
+
+        return sequence
+
     def call(self, node: CallFunction) -> Read:
         """Runs a FUNCTION: arguments first, then its frame is filled, then its body."""
         callee = node.pou
         frame = Places(self.memory, callee.frame_offset, self.evaluate)
-        body = self.bodies.body(callee)
-        fill: list[tuple[Read, Callable[[int, Value], None]]] = []
-        copy_out: list[tuple[Read, Callable[[int, Value], None]]] = []
+        body, result = self.bodies.body(callee), self._result(callee, frame)
+        given: list[Read] = []
+        fill: list[tuple[Put, int]] = []
+        outputs: list[tuple[Read, Write]] = []
         for key, arg in zip(callee.parameters, node.args, strict=True):
             member = callee.frame.members[key]
             own = Place(member.type, Base.FRAME, member.offset)
+            at = callee.frame_offset + member.offset
             if member.section is Section.OUTPUT:
                 if isinstance(arg, Place):
-                    copy_out.append((frame.read(own), self.places.write(arg)))
+                    outputs.append((frame.read(own), self.places.write(arg)))
             elif isinstance(arg, Place):
-                fill.append((self.places.reference(arg), self.slot_writer(callee.frame_offset + member.offset)))
+                given.append(self.places.reference(arg, member.type.size))
+                fill.append((putter(self.memory, SLOT), at))
             elif arg is not None:
-                fill.append((self.evaluate(arg), frame.write(own)))
-        result = self._result(callee, frame)
-        values, writers = [read for read, _ in fill], list(map(itemgetter(1), fill))
+                given.append(self.evaluate(arg))
+                fill.append((putter(self.memory, member.type), at))
 
         def run(instance: int) -> Value:
-            given = [value(instance) for value in values]
-            for write, value in zip(writers, given, strict=True):
-                write(0, value)
+            arguments = [value(instance) for value in given]
+            for (put, at), argument in zip(fill, arguments, strict=True):
+                put(at, argument)
             body(0)
             answer = result(0)
-            returned = [read(0) for read, _ in copy_out]
-            for (_, write), value in zip(copy_out, returned, strict=True):
+            returned = [read(0) for read, _ in outputs]
+            for (_, write), value in zip(outputs, returned, strict=True):
                 write(instance, value)
             return answer
 
         return run
 
-    def slot_writer(self, offset: int) -> Callable[[int, Value], None]:
-        """Writes a reference into the in-out slot at `offset` from the instance."""
-        memory, pack = self.memory, REFERENCE.pack_into
-        return lambda instance, value: pack(memory, instance + offset, value)
-
     def _result(self, callee: Pou, frame: Places) -> Read:
-        if callee.result is None:
+        member = callee.returned
+        if member is None:
             return lambda instance: 0
-        member = callee.frame.members[callee.name.upper()]
         return frame.read(Place(member.type, Base.FRAME, member.offset))
+
+
+SLOT = Elementary("slot", Kind.REF, 8)
+"""What an in-out slot holds."""

@@ -1,27 +1,23 @@
-"""Reading and writing places of the image."""
+"""Places of the image: where they are, and how they are read and written."""
 
-import math
-import struct
 from collections.abc import Callable
 
-from scanbench.check.program import Base, Expr, Place
-from scanbench.check.types import Elementary, Kind, StringType
+from scanbench.check.layout import Layout
+from scanbench.check.program import Base, Expr, Index, Place
+from scanbench.check.types import Kind
+from scanbench.engines.interpreter.memory import Value, getter, putter
 
-Value = int | float | bytes
 Read = Callable[[int], Value]
 """Takes the offset of the running instance."""
 Write = Callable[[int, Value], None]
 Address = Callable[[int], int]
 Reference = Callable[[int], int]
+"""A reference as an in-out slot holds it: byte offset in bits 0-31, bit number in bits 32-34."""
 
-FORMATS = {
-    (Kind.BOOL, 1): "<B", (Kind.INT, 1): "<b", (Kind.INT, 2): "<h", (Kind.INT, 4): "<i", (Kind.INT, 8): "<q",
-    (Kind.UINT, 1): "<B", (Kind.UINT, 2): "<H", (Kind.UINT, 4): "<I", (Kind.UINT, 8): "<Q",
-    (Kind.BITS, 1): "<B", (Kind.BITS, 2): "<H", (Kind.BITS, 4): "<I", (Kind.BITS, 8): "<Q",
-    (Kind.REAL, 4): "<f", (Kind.REAL, 8): "<d", (Kind.TIME, 8): "<q",
-}  # fmt: skip
-CANONICAL_NAN = {4: bytes.fromhex("0000c07f"), 8: bytes.fromhex("000000000000f87f")}
-REFERENCE = struct.Struct("<Q")
+BYTE_OFFSET = 0xFFFF_FFFF
+BIT_SHIFT = 32
+BIT_NUMBER = 7 << BIT_SHIFT
+WORD = (1 << 64) - 1
 
 
 class Trapped(Exception):
@@ -40,132 +36,156 @@ class Places:
         self.frame_offset = frame_offset
         self.evaluate = evaluate
 
-    def reference(self, place: Place) -> Reference:
-        """The reference to a place, as an in-out slot holds it: byte offset, and bit number above it."""
-        start = self._start(place)
-        steps = [
-            (self.evaluate(index.value), index.low, index.high, index.stride, index.trap) for index in place.indices
-        ]
-        if not steps:
+    def fixed(self, place: Place) -> int | None:
+        """The byte offset of a place that is always there."""
+        if place.indices or place.slot is not None or place.reference is not None or place.base is Base.SELF:
+            return None
+        return place.offset + (self.frame_offset if place.base is Base.FRAME else 0)
+
+    def reference(self, place: Place, size: int = 0) -> Reference:
+        """The reference to a place. `size` bytes at least must be in the image behind a reference that is followed."""
+        start = self._start(place, size)
+        if not place.indices:
             return start
+        if any(not isinstance(index.low, int) for index in place.indices):
+            return self._open(place, start)
+        steps = [self._step(index) for index in place.indices]
+        if len(steps) == 1:
+            only = steps[0]
+            return lambda instance: start(instance) + only(instance)
+        return lambda instance: start(instance) + sum([step(instance) for step in steps])
+
+    def _step(self, index: Index) -> Address:
+        """Bytes from the first element of a dimension."""
+        value, trap = self.evaluate(index.value), index.trap
+        low, high, stride = index.low, index.high, index.stride
+        if isinstance(low, int) and isinstance(high, int) and isinstance(stride, int):
+
+            def step(instance: int, low: int = low, high: int = high, stride: int = stride) -> int:
+                number = value(instance)
+                if not low <= number <= high:  # type: ignore[operator]
+                    raise Trapped(trap)
+                return (number - low) * stride  # type: ignore[operator,return-value]
+
+            return step
+        parts = [self._number(part) for part in (low, high, stride)]
+
+        def open_step(instance: int) -> int:
+            number = value(instance)
+            assert isinstance(number, int)
+            first, last, bytes_each = (part(instance) for part in parts)
+            if not first <= number <= last:
+                raise Trapped(trap)
+            return (number - first) * bytes_each
+
+        return open_step
+
+    def _number(self, part: int | Expr) -> Address:
+        if isinstance(part, int):
+            return lambda instance: part
+        return self.evaluate(part)  # type: ignore[return-value]
+
+    def _open(self, place: Place, start: Reference) -> Reference:
+        """Bounds that come with a call may say anything: so the element is checked as a reference is."""
+        steps = [self._step(index) for index in place.indices]
+        end, trap = self._end(place.type.size), place.null_trap or place.indices[-1].trap
 
         def indexed(instance: int) -> int:
-            at = start(instance)
-            for value, low, high, stride, trap in steps:
-                number = value(instance)
-                assert isinstance(number, int)
-                if not low <= number <= high:
-                    raise Trapped(trap)
-                at += (number - low) * stride
-            return at
+            first = start(instance)
+            at = (first & BYTE_OFFSET) + sum([step(instance) for step in steps]) & WORD
+            if not Layout.HEADER_SIZE <= at <= end:
+                raise Trapped(trap)
+            return at | first & BIT_NUMBER
 
         return indexed
 
-    def _start(self, place: Place) -> Reference:
-        offset, bit = place.offset, (place.bit or 0) << 32
+    def _end(self, size: int) -> int:
+        """The last offset where so many bytes are in the image."""
+        return len(self.memory) - size
+
+    def _start(self, place: Place, size: int) -> Reference:
+        offset, bit = place.offset, (place.bit or 0) << BIT_SHIFT
+        if place.slot is not None or place.reference is not None:
+            return self._through(place, size)
+        if place.base is Base.SELF:
+            return (lambda instance: instance + offset | bit) if bit else (lambda instance: instance + offset)
+        fixed = offset + (self.frame_offset if place.base is Base.FRAME else 0) | bit
+        return lambda instance: fixed
+
+    def _through(self, place: Place, size: int) -> Reference:
         if place.slot is not None:
-            return self._through(place.slot, offset, place.null_trap)
-        match place.base:
-            case Base.IMAGE:
-                fixed = offset | bit
-                return lambda instance: fixed
-            case Base.FRAME:
-                fixed = (self.frame_offset + offset) | bit
-                return lambda instance: fixed
-        return lambda instance: (instance + offset) | bit
+            follow = self.read(place.slot)
+        else:
+            assert place.reference is not None
+            follow = self.evaluate(place.reference)
+        offset, trap = place.offset, place.null_trap
+        end = self._end(_reach(place, size))
+        # what a BOOL's reference says of the bit goes on, unless the place names one itself; other types have none
+        kept = BYTE_OFFSET | (BIT_NUMBER if place.type.kind is Kind.BOOL and place.bit is None else 0)
+        bit = (place.bit or 0) << BIT_SHIFT
 
-    def _through(self, slot: Place, offset: int, trap: int) -> Reference:
-        where, memory, unpack = self.address(slot), self.memory, REFERENCE.unpack_from
-
-        def follow(instance: int) -> int:
-            reference: int = unpack(memory, where(instance))[0]
-            if reference == 0:
+        def through(instance: int) -> int:
+            found = follow(instance)
+            assert isinstance(found, int)
+            if not Layout.HEADER_SIZE <= found & ~BIT_NUMBER <= end:
                 raise Trapped(trap)
-            return reference + offset
+            return (found & kept) + offset | bit
 
-        return follow
+        return through
 
-    def address(self, place: Place) -> Address:
+    def address(self, place: Place, size: int = 0) -> Address:
         """The byte offset of a place."""
-        reference = self.reference(place)
-        if place.bit is None and place.slot is None:
+        reference = self.reference(place, size)
+        if place.bit is None and place.slot is None and place.reference is None:
             return reference
-        return lambda instance: reference(instance) & 0xFFFF_FFFF
+        return lambda instance: reference(instance) & BYTE_OFFSET
 
     def _in_bits(self, place: Place) -> bool:
-        return place.type.kind is Kind.BOOL and (place.bit is not None or place.slot is not None)
+        behind = place.slot is not None or place.reference is not None
+        return place.type.kind is Kind.BOOL and (place.bit is not None or behind)
 
     def read(self, place: Place) -> Read:
-        memory, type = self.memory, place.type
+        """The value of a place."""
+        memory = self.memory
         if self._in_bits(place):
             reference = self.reference(place)
 
             def read_bit(instance: int) -> Value:
                 at = reference(instance)
-                return memory[at & 0xFFFF_FFFF] >> (at >> 32) & 1
+                return memory[at & BYTE_OFFSET] >> (at >> BIT_SHIFT) & 1
 
             return read_bit
+        get, fixed, offset = getter(memory, place.type), self.fixed(place), place.offset
+        if fixed is not None:
+            return lambda instance: get(fixed)
+        if place.base is Base.SELF and not place.indices and place.slot is None and place.reference is None:
+            return lambda instance: get(instance + offset)
         where = self.address(place)
-        if isinstance(type, Elementary):
-            unpack = struct.Struct(FORMATS[type.kind, type.size]).unpack_from
-            return lambda instance: unpack(memory, where(instance))[0]
-        if isinstance(type, StringType):
-            capacity = type.capacity
-
-            def read_string(instance: int) -> Value:
-                at = where(instance)
-                length = min(memory[at] | memory[at + 1] << 8, capacity)
-                return bytes(memory[at + 2 : at + 2 + length])
-
-            return read_string
-        size = type.size
-
-        def read_bytes(instance: int) -> Value:
-            at = where(instance)
-            return bytes(memory[at : at + size])
-
-        return read_bytes
+        return lambda instance: get(where(instance))
 
     def write(self, place: Place) -> Write:
-        memory, type = self.memory, place.type
+        """Stores a value in a place."""
+        memory = self.memory
         if self._in_bits(place):
             reference = self.reference(place)
 
             def write_bit(instance: int, value: Value) -> None:
                 at = reference(instance)
-                byte, mask = at & 0xFFFF_FFFF, 1 << (at >> 32)
+                byte, mask = at & BYTE_OFFSET, 1 << (at >> BIT_SHIFT)
                 memory[byte] = memory[byte] | mask if value else memory[byte] & ~mask
 
             return write_bit
+        put, fixed = putter(memory, place.type), self.fixed(place)
+        if fixed is not None:
+            return lambda instance, value: put(fixed, value)
         where = self.address(place)
-        if isinstance(type, StringType):
-            capacity = type.capacity
+        return lambda instance, value: put(where(instance), value)
 
-            def write_string(instance: int, value: Value) -> None:
-                assert isinstance(value, bytes)
-                at, text = where(instance), value[:capacity]
-                memory[at : at + 2] = len(text).to_bytes(2, "little")
-                memory[at + 2 : at + 2 + len(text)] = text
 
-            return write_string
-        if not isinstance(type, Elementary):
-
-            def write_bytes(instance: int, value: Value) -> None:
-                assert isinstance(value, bytes)
-                at = where(instance)
-                memory[at : at + len(value)] = value
-
-            return write_bytes
-        pack = struct.Struct(FORMATS[type.kind, type.size]).pack_into
-        if type.kind is not Kind.REAL:
-            return lambda instance, value: pack(memory, where(instance), value)
-        canonical, size = CANONICAL_NAN[type.size], type.size
-
-        def write_real(instance: int, value: Value) -> None:
-            at = where(instance)
-            if math.isnan(value):  # type: ignore[arg-type]
-                memory[at : at + size] = canonical
-            else:
-                pack(memory, at, value)
-
-        return write_real
+def _reach(place: Place, size: int) -> int:
+    """Bytes behind the reference that the place may need."""
+    reach = place.offset + max(place.type.size, size)
+    for index in place.indices:
+        if isinstance(index.low, int) and isinstance(index.high, int) and isinstance(index.stride, int):
+            reach += (index.high - index.low) * index.stride
+    return reach

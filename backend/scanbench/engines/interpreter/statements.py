@@ -1,16 +1,22 @@
-"""Statements -> closures that run them. A closure returns how it ended: GO_ON, EXIT or RETURN."""
+"""Statements -> closures that run them.
+
+A closure returns how it ended: GO_ON, EXIT, CONTINUE, RETURN, or JUMP plus the number of a block.
+"""
 
 from collections.abc import Callable, Sequence
 
 from scanbench.check.layout import Layout
 from scanbench.check.program import (
     Assign,
+    Blocks,
     CallBlock,
     Case,
+    Continue,
     Evaluate,
     Exit,
     For,
     If,
+    Jump,
     Repeat,
     Return,
     SetBytes,
@@ -19,10 +25,11 @@ from scanbench.check.program import (
 )
 from scanbench.check.types import Elementary
 from scanbench.engines.interpreter import arithmetic
-from scanbench.engines.interpreter.expressions import Body, Expressions
+from scanbench.engines.interpreter.expressions import SLOT, Body, Expressions
+from scanbench.engines.interpreter.memory import putter
 from scanbench.engines.interpreter.places import Trapped
 
-GO_ON, EXIT, RETURN = 0, 1, 2
+GO_ON, EXIT, CONTINUE, RETURN, JUMP = range(5)
 LOWEST = -(1 << 63)
 
 
@@ -51,28 +58,40 @@ class Statements(Expressions):
             case CallBlock():
                 return self._call_block(node)
             case Evaluate():
-                call = self.call(node.call)
-
-                def evaluate(instance: int) -> int:
-                    call(instance)
-                    return GO_ON
-
-                return evaluate
+                return self._evaluate(node)
             case If():
                 return self._if(node)
             case Case():
                 return self._case(node)
             case For():
                 return self._for(node)
-            case While() | Repeat():
+            case While():
                 return self._while(node)
+            case Repeat():
+                return self._repeat(node)
             case Exit():
                 return lambda instance: EXIT
+            case Continue():
+                return lambda instance: CONTINUE
             case Return():
                 return lambda instance: RETURN
+            case Blocks():
+                return self._blocks(node)
+            case Jump():
+                return self._jump(node)
 
     def _assign(self, node: Assign) -> Body:
-        value, write = self.evaluate(node.value), self.places.write(node.target)
+        value, target = self.evaluate(node.value), node.target
+        fixed = None if target.bit is not None else self.places.fixed(target)
+        if fixed is not None:
+            put = putter(self.memory, target.type)
+
+            def store(instance: int) -> int:
+                put(fixed, value(instance))
+                return GO_ON
+
+            return store
+        write = self.places.write(target)
 
         def assign(instance: int) -> int:
             write(instance, value(instance))
@@ -90,29 +109,49 @@ class Statements(Expressions):
 
         return set_bytes
 
+    # ---- calls --------------------------------------------------------------------------------------------------
+
+    def _evaluate(self, node: Evaluate) -> Body:
+        call = self.call(node.call)
+
+        def evaluate(instance: int) -> int:
+            call(instance)
+            return GO_ON
+
+        return evaluate
+
     def _call_block(self, node: CallBlock) -> Body:
-        where, body = self.places.address(node.instance), self.bodies.body(node.pou)
-        inner = Statements(self.bodies, node.pou)
+        where, body = self.places.address(node.instance, node.pou.instance.size), self.bodies.body(node.pou)
+        caller = [0]
+        inner = Statements(self.bodies, node.pou, caller)
+        bind = putter(self.memory, SLOT)
         inputs = [(self.evaluate(value), inner.places.write(place)) for place, value in node.inputs]
-        slots = [(self.places.reference(actual), self.slot_writer(slot.offset)) for slot, actual in node.in_outs]
+        slots = [(inner.places.address(slot), self.places.reference(actual)) for slot, actual in node.in_outs]
         outputs = [(inner.evaluate(value), self.places.write(target)) for value, target in node.outputs]
 
         def call(instance: int) -> int:
             callee = where(instance)
             for read, write in inputs:
                 write(callee, read(instance))
-            for reference, bind in slots:
-                bind(callee, reference(instance))
+            for slot, reference in slots:
+                found = reference(instance)
+                bind(slot(callee), found)
             body(callee)
+            caller[0] = instance
             for read, write in outputs:
                 write(instance, read(callee))
             return GO_ON
 
         return call
 
+    # ---- choices ------------------------------------------------------------------------------------------------
+
     def _if(self, node: If) -> Body:
         branches = [(self.evaluate(condition), self.block(body)) for condition, body in node.branches]
         orelse = self.block(node.orelse)
+        if len(branches) == 1:
+            condition, then = branches[0]
+            return lambda instance: then(instance) if condition(instance) else orelse(instance)
 
         def choose(instance: int) -> int:
             for condition, body in branches:
@@ -136,7 +175,9 @@ class Statements(Expressions):
 
         return choose
 
-    def spender(self, trap: int) -> Callable[[int], None]:
+    # ---- loops and jumps ----------------------------------------------------------------------------------------
+
+    def _spender(self, trap: int) -> Callable[[int], None]:
         """Takes rounds from the loop budget of the scan."""
         memory, at = self.memory, Layout.BUDGET
 
@@ -148,36 +189,43 @@ class Statements(Expressions):
 
         return spend
 
-    def _while(self, node: While | Repeat) -> Body:
-        body, spend = self.block(node.body), self.spender(node.trap)
-        if isinstance(node, While):
-            condition = self.evaluate(node.condition)
+    def _while(self, node: While) -> Body:
+        condition, body, spend = self.evaluate(node.condition), self.block(node.body), self._spender(node.trap)
 
-            def loop_while(instance: int) -> int:
-                while condition(instance):
-                    spend(1)
-                    if end := body(instance):
-                        return RETURN if end == RETURN else GO_ON
-                return GO_ON
+        def loop(instance: int) -> int:
+            while condition(instance):
+                spend(1)
+                end = body(instance)
+                if end == EXIT:
+                    return GO_ON
+                if end == RETURN:
+                    return RETURN
+            return GO_ON
 
-            return loop_while
-        until = self.evaluate(node.until)
+        return loop
 
-        def loop_until(instance: int) -> int:
+    def _repeat(self, node: Repeat) -> Body:
+        until, body, spend = self.evaluate(node.until), self.block(node.body), self._spender(node.trap)
+
+        def loop(instance: int) -> int:
             while True:
                 spend(1)
-                if end := body(instance):
-                    return RETURN if end == RETURN else GO_ON
+                end = body(instance)
+                if end == EXIT:
+                    return GO_ON
+                if end == RETURN:
+                    return RETURN
                 if until(instance):
                     return GO_ON
 
-        return loop_until
+        return loop
 
     def _for(self, node: For) -> Body:
         start, end, step = (self.evaluate(each) for each in (node.start, node.end, node.step))
-        store, body, spend = self.places.write(node.variable), self.block(node.body), self.spender(node.trap)
-        assert isinstance(node.variable.type, Elementary)
-        wrap, each_round = arithmetic.wrapper(node.variable.type), node.exits
+        store, body, spend = self.places.write(node.variable), self.block(node.body), self._spender(node.trap)
+        type = node.variable.type
+        assert isinstance(type, Elementary)
+        wrap, each_round, (low, high) = arithmetic.wrapper(type), node.exits, node.bounds or arithmetic.bounds(type)
 
         def loop(instance: int) -> int:
             first, last, by = start(instance), end(instance), step(instance)
@@ -192,10 +240,38 @@ class Statements(Expressions):
                 if each_round:
                     spend(1)
                 store(instance, wrap(counter))
-                if how := body(instance):
-                    return RETURN if how == RETURN else GO_ON
+                how = body(instance)
+                if how == EXIT:
+                    return GO_ON
+                if how == RETURN:
+                    return RETURN
                 counter += by
-            store(instance, wrap(counter))
+            store(instance, min(max(wrap(counter), low), high))
             return GO_ON
 
         return loop
+
+    def _blocks(self, node: Blocks) -> Body:
+        blocks = [self.block(block) for block in node.blocks]
+
+        def run(instance: int) -> int:
+            number = 0
+            while number < len(blocks):
+                end = blocks[number](instance)
+                if end == RETURN:
+                    return RETURN
+                number = end - JUMP if end >= JUMP else number + 1
+            return GO_ON
+
+        return run
+
+    def _jump(self, node: Jump) -> Body:
+        end, spend = JUMP + node.target, self._spender(node.trap)
+        if not node.back:
+            return lambda instance: end
+
+        def jump_back(instance: int) -> int:
+            spend(1)
+            return end
+
+        return jump_back

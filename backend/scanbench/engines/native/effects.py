@@ -13,8 +13,9 @@ ANY = ""
 class Effects:
     """Summaries of the POUs of one program, made once each."""
 
-    def __init__(self) -> None:
-        self._written: dict[Pou, frozenset[str]] = {}
+    def __init__(self, known: dict[Pou, frozenset[str]] | None = None) -> None:
+        """`known` are summaries that were made before, and hold still."""
+        self._written: dict[Pou, frozenset[str]] = {} if known is None else known
 
     def written_by(self, pou: Pou) -> frozenset[str]:
         """Names of the variables that a run of the POU may write."""
@@ -38,8 +39,12 @@ def _name(place: Place) -> str:
     return ANY if has_members(place.type) else place.variable
 
 
+def plain(place: Place) -> bool:
+    """Whether it stands at a fixed place, in whole bytes."""
+    return place.slot is None and place.reference is None and not place.indices and place.bit is None
+
+
 def keeps(written: frozenset[str], place: Place) -> bool:
     """Whether a plain variable is certainly untouched by code that writes these."""
     name = place.variable
-    plain = place.slot is None and not place.indices and place.bit is None
-    return plain and name != ANY and not name.startswith("@") and name not in written and ANY not in written
+    return plain(place) and name != ANY and not name.startswith("@") and name not in written and ANY not in written

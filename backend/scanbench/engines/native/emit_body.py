@@ -5,8 +5,9 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
-from scanbench.check.program import Base, Expr, Place, Pou
-from scanbench.engines.native.effects import Effects
+from scanbench.check.program import Base, Expr, Place, Pou, Stmt
+from scanbench.check.types import Elementary, Kind
+from scanbench.engines.native.effects import Effects, plain
 from scanbench.engines.native.emit_function import FunctionText, Value
 from scanbench.engines.native.emit_module import ModuleText
 from scanbench.engines.native.registers import Signature, signature
@@ -26,6 +27,8 @@ class TooLarge(ValueError):
 
 Evaluate: TypeAlias = "Callable[[Body, Expr], Value]"
 Pieces: TypeAlias = "Callable[[Body, Expr], list[Piece]]"
+Run: TypeAlias = "Callable[[Body, tuple[Stmt, ...]], None]"
+CounterKey: TypeAlias = tuple[Base, int, Kind, int]
 
 
 @dataclass(slots=True)
@@ -34,10 +37,15 @@ class Unit:
 
     module: ModuleText = field(default_factory=ModuleText)
     effects: Effects = field(default_factory=Effects)
-    numbers: dict[Pou, int] = field(default_factory=dict)
+    names: dict[Pou, str] = field(default_factory=dict)
+    """A name of its own for every POU of the program."""
+    mentioned: dict[Pou, None] = field(default_factory=dict)
+    """The POUs whose code is in the module or called by it."""
+    image_size: int = 0
+    """What lies in the image, a reference may refer to."""
     scratch: int = 0
     """Bytes of temporaries, up to now."""
-    _signatures: dict[Pou, Signature] = field(default_factory=dict)
+    signatures: dict[Pou, Signature] = field(default_factory=dict)
 
     def reserve(self, pou: Pou, name: str, size: int) -> None:
         """Memory for the temporaries of the POU's statements."""
@@ -51,15 +59,18 @@ class Unit:
 
     def symbol(self, pou: Pou) -> str:
         """The LLVM name of the POU's code."""
-        number = self.numbers.setdefault(pou, len(self.numbers))
-        name = "".join(c if c.isascii() and (c.isalnum() or c == "_") else "." for c in pou.name)
-        return f'@"p.{name}.{number}"'
+        self.mentioned[pou] = None
+        return f'@"p.{self.names[pou]}"'
+
+    def has(self, pou: Pou) -> bool:
+        """Whether it is a POU of the program, with numbers of sites of its own."""
+        return pou in self.names
 
     def signature(self, pou: Pou) -> Signature:
         """How the FUNCTION is called."""
-        known = self._signatures.get(pou)
+        known = self.signatures.get(pou)
         if known is None:
-            known = self._signatures[pou] = signature(pou)
+            known = self.signatures[pou] = signature(pou)
         return known
 
 
@@ -71,12 +82,18 @@ class Self:
     offset: str
 
 
+def counter_key(place: Place) -> CounterKey:
+    """Names the bytes and how they are read: other places may see the same bytes as something else."""
+    size = place.type.size if isinstance(place.type, Elementary) else 0
+    return place.base, place.offset, place.type.kind, size
+
+
 class Body:
     """Context of one POU's body: the function under way and what names mean in it."""
 
     image = "%img"
 
-    def __init__(self, unit: Unit, pou: Pou, text: FunctionText, scalar: Evaluate, pieces: Pieces) -> None:
+    def __init__(self, unit: Unit, pou: Pou, text: FunctionText, scalar: Evaluate, pieces: Pieces, run: Run) -> None:
         self.unit = unit
         self.module = unit.module
         self.pou = pou
@@ -84,14 +101,23 @@ class Body:
         self.self = Self("%me", "%self")
         self.registers: dict[int, str] = {}
         """Stack variables of frame offsets."""
-        self.counters: dict[tuple[Base, int], Value] = {}
+        self.bound: set[int] = set()
+        """Frame offsets of slots whose reference the caller has checked, and that nothing changes."""
+        self.instance_offset = "0" if pou.kind == "function" else "%self"
+        """Of the instance whose body this is, 0 in a FUNCTION."""
+        self.counters: dict[CounterKey, Value] = {}
         """Loop variables that hold a known value here."""
         self.exits: list[str] = []
         """Blocks that EXIT goes to, innermost last."""
+        self.rounds: list[str] = []
+        """Blocks that CONTINUE goes to, innermost last."""
+        self.labels: list[str] = []
+        """Blocks that a `Jump` goes to, by number."""
         self.leave = "leave"
         """Block that RETURN goes to."""
         self._scalar = scalar
         self._pieces = pieces
+        self._run = run
 
     def scalar(self, expr: Expr) -> Value:
         """The value of an elementary expression."""
@@ -101,11 +127,15 @@ class Body:
         """The value of a STRING expression, as pieces to be joined."""
         return self._pieces(self, expr)
 
+    def run(self, statements: tuple[Stmt, ...]) -> None:
+        """Emits statements."""
+        self._run(self, statements)
+
     def counter(self, place: Place) -> Value | None:
         """The value of the place, when it is a loop variable that only its loop writes."""
-        if not self.counters or place.slot is not None or place.indices or place.bit is not None:
+        if not self.counters or not plain(place):
             return None
-        return self.counters.get((place.base, place.offset))
+        return self.counters.get(counter_key(place))
 
     @contextmanager
     def instance(self, inner: Self) -> "Iterator[None]":

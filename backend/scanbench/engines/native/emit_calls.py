@@ -1,7 +1,7 @@
 """Calls of functions and of function block instances."""
 
-from scanbench.check.program import CallBlock, CallFunction, Expr, Load, Place
-from scanbench.check.types import BOOL, Elementary, StringType
+from scanbench.check.program import CallBlock, CallFunction, Expr, Load, Place, Sequence
+from scanbench.check.types import Elementary, Kind, StringType
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body, Self
 from scanbench.engines.native.emit_function import Value
@@ -43,6 +43,10 @@ def value(body: Body, expr: Expr, disturbed: bool) -> Held:
         result = _call(body, expr)
         assert result is not None
         return settle(body, result, disturbed)
+    if isinstance(expr, Sequence):
+        with body.text.inside_expression():
+            body.run(expr.body)
+        return value(body, expr.value, disturbed)
     assert isinstance(expr, Load), f"not an array or structure: {expr}"
     return settle(body, Bytes(address(body, expr.place).pointer, expr.place.type.size), disturbed)
 
@@ -74,7 +78,7 @@ def _call(body: Body, call: CallFunction) -> Held | None:
     status = body.text.op(f"call i32 {body.unit.symbol(call.pou)}({', '.join(given)})")
     body.text.check_status(status)
     # all is read before the first is stored: finding out where may call this function again
-    disturbed = any(walk.address_calls(place) for _, _, place in outputs)
+    disturbed = any(walk.address_disturbs(place) for _, _, place in outputs)
     values = [(read(body, pointer, each.member.type, disturbed), place) for each, pointer, place in outputs]
     result = read(body, room, signature.result.member.type, disturbed) if signature.result is not None else None
     for held, place in values:
@@ -87,23 +91,23 @@ def _room(body: Body, call: CallFunction, parameter: Parameter) -> str:
     if parameter.passing is Passing.POINTER:
         return body.text.alloca(stored(elementary(parameter.member.type)))
     offset = call.pou.frame_offset + parameter.member.offset
-    return body.text.op(f"getelementptr inbounds nuw i8, ptr {body.image}, i64 {offset}")
+    return body.text.address(body.image, offset)
 
 
 def _calls(later: list[tuple[Parameter, Argument]]) -> bool:
     """Whether evaluating these arguments runs code. An output's place is evaluated after the call."""
     for parameter, argument in later:
         if isinstance(argument, Place):
-            if parameter.passing is Passing.REFERENCE and walk.address_calls(argument):
+            if parameter.passing is Passing.REFERENCE and walk.address_disturbs(argument):
                 return True
-        elif argument is not None and walk.calls_functions(argument):
+        elif argument is not None and walk.disturbs(argument):
             return True
     return False
 
 
 def _argument(body: Body, parameter: Parameter, argument: Expr | Place, disturbed: bool) -> str:
     if isinstance(argument, Place):
-        return f"i64 {reference(body, argument)}"
+        return f"i64 {reference(body, argument, parameter.member.type.size)}"
     held = value(body, argument, disturbed)
     if isinstance(held, Bytes):
         return f"ptr {held.pointer}"
@@ -111,7 +115,7 @@ def _argument(body: Body, parameter: Parameter, argument: Expr | Place, disturbe
         one = as_one(body, held)
         return f"ptr {one.pointer}, i64 {one.length}"
     type = elementary(parameter.member.type)
-    ssa = body.text.op(f"zext i1 {held.ssa} to i8") if type == BOOL else held.ssa
+    ssa = body.text.op(f"zext i1 {held.ssa} to i8") if type.kind is Kind.BOOL else held.ssa
     return f"{stored(type)} {ssa}"
 
 
@@ -120,11 +124,11 @@ def _argument(body: Body, parameter: Parameter, argument: Expr | Place, disturbe
 
 def block(body: Body, call: CallBlock) -> None:
     """Runs an instance: inputs, references, body, outputs."""
-    offset = reference(body, call.instance)
+    offset = reference(body, call.instance, call.pou.instance.size)
     pointer = body.text.op(f"getelementptr inbounds nuw i8, ptr {body.image}, i64 {offset}")
     inner = Self(pointer, offset)
     for place, expr in call.inputs:
-        held = value(body, expr, walk.address_calls(place))
+        held = value(body, expr, walk.address_disturbs(place))
         with body.instance(inner):
             put(body, place, held)
     for slot, bound in call.in_outs:
@@ -136,5 +140,5 @@ def block(body: Body, call: CallBlock) -> None:
     body.text.check_status(status)
     for expr, target in call.outputs:
         with body.instance(inner):
-            held = value(body, expr, walk.address_calls(target))
+            held = value(body, expr, walk.address_disturbs(target))
         put(body, target, held)

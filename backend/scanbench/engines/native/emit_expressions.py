@@ -1,15 +1,31 @@
 """Expressions: the dispatch over their kinds."""
 
-from scanbench.check.program import Binary, CallFunction, Compare, Const, Convert, Expr, Intrinsic, Load, Unary
+from typing import assert_never
+
+from scanbench.check.program import (
+    Binary,
+    CallFunction,
+    Compare,
+    Const,
+    Convert,
+    Expr,
+    Intrinsic,
+    Limit,
+    Load,
+    RefOf,
+    Sequence,
+    Unary,
+    Violates,
+)
 from scanbench.check.types import StringType
-from scanbench.engines.native import emit_calls, emit_string_functions
+from scanbench.engines.native import emit_calls, emit_checks, emit_string_functions
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
 from scanbench.engines.native.emit_intrinsics import of_intrinsic
 from scanbench.engines.native.emit_operators import binary, compare, convert, unary
-from scanbench.engines.native.emit_places import load
+from scanbench.engines.native.emit_places import load, reference
 from scanbench.engines.native.emit_strings import Piece, cut, of_place, ordered
-from scanbench.engines.native.emit_types import elementary, integer, is_real, real, string, wrap
+from scanbench.engines.native.emit_types import bounds, elementary, integer, is_real, real, string, wrap
 
 
 def scalar(body: Body, expr: Expr) -> Value:
@@ -33,6 +49,18 @@ def scalar(body: Body, expr: Expr) -> Value:
             return of_intrinsic(body, expr)
         case CallFunction():
             return emit_calls.scalar(body, expr)
+        case RefOf(place, type):
+            return Value(reference(body, place), *bounds(type))
+        case Limit():
+            return emit_checks.limit(body, expr)
+        case Violates():
+            return emit_checks.violates(body, expr)
+        case Sequence(before, value):
+            with body.text.inside_expression():
+                body.run(before)
+            return body.scalar(value)
+        case _:
+            assert_never(expr)
 
 
 def constant(expr: Const) -> Value:
@@ -53,7 +81,7 @@ def _compare(body: Body, expr: Compare) -> Value:
     left, right = expr.left, expr.right
     if isinstance(left.type, StringType):
         a, b = ordered(body, (left, right))
-        return emit_string_functions.compare(body, expr.op, a, b)
+        return emit_string_functions.compare(body, expr.op, left.type.width, (a, b))
     first = body.scalar(left)
     return compare(body, expr.op, elementary(left.type), first, body.scalar(right))
 
@@ -63,7 +91,9 @@ def pieces(body: Body, expr: Expr) -> list[Piece]:
     match expr:
         case Const(_, value):
             assert isinstance(value, bytes)
-            return [Piece(body.module.constant(value), str(len(value)), len(value))] if value else []
+            width = string(expr.type).width
+            count = len(value) // width
+            return [Piece(body.module.constant(value), str(count), count, width=width)] if value else []
         case Load(place):
             return [of_place(body, place)]
         case Convert(type, operand):
@@ -72,4 +102,8 @@ def pieces(body: Body, expr: Expr) -> list[Piece]:
             return emit_string_functions.of_intrinsic(body, expr)
         case CallFunction():
             return [emit_calls.text(body, expr)]
+        case Sequence(before, inner):
+            with body.text.inside_expression():
+                body.run(before)
+            return body.pieces(inner)
     raise AssertionError(f"not a STRING: {expr}")

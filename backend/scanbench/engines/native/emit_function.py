@@ -1,5 +1,7 @@
 """The text of one LLVM function: names, blocks, traps, temporaries. Knows nothing of the language."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass
 
 UNLIKELY = ", !prof !0"
@@ -30,18 +32,23 @@ class Value:
 class FunctionText:
     """Builds the text of a function that returns a status: 0, or the number of a trap."""
 
-    def __init__(self, header: str, scratch: str = "") -> None:
+    def __init__(self, header: str, scratch: str = "", first_trap: str = "") -> None:
         self.header = header
+        self.first_trap = first_trap
+        """Name of the number that the numbers of traps count from; none where they count from 0."""
         self.scratch = scratch
         """Name of the memory that buffers are parts of."""
         self.scratch_size = 0
         """What all buffers of one statement need, at most."""
         self._scratch_used = 0
+        self._scratch_kept = 0
         self.entry: list[str] = []
         self.lines: list[str] = []
         self.block = "start"
         self._count = 0
         self._failures: dict[str, str] = {}
+        self._addresses: dict[tuple[str, int], str] = {}
+        """Those computed in this block."""
 
     # ---- instructions and blocks -----------------------------------------------------------------------
 
@@ -65,6 +72,7 @@ class FunctionText:
         """Starts a block."""
         self.lines.append(f"{label}:")
         self.block = label
+        self._addresses.clear()
 
     def go(self, label: str) -> None:
         """Ends the block."""
@@ -101,6 +109,14 @@ class FunctionText:
 
     # ---- memory -------------------------------------------------------------------------------------------
 
+    def address(self, pointer: str, offset: int) -> str:
+        """The address so many bytes on, in the same object."""
+        known = self._addresses.get((pointer, offset))
+        if known is None:
+            known = self.op(f"getelementptr inbounds nuw i8, ptr {pointer}, i64 {offset}")
+            self._addresses[pointer, offset] = known
+        return known
+
     def alloca(self, type: str, align: int = 8) -> str:
         """A variable on the stack, for the whole call."""
         name = f"%{self.name('a')}"
@@ -118,13 +134,27 @@ class FunctionText:
         return f"getelementptr inbounds (i8, ptr {self.scratch}, i64 {start})" if start else self.scratch
 
     def end_statement(self) -> None:
-        """Gives the buffers back: no value lives from one statement to the next."""
-        self._scratch_used = 0
+        """Gives the buffers back: no value lives from one statement to the next, but in what `inside_expression` keeps."""
+        self._scratch_used = self._scratch_kept
+
+    @contextmanager
+    def inside_expression(self) -> Iterator[None]:
+        """Statements within an expression: the buffers of what is evaluated already are kept."""
+        outer, self._scratch_kept = self._scratch_kept, self._scratch_used
+        yield
+        self._scratch_kept = outer
 
     # ---- the whole ----------------------------------------------------------------------------------------
 
     def text(self) -> str:
         """The function, ready to be parsed."""
-        failures = [line for status, label in self._failures.items() for line in (f"{label}:", f"  ret i32 {status}")]
+        failures = [line for status, label in self._failures.items() for line in (f"{label}:", *self._leaving(status))]
         parts = [f"{self.header} {{", "entry:", *self.entry, "  br label %start", "start:", *self.lines, *failures, "}"]
         return "\n".join(parts)
+
+    def _leaving(self, status: str) -> list[str]:
+        if not self.first_trap or status.startswith("%"):
+            return [f"  ret i32 {status}"]
+        first, trap = self.name(), self.name()
+        load = f"  %{first} = load i32, ptr {self.first_trap}, align 4"
+        return [load, f"  %{trap} = add i32 %{first}, {status}", f"  ret i32 %{trap}"]

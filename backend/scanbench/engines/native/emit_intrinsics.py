@@ -7,13 +7,13 @@ from scanbench.check.program import Intrinsic
 from scanbench.check.types import BOOL, LINT, LREAL, TIME, Elementary
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
+from scanbench.engines.native.emit_memory import canonical
 from scanbench.engines.native.emit_operators import convert, intrinsic, saturated
-from scanbench.engines.native.emit_places import canonical
 from scanbench.engines.native.emit_types import bounds, elementary, is_real, value_type
 
 LIBM = {
     "LN": "log", "LOG": "log10", "EXP": "exp", "SIN": "sin", "COS": "cos", "TAN": "tan", "ASIN": "asin",
-    "ACOS": "acos", "ATAN": "atan", "EXPT": "pow",
+    "ACOS": "acos", "ATAN": "atan", "ATAN2": "atan2", "EXPT": "pow",
 }  # fmt: skip
 LIBM_PREFIX = "libm."
 """Keeps LLVM from knowing these functions, and from replacing a call by something that rounds differently."""
@@ -73,6 +73,22 @@ def _select(body: Body, name: str, type: Elementary, types: list[Elementary], ar
     return Value(ssa, min(a.low, b.low), max(a.high, b.high), clean=a.clean and b.clean)
 
 
+def _multiplex(body: Body, name: str, type: Elementary, types: list[Elementary], args: list[Value]) -> Value:
+    chosen, llvm = args[1], value_type(type)
+    for position, each in enumerate(args[2:], 1):
+        holds = body.text.op(f"icmp sge {value_type(types[0])} {args[0].ssa}, {position}")
+        ssa = body.text.op(f"select i1 {holds}, {llvm} {each.ssa}, {llvm} {chosen.ssa}")
+        low, high = min(each.low, chosen.low), max(each.high, chosen.high)
+        chosen = Value(ssa, low, high, clean=each.clean and chosen.clean)
+    return chosen
+
+
+def _swap(body: Body, name: str, type: Elementary, types: list[Elementary], args: list[Value]) -> Value:
+    if type.bits <= 8:
+        return args[0]
+    return Value(intrinsic(body, "bswap", value_type(type), args[0].ssa), *bounds(type))
+
+
 def _shift(body: Body, name: str, type: Elementary, types: list[Elementary], args: list[Value]) -> Value:
     text, llvm = body.text, value_type(type)
     count = convert(body, types[1], LINT, args[1]).ssa
@@ -98,7 +114,7 @@ def _bitcast(body: Body, name: str, type: Elementary, types: list[Elementary], a
 
 
 def _clock(body: Body, name: str, type: Elementary, types: list[Elementary], args: list[Value]) -> Value:
-    pointer = body.text.op(f"getelementptr inbounds nuw i8, ptr {body.image}, i64 {Layout.CLOCK}")
+    pointer = body.text.address(body.image, Layout.CLOCK)
     return Value(body.text.op(f"load i64, ptr {pointer}, align 8{body.module.tag('#clock')}"), *bounds(TIME))
 
 
@@ -110,6 +126,8 @@ FUNCTIONS: dict[str, Callable[[Body, str, Elementary, list[Elementary], list[Val
     "MIN": _extreme,
     "MAX": _extreme,
     "SEL": _select,
+    "MUX": _multiplex,
+    "SWAP": _swap,
     "SHL": _shift,
     "SHR": _shift,
     "ROL": _rotate,

@@ -1,20 +1,21 @@
 """Loops, and the budget that ends those that never would."""
 
-from collections.abc import Callable, Iterator
+from collections.abc import Iterator
 from contextlib import contextmanager
 
 from scanbench.check.layout import Layout
-from scanbench.check.program import Const, For, Repeat, Stmt, While
+from scanbench.check.program import Base, Const, For, Place, Repeat, While
 from scanbench.check.types import Elementary
-from scanbench.engines.native.effects import keeps
-from scanbench.engines.native.emit_body import Body
+from scanbench.engines.native.effects import keeps, plain
+from scanbench.engines.native.emit_body import Body, counter_key
+from scanbench.engines.native.emit_checks import within_bounds
 from scanbench.engines.native.emit_function import Value
-from scanbench.engines.native.emit_places import address, store, widened
+from scanbench.engines.native.emit_memory import store
+from scanbench.engines.native.emit_places import address, widened
 from scanbench.engines.native.emit_strings import pick
 from scanbench.engines.native.emit_types import bounds, elementary, value_type
 from scanbench.engines.native.ranges import within
 
-Run = Callable[[Body, tuple[Stmt, ...]], None]
 I64 = (-(1 << 63), (1 << 63) - 1)
 
 
@@ -24,7 +25,7 @@ I64 = (-(1 << 63), (1 << 63) - 1)
 def take(body: Body, rounds: str, trap: int) -> None:
     """Takes rounds from the scan's budget; traps where it falls below zero."""
     text, tag = body.text, body.module.tag("#budget")
-    where = text.op(f"getelementptr inbounds nuw i8, ptr {body.image}, i64 {Layout.BUDGET}")
+    where = text.address(body.image, Layout.BUDGET)
     before = text.op(f"load i64, ptr {where}, align 8{tag}")
     left = pick(body, "ssub.sat", before, rounds)
     text.do(f"store i64 {left}, ptr {where}, align 8{tag}")
@@ -34,7 +35,7 @@ def take(body: Body, rounds: str, trap: int) -> None:
 def take_all(body: Body, runs: str, further: str, trap: int) -> None:
     """Takes one round and `further` ones (unsigned), if the loop runs at all: up to 2 to the 64th, so it saturates."""
     text, tag = body.text, body.module.tag("#budget")
-    where = text.op(f"getelementptr inbounds nuw i8, ptr {body.image}, i64 {Layout.BUDGET}")
+    where = text.address(body.image, Layout.BUDGET)
     before = text.op(f"load i64, ptr {where}, align 8{tag}")
     enough = text.op(f"icmp ult i64 {further}, {text.op(f'xor i64 {before}, {I64[0]}')}")
     after = text.op(f"sub i64 {text.op(f'sub i64 {before}, {further}')}, 1")
@@ -48,13 +49,16 @@ def take_all(body: Body, runs: str, further: str, trap: int) -> None:
 
 
 @contextmanager
-def _exit_to(body: Body, label: str) -> Iterator[None]:
-    body.exits.append(label)
+def _inside(body: Body, after: str, following: str) -> Iterator[None]:
+    """EXIT and CONTINUE go to these blocks meanwhile."""
+    body.exits.append(after)
+    body.rounds.append(following)
     yield
     body.exits.pop()
+    body.rounds.pop()
 
 
-def while_loop(body: Body, loop: While, run: Run) -> None:
+def while_loop(body: Body, loop: While) -> None:
     """WHILE: condition, budget, body."""
     text = body.text
     head, inside, after = text.name("while"), text.name("do"), text.name("after")
@@ -63,21 +67,23 @@ def while_loop(body: Body, loop: While, run: Run) -> None:
     text.choose(body.scalar(loop.condition).ssa, inside, after)
     text.begin(inside)
     take(body, "1", loop.trap)
-    with _exit_to(body, after):
-        run(body, loop.body)
+    with _inside(body, after, head):
+        body.run(loop.body)
     text.go(head)
     text.begin(after)
 
 
-def repeat_loop(body: Body, loop: Repeat, run: Run) -> None:
+def repeat_loop(body: Body, loop: Repeat) -> None:
     """REPEAT: budget, body, condition."""
     text = body.text
-    head, after = text.name("repeat"), text.name("after")
+    head, test, after = text.name("repeat"), text.name("until"), text.name("after")
     text.go(head)
     text.begin(head)
     take(body, "1", loop.trap)
-    with _exit_to(body, after):
-        run(body, loop.body)
+    with _inside(body, after, test):
+        body.run(loop.body)
+    text.go(test)
+    text.begin(test)
     text.choose(body.scalar(loop.until).ssa, after, head)
     text.begin(after)
 
@@ -85,7 +91,7 @@ def repeat_loop(body: Body, loop: Repeat, run: Run) -> None:
 # ---- FOR --------------------------------------------------------------------------------------------------------
 
 
-def for_loop(body: Body, loop: For, run: Run) -> None:
+def for_loop(body: Body, loop: For) -> None:
     """FOR: counts in 64 bits, so that narrower counters need no care at the ends of their range."""
     type = elementary(loop.variable.type)
     start, end = body.scalar(loop.start), body.scalar(loop.end)
@@ -93,12 +99,12 @@ def for_loop(body: Body, loop: For, run: Run) -> None:
     by = int(loop.step.value) if isinstance(loop.step, Const) and not isinstance(loop.step.value, bytes) else 0
     low, high = min(start.low, end.low), max(start.high, end.high)
     if by and within((low + min(by, 0), high + max(by, 0)), I64):
-        _counted(body, loop, run, (start, end, by))
+        _counted(body, loop, (start, end, by))
     else:
-        _general(body, loop, run, (start, end, step), type)
+        _general(body, loop, (start, end, step), type)
 
 
-def _counted(body: Body, loop: For, run: Run, parts: tuple[Value, Value, int]) -> None:
+def _counted(body: Body, loop: For, parts: tuple[Value, Value, int]) -> None:
     """The step is constant and the counter cannot leave 64 bits."""
     text, type = body.text, elementary(loop.variable.type)
     start, end, step = parts
@@ -113,7 +119,7 @@ def _counted(body: Body, loop: For, run: Run, parts: tuple[Value, Value, int]) -
     text.choose(text.op(f"icmp {'sle' if step > 0 else 'sge'} i64 {counter}, {last}"), inside, done)
     text.begin(inside)
     inner = (start.low, end.high) if step > 0 else (end.low, start.high)
-    _round(body, loop, run, counter, inner, after)
+    _round(body, loop, counter, inner, (after, latch))
     text.go(latch)
     text.begin(latch)
     text.do(f"{next_value} = add nsw i64 {counter}, {step}")
@@ -139,7 +145,7 @@ def _take_counted(body: Body, ends: tuple[str, str], parts: tuple[Value, Value, 
     take_all(body, runs, further, trap)
 
 
-def _round(body: Body, loop: For, run: Run, counter: str, inner: tuple[int, int], after: str) -> None:
+def _round(body: Body, loop: For, counter: str, inner: tuple[int, int], leave: tuple[str, str]) -> None:
     """Stores the counter and runs the body, which may know the variable's value."""
     type, place = elementary(loop.variable.type), loop.variable
     low, high = max(inner[0], bounds(type)[0]), min(inner[1], bounds(type)[1])
@@ -150,12 +156,18 @@ def _round(body: Body, loop: For, run: Run, counter: str, inner: tuple[int, int]
     store(body, address(body, place), type, value)
     outer = body.counters
     written = body.unit.effects.written(loop.body)
-    body.counters = {key: known for key, known in outer.items() if key != (place.base, place.offset)}
-    if keeps(written, place):
-        body.counters[place.base, place.offset] = value
-    with _exit_to(body, after):
-        run(body, loop.body)
+    body.counters = {key: known for key, known in outer.items() if key[:2] != (place.base, place.offset)}
+    if keeps(written, place) or _keeps_register(body, written, place):
+        body.counters[counter_key(place)] = value
+    with _inside(body, *leave):
+        body.run(loop.body)
     body.counters = outer
+
+
+def _keeps_register(body: Body, written: frozenset[str], place: Place) -> bool:
+    """Whether it is a register that the code does not name: no reference leads to one."""
+    own = plain(place) and place.base is Base.FRAME and place.offset in body.registers
+    return own and place.variable not in ("", *written)
 
 
 def _narrow(body: Body, counter: str, type: Elementary, flag: str, known: tuple[int, int]) -> Value:
@@ -166,10 +178,13 @@ def _narrow(body: Body, counter: str, type: Elementary, flag: str, known: tuple[
 
 
 def _store_counter(body: Body, loop: For, counter: str, type: Elementary) -> None:
-    store(body, address(body, loop.variable), type, _narrow(body, counter, type, "", bounds(type)))
+    value = _narrow(body, counter, type, "", bounds(type))
+    if loop.bounds is not None:
+        value = within_bounds(body, value, type, loop.bounds)
+    store(body, address(body, loop.variable), type, value)
 
 
-def _general(body: Body, loop: For, run: Run, parts: tuple[Value, Value, Value], type: Elementary) -> None:
+def _general(body: Body, loop: For, parts: tuple[Value, Value, Value], type: Elementary) -> None:
     """Any step, any width: the rounds are counted beforehand, so the counter may wrap."""
     text = body.text
     first, last, step = (widened(body, each, type) for each in parts)
@@ -186,10 +201,10 @@ def _general(body: Body, loop: For, run: Run, parts: tuple[Value, Value, Value],
     further = text.op(f"udiv i64 {distance}, {divisor}")
     if not loop.exits:
         take_all(body, runs, further, loop.trap)
-    _count_down(body, loop, run, (first, step, further, runs))
+    _count_down(body, loop, (first, step, further, runs))
 
 
-def _count_down(body: Body, loop: For, run: Run, parts: tuple[str, str, str, str]) -> None:
+def _count_down(body: Body, loop: For, parts: tuple[str, str, str, str]) -> None:
     text, type = body.text, elementary(loop.variable.type)
     first, step, further, runs = parts
     before, head, latch = text.block, text.name("for"), text.name("next")
@@ -199,7 +214,7 @@ def _count_down(body: Body, loop: For, run: Run, parts: tuple[str, str, str, str
     text.begin(head)
     counter = text.op(f"phi i64 [ {first}, %{before} ], [ {next_value}, %{latch} ]")
     left = text.op(f"phi i64 [ {further}, %{before} ], [ {next_left}, %{latch} ]")
-    _round(body, loop, run, counter, bounds(type), after)
+    _round(body, loop, counter, bounds(type), (after, latch))
     text.go(latch)
     text.begin(latch)
     text.do(f"{next_value} = add i64 {counter}, {step}")

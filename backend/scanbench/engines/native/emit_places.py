@@ -1,24 +1,19 @@
-"""Places: addresses, loads, stores and references."""
+"""Places: where they are in memory, and how a reference to them looks."""
 
-from dataclasses import dataclass
-
-from scanbench.check.program import Base, Index, Place
+from scanbench.check.layout import Layout
+from scanbench.check.program import Base, Expr, Index, Place
 from scanbench.check.types import Elementary, Kind
 from scanbench.engines.native.emit_body import Body
-from scanbench.engines.native.emit_function import UNLIKELY, Value
-from scanbench.engines.native.emit_types import NAN, bounds, elementary, has_members, is_real, stored, value_type
+from scanbench.engines.native.emit_function import Value
+from scanbench.engines.native.emit_memory import Address, load_at
+from scanbench.engines.native.emit_types import elementary, has_members, value_type
 from scanbench.engines.native.ranges import within
 
 I64_MAX = (1 << 63) - 1
-
-
-@dataclass(frozen=True, slots=True)
-class Address:
-    """Where to load and store: a pointer, the alias tag, and the bit in the byte, if it is one bit of it."""
-
-    pointer: str
-    tag: str = ""
-    bit: str = ""
+BIT_SHIFT = 32
+"""Of the bit number in a reference."""
+NO_BIT = ~(7 << BIT_SHIFT)
+"""Keeps all of a reference but the bit number."""
 
 
 # ---- addresses ------------------------------------------------------------------------------------------------
@@ -26,19 +21,24 @@ class Address:
 
 def address(body: Body, place: Place) -> Address:
     """The address, after the checks that the place asks for."""
-    if place.slot is None:
+    if place.slot is None and place.reference is None:
         if place.base is Base.FRAME and place.offset in body.registers and not place.indices:
             return Address(body.registers[place.offset])
         return _direct(body, place)
     tag = body.module.tag(place.variable)
-    reference = follow(body, place)
-    bit = ""
-    if place.type.kind is Kind.BOOL:
-        high = body.text.op(f"lshr i64 {reference}, 32")
-        bit = body.text.op(f"trunc i64 {high} to i8")
-        reference = body.text.op(f"and i64 {reference}, 4294967295")
-    pointer = body.text.op(f"getelementptr inbounds i8, ptr {body.image}, i64 {reference}")
+    start, bit = _follow(body, place)
+    bit = bit if place.bit is None else str(place.bit)
+    if _open(place):
+        at = _open_offset(body, place, start)
+        return Address(body.text.op(f"getelementptr inbounds i8, ptr {body.image}, i64 {at}"), tag, bit)
+    pointer = body.text.op(f"getelementptr inbounds i8, ptr {body.image}, i64 {start}")
     return Address(_indexed(body, _shifted(body, pointer, place.offset), place.indices), tag, bit)
+
+
+def load(body: Body, place: Place) -> Value:
+    """The value of an elementary place."""
+    known = body.counter(place)
+    return known if known is not None else load_at(body, address(body, place), elementary(place.type))
 
 
 def _direct(body: Body, place: Place) -> Address:
@@ -48,6 +48,8 @@ def _direct(body: Body, place: Place) -> Address:
     elif place.base is Base.FRAME:
         offset += body.pou.frame_offset
     tag = "" if has_members(place.type) else body.module.tag(place.variable)
+    if place.base is Base.IMAGE and offset < Layout.HEADER_SIZE:
+        tag = ""
     pointer = _indexed(body, _shifted(body, start, offset), place.indices)
     return Address(pointer, tag, "" if place.bit is None else str(place.bit))
 
@@ -55,33 +57,60 @@ def _direct(body: Body, place: Place) -> Address:
 def _shifted(body: Body, pointer: str, offset: int) -> str:
     if offset == 0:
         return pointer
-    return body.text.op(f"getelementptr inbounds nuw i8, ptr {pointer}, i64 {offset}")
+    return body.text.address(pointer, offset)
 
 
 def _indexed(body: Body, pointer: str, indices: tuple[Index, ...]) -> str:
     for index in indices:
-        steps = index_steps(body, index)
-        distance = steps if index.stride == 1 else body.text.op(f"mul nuw nsw i64 {steps}, {index.stride}")
-        pointer = body.text.op(f"getelementptr inbounds nuw i8, ptr {pointer}, i64 {distance}")
+        pointer = body.text.op(f"getelementptr inbounds nuw i8, ptr {pointer}, i64 {_distance(body, index)}")
     return pointer
 
 
-def index_steps(body: Body, index: Index) -> str:
-    """Elements from the first one of the dimension, as an i64, after the bounds check; no check where it cannot fail."""
+# ---- indices --------------------------------------------------------------------------------------------------
+
+
+def _distance(body: Body, index: Index) -> str:
+    """Bytes from the first element of the dimension, after the bounds check."""
+    if not (isinstance(index.low, int) and isinstance(index.high, int) and isinstance(index.stride, int)):
+        return _open_distance(body, index)
+    steps = _steps(body, index, index.low, index.high)
+    return steps if index.stride == 1 else body.text.op(f"mul nuw nsw i64 {steps}, {index.stride}")
+
+
+def _steps(body: Body, index: Index, low: int, high: int) -> str:
+    """Elements from the first one, as an i64; no check where it cannot fail."""
     type = elementary(index.value.type)
     value = body.scalar(index.value)
     number = widened(body, value, type)
-    exact = value.low >= index.low and value.high <= I64_MAX and value.high - index.low <= I64_MAX
+    exact = value.low >= low and value.high <= I64_MAX and value.high - low <= I64_MAX
     flags = "nsw " if exact else ""
-    steps = body.text.op(f"sub {flags}i64 {number}, {index.low}") if index.low else number
-    if within(value.range, (index.low, index.high)):
+    steps = body.text.op(f"sub {flags}i64 {number}, {low}") if low else number
+    if within(value.range, (low, high)):
         return steps
-    outside = body.text.op(f"icmp ugt i64 {steps}, {index.high - index.low}")
+    outside = body.text.op(f"icmp ugt i64 {steps}, {high - low}")
     if value.high > I64_MAX:
         huge = body.text.op(f"icmp slt i64 {number}, 0")
         outside = body.text.op(f"or i1 {outside}, {huge}")
     body.text.trap_if(outside, index.trap)
     return steps
+
+
+def _open_distance(body: Body, index: Index) -> str:
+    """The bounds are computed; all numbers may be any."""
+    text, type = body.text, elementary(index.value.type)
+    value = body.scalar(index.value)
+    number = widened(body, value, type)
+    low, high, stride = (_bound(body, each) for each in (index.low, index.high, index.stride))
+    below, above = text.op(f"icmp slt i64 {number}, {low}"), text.op(f"icmp sgt i64 {number}, {high}")
+    outside = text.op(f"or i1 {below}, {above}")
+    if value.high > I64_MAX:
+        outside = text.op(f"or i1 {outside}, {text.op(f'icmp slt i64 {number}, 0')}")
+    text.trap_if(outside, index.trap)
+    return text.op(f"mul i64 {text.op(f'sub i64 {number}, {low}')}, {stride}")
+
+
+def _bound(body: Body, part: int | Expr) -> str:
+    return str(part) if isinstance(part, int) else body.scalar(part).ssa
 
 
 def widened(body: Body, value: Value, type: Elementary) -> str:
@@ -99,93 +128,81 @@ def widened(body: Body, value: Value, type: Elementary) -> str:
 # ---- references -----------------------------------------------------------------------------------------------
 
 
-def follow(body: Body, place: Place) -> str:
-    """The reference in the place's slot, checked for being bound."""
-    assert place.slot is not None
-    slot = address(body, place.slot)
-    reference = body.text.op(f"load i64, ptr {slot.pointer}, align 1{slot.tag}")
-    if place.null_trap:
-        body.text.trap_if(body.text.op(f"icmp eq i64 {reference}, 0"), place.null_trap)
-    return reference
+def reference(body: Body, place: Place, size: int = 0) -> str:
+    """The place as a reference holds it. `size` is what will be taken for granted behind it, if more than the type's."""
+    text = body.text
+    if place.slot is not None or place.reference is not None:
+        start, bit = _follow(body, place, size)
+        at = _open_offset(body, place, start) if _open(place) else _summed(body, place, start)
+        if bit and place.bit is None:
+            above = text.op(f"shl i64 {text.op(f'zext i8 {bit} to i64')}, {BIT_SHIFT}")
+            return text.op(f"or i64 {at}, {above}")
+    elif place.base is Base.SELF:
+        at = _summed(body, place, body.self.offset)
+    else:
+        at = _summed(body, place, str(body.pou.frame_offset) if place.base is Base.FRAME else "0")
+    return text.op(f"or i64 {at}, {place.bit << BIT_SHIFT}") if place.bit else at
 
 
-def reference(body: Body, place: Place) -> str:
-    """The place as an in-out slot holds it."""
+def _summed(body: Body, place: Place, start: str) -> str:
+    at = str(int(start) + place.offset) if start.isdigit() else start
+    if place.offset and not start.isdigit():
+        at = body.text.op(f"add i64 {start}, {place.offset}")
+    for index in place.indices:
+        at = body.text.op(f"add i64 {at}, {_distance(body, index)}")
+    return at
+
+
+def _follow(body: Body, place: Place, size: int = 0) -> tuple[str, str]:
+    """Byte offset and bit number ('' unless it is a BOOL) in the place's slot or reference, checked."""
     text = body.text
     if place.slot is not None:
-        start = follow(body, place)
-        if place.offset:
-            start = text.op(f"add i64 {start}, {place.offset}")
-    elif place.base is Base.SELF:
-        start = text.op(f"add i64 {body.self.offset}, {place.offset}")
+        slot = address(body, place.slot)
+        whole = text.op(f"load i64, ptr {slot.pointer}, align 1{slot.tag}")
     else:
-        start = str(place.offset + (body.pou.frame_offset if place.base is Base.FRAME else 0))
-    for index in place.indices:
-        steps = index_steps(body, index)
-        distance = text.op(f"mul nuw nsw i64 {steps}, {index.stride}")
-        start = text.op(f"add i64 {start}, {distance}")
-    if place.bit:
-        start = text.op(f"or i64 {start}, {place.bit << 32}")
-    return start
+        assert place.reference is not None
+        whole = body.scalar(place.reference).ssa
+    bit, start = "", whole
+    known = _is_bound(body, place)
+    if place.type.kind is Kind.BOOL:
+        high = text.op(f"lshr i64 {whole}, {BIT_SHIFT}")
+        bit = text.op(f"and i8 {text.op(f'trunc i64 {high} to i8')}, 7")
+    if bit or not known:
+        start = text.op(f"and i64 {whole}, {NO_BIT}")
+    if not known and place.null_trap:
+        _check_reach(body, start, _reach(place, size), place.null_trap)
+    return start, bit
 
 
-# ---- loads and stores -----------------------------------------------------------------------------------------
+def _is_bound(body: Body, place: Place) -> bool:
+    slot = place.slot
+    in_frame = slot is not None and slot.base is Base.FRAME and slot.slot is None and slot.reference is None
+    return in_frame and slot is not None and slot.offset in body.bound
 
 
-def load(body: Body, place: Place) -> Value:
-    """The value of an elementary place."""
-    known = body.counter(place)
-    return known if known is not None else load_at(body, address(body, place), elementary(place.type))
+def _reach(place: Place, size: int) -> int:
+    """Bytes behind the reference that the place may need."""
+    fixed = sum(
+        (index.high - index.low) * index.stride
+        for index in place.indices
+        if isinstance(index.low, int) and isinstance(index.high, int) and isinstance(index.stride, int)
+    )
+    return int(place.offset + fixed + max(place.type.size, size))
 
 
-def load_at(body: Body, where: Address, type: Elementary) -> Value:
-    """The value of this type at an address."""
-    text = body.text
-    raw = text.op(f"load {stored(type)}, ptr {where.pointer}, align 1{where.tag}")
-    if type.kind is Kind.BOOL:
-        if where.bit not in ("", "0"):
-            raw = text.op(f"lshr i8 {raw}, {where.bit}")
-        return Value(text.op(f"trunc i8 {raw} to i1"), 0, 1)
-    if is_real(type):
-        return Value(raw)
-    return Value(raw, *bounds(type))
+def _check_reach(body: Body, start: str, reach: int, trap: int) -> None:
+    """Traps unless so many bytes from there lie in the image, behind the header."""
+    room = body.unit.image_size - Layout.HEADER_SIZE - reach
+    distance = body.text.op(f"sub i64 {start}, {Layout.HEADER_SIZE}")
+    body.text.trap_if(body.text.op(f"icmp ugt i64 {distance}, {room}") if room >= 0 else "true", trap)
 
 
-def store(body: Body, where: Address, type: Elementary, value: Value) -> None:
-    """Stores a value; a NaN becomes the canonical one."""
-    ssa = canonical(body, type, value) if is_real(type) else value.ssa
-    put(body, where, type, ssa)
+def _open(place: Place) -> bool:
+    return any(not isinstance(index.low, int) for index in place.indices)
 
 
-def put(body: Body, where: Address, type: Elementary, ssa: str) -> None:
-    """Stores the bits as they are."""
-    text = body.text
-    if type.kind is Kind.BOOL:
-        ssa = text.op(f"zext i1 {ssa} to i8") if ssa not in ("true", "false") else str(int(ssa == "true"))
-        if where.bit:
-            byte = text.op(f"load i8, ptr {where.pointer}, align 1{where.tag}")
-            mask = text.op(f"xor i8 {text.op(f'shl i8 1, {where.bit}')}, -1")
-            kept = text.op(f"and i8 {byte}, {mask}")
-            ssa = text.op(f"or i8 {kept}, {text.op(f'shl i8 {ssa}, {where.bit}')}")
-    text.do(f"store {stored(type)} {ssa}, ptr {where.pointer}, align 1{where.tag}")
-
-
-def canonical(body: Body, type: Elementary, value: Value) -> str:
-    """The value as it is stored. A branch that is never taken keeps the check off the way of the data."""
-    if value.clean:
-        return value.ssa
-    text, real = body.text, value_type(type)
-    is_nan = text.op(f"fcmp uno {real} {value.ssa}, 0.0")
-    before, nan, number = text.block, text.name("nan"), text.name("num")
-    text.choose(is_nan, nan, number, UNLIKELY)
-    text.begin(nan)
-    text.go(number)
-    text.begin(number)
-    return text.op(f"phi {real} [ {value.ssa}, %{before} ], [ {NAN[type.size]}, %{nan} ]")
-
-
-def move(body: Body, to: str, source: str, size: int) -> str:
-    """Copies bytes between two places that may overlap; gives the target."""
-    body.module.declare("@llvm.memmove", "declare void @llvm.memmove.p0.p0.i64(ptr, ptr, i64, i1)")
-    body.text.do(f"call void @llvm.memmove.p0.p0.i64(ptr {to}, ptr {source}, i64 {size}, i1 false)")
-    return to
+def _open_offset(body: Body, place: Place, start: str) -> str:
+    """The byte offset behind computed bounds, which may say anything: so the place is checked as a reference is."""
+    at = _summed(body, place, start)
+    _check_reach(body, at, place.type.size, place.null_trap or place.indices[-1].trap)
+    return at

@@ -1,11 +1,11 @@
 """One POU: a function of LLVM that returns 0 or the number of a trap."""
 
 from scanbench.check.program import Base, Place, Pou
-from scanbench.check.types import StringType
+from scanbench.check.types import MAX_STRING, StringType
 from scanbench.engines.native import emit_expressions, emit_statements, inlining, registers
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_function import FunctionText, Value
-from scanbench.engines.native.emit_places import canonical, move
+from scanbench.engines.native.emit_memory import canonical, move
 from scanbench.engines.native.emit_strings import Piece, assign
 from scanbench.engines.native.emit_types import elementary, is_real, stored
 from scanbench.engines.native.registers import Parameter, Passing
@@ -13,18 +13,24 @@ from scanbench.engines.native.registers import Parameter, Passing
 IMAGE = "ptr nonnull noundef align 8 dereferenceable({size}) %img"
 
 
-def emit(unit: Unit, pou: Pou, image_size: int) -> None:
-    """Adds the POU's code to the module."""
-    function = pou.kind == "function"
+def head(unit: Unit, pou: Pou, image_size: int) -> str:
+    """What the POU's function takes and gives, as a definition or declaration says it."""
     parameters = [IMAGE.format(size=image_size)]
-    if function:
+    if pou.kind == "function":
         parameters += [each.declaration for each in unit.signature(pou).all if each.declaration]
     else:
         parameters.append("i64 noundef %self")
-    head = f"define internal i32 {unit.symbol(pou)}({', '.join(parameters)})"
-    scratch = unit.symbol(pou).replace("p.", "t.", 1)
-    text = FunctionText(f"{head}{inlining.attribute(pou)} #0", scratch)
-    body = Body(unit, pou, text, emit_expressions.scalar, emit_expressions.pieces)
+    return f"i32 {unit.symbol(pou)}({', '.join(parameters)})"
+
+
+def emit(unit: Unit, pou: Pou, image_size: int, linkage: str = "internal ") -> None:
+    """Adds the POU's code to the module."""
+    function = pou.kind == "function"
+    symbol = unit.symbol(pou)
+    scratch, first_trap = symbol.replace("p.", "t.", 1), symbol.replace("p.", "trap.", 1)
+    start = f"define {linkage}{head(unit, pou, image_size)}{inlining.attribute(pou)} #0"
+    text = FunctionText(start, scratch, first_trap)
+    body = Body(unit, pou, text, emit_expressions.scalar, emit_expressions.pieces, emit_statements.run)
     _registers(body)
     if function:
         for parameter in unit.signature(pou).all:
@@ -44,9 +50,13 @@ def _registers(body: Body) -> None:
     """Frame variables that live on the stack, until LLVM puts them into registers."""
     given = {}
     if body.pou.kind == "function":
+        signature = body.unit.signature(body.pou)
+        free = signature.registers
         given = {each.member.offset: f'%"p.{each.member.name.upper()}"'
-                 for each in body.unit.signature(body.pou).all if each.passing is Passing.POINTER}  # fmt: skip
-    for offset, type in registers.registers(body.pou).items():
+                 for each in signature.all if each.passing is Passing.POINTER}  # fmt: skip
+    else:
+        free = registers.registers(body.pou)
+    for offset, type in free.items():
         pointer = given.get(offset) or body.text.alloca(type)
         body.registers[offset] = pointer
         zero = "0.0" if type in ("float", "double") else "0"
@@ -58,19 +68,21 @@ def _receive(body: Body, parameter: Parameter) -> None:
     member, text = parameter.member, body.text
     name = f'%"p.{member.name.upper()}"'
     register = body.registers.get(member.offset)
+    if register is not None and parameter.passing is Passing.REFERENCE:
+        body.bound.add(member.offset)
     offset = body.pou.frame_offset + member.offset
     match parameter.passing:
         case Passing.VALUE | Passing.REFERENCE:
             type = "i64" if parameter.passing is Passing.REFERENCE else stored(elementary(member.type))
-            pointer = register or text.op(f"getelementptr inbounds nuw i8, ptr {body.image}, i64 {offset}")
+            pointer = register or text.address(body.image, offset)
             in_image = register is None and parameter.passing is Passing.VALUE
             kept = canonical(body, elementary(member.type), Value(name)) if in_image and is_real(member.type) else name
             text.do(f"store {type} {kept}, ptr {pointer}, align 1")
         case Passing.STRING:
             assert isinstance(member.type, StringType)
             # the caller's characters are never more than a STRING can have
-            piece = Piece(name, f'%"n.{member.name.upper()}"', 32767, "")
+            piece = Piece(name, f'%"n.{member.name.upper()}"', MAX_STRING, "", width=member.type.width)
             assign(body, Place(member.type, Base.FRAME, member.offset), [piece])
         case Passing.BYTES:
-            pointer = text.op(f"getelementptr inbounds nuw i8, ptr {body.image}, i64 {offset}")
+            pointer = text.address(body.image, offset)
             move(body, pointer, name, member.type.size)

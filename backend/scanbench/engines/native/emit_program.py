@@ -1,14 +1,120 @@
-"""A whole program as the text of one LLVM module."""
+"""A program as the text of LLVM modules: one for each POU, and one for the scan.
 
-from scanbench.check.program import Program
-from scanbench.engines.native import emit_pou, emit_scan
+The text of a POU's module says nothing that depends on other POUs, but what it calls and where frames lie: the numbers that
+its sites count from, and where violations are listed, are numbers of the scan's module. So it stays the same when another
+POU changes, and its code can be kept.
+"""
+
+from collections import Counter
+from collections.abc import Iterable
+
+from scanbench.check.program import Pou, Program
+from scanbench.engines.native import emit_pou, emit_scan, inlining
+from scanbench.engines.native.effects import Effects
 from scanbench.engines.native.emit_body import Unit
+from scanbench.engines.native.emit_checks import LIST
+from scanbench.engines.native.registers import Signature
+
+
+class Emitter:
+    """Emits the modules of one program."""
+
+    def __init__(
+        self, program: Program, effects: Effects | None = None, signatures: dict[Pou, Signature] | None = None
+    ) -> None:
+        """`effects` and `signatures` of its POUs may be known already."""
+        self.names = names(program.pous)
+        self._program = program
+        self._effects = effects or Effects()
+        self._signatures: dict[Pou, Signature] = {} if signatures is None else signatures
+        calls = Counter(each.pou for task in program.tasks for each in task.programs)
+        self.housed = {pou for pou, count in calls.items() if count == 1 and inlining.shared(pou)}
+        """Small programs, which stand in the module of the scan, and become part of it."""
+        # a bound that all programs of about this size have
+        self._size = 1 << program.layout.size.bit_length() - 1
+
+    def pou(self, pou: Pou) -> Unit:
+        """The module of one POU, if it is not housed elsewhere."""
+        unit = self._unit()
+        emit_pou.emit(unit, pou, self._size, "")
+        return self._complete(unit, {pou})
+
+    def scan(self) -> Unit:
+        """The module of the scan, the loop around it and the small programs."""
+        unit = self._unit()
+        emit_scan.emit(unit, self._program)
+        return self._complete(unit, set())
+
+    def numbers(self) -> Unit:
+        """The module of the numbers that the others refer to."""
+        unit = self._unit()
+        self._add_numbers(unit, "")
+        return unit
+
+    def whole(self) -> Unit:
+        """Everything in one module."""
+        unit = self._unit()
+        for pou in self._program.pous:
+            emit_pou.emit(unit, pou, self._size)
+        emit_scan.emit(unit, self._program)
+        self._add_numbers(unit, "internal ")
+        return unit
+
+    def _unit(self) -> Unit:
+        return Unit(
+            effects=self._effects,
+            names=self.names,
+            signatures=self._signatures,
+            image_size=self._program.layout.size,
+        )
+
+    def _complete(self, unit: Unit, here: set[Pou]) -> Unit:
+        """Adds copies of small callees, which may become part of the module, and declares what it refers to."""
+        while True:
+            copies = [each for each in unit.mentioned if each not in here and inlining.shared(each)]
+            if not copies:
+                break
+            for each in copies:
+                emit_pou.emit(unit, each, self._size, "internal " if each in self.housed else "available_externally ")
+            here.update(copies)
+        for each in [*unit.mentioned]:
+            if each in here:
+                for number in (first_trap(self.names[each]), first_check(self.names[each])):
+                    unit.module.add(f"{number} = external constant i32")
+            else:
+                unit.module.add(f"declare {emit_pou.head(unit, each, self._size)}")
+        unit.module.add(f"{LIST} = external constant i64")
+        return unit
+
+    def _add_numbers(self, unit: Unit, linkage: str) -> None:
+        for pou in self._program.pous:
+            name = self.names[pou]
+            unit.module.add(f"{first_trap(name)} = {linkage}constant i32 {pou.first_trap}")
+            unit.module.add(f"{first_check(name)} = {linkage}constant i32 {pou.first_check}")
+        unit.module.add(f"{LIST} = {linkage}constant i64 {self._program.layout.violations}")
 
 
 def emit_program(program: Program) -> str:
-    """The IR text: every POU, the scan, and `@run`."""
-    unit = Unit()
-    for pou in program.pous:
-        emit_pou.emit(unit, pou, program.layout.size)
-    emit_scan.emit(unit, program)
-    return unit.module.text()
+    """The IR text of everything in one module, to be looked at."""
+    return Emitter(program).whole().module.text()
+
+
+def names(pous: Iterable[Pou]) -> dict[Pou, str]:
+    """A name for each POU, which does not depend on POUs of other names."""
+    made: dict[Pou, str] = {}
+    taken: dict[str, int] = {}
+    for pou in pous:
+        name = "".join(c if c.isascii() and (c.isalnum() or c in "_.") else f"${ord(c):x}" for c in pou.name)
+        taken[name] = taken.get(name, 0) + 1
+        made[pou] = name if taken[name] == 1 else f"{name}${taken[name]}"
+    return made
+
+
+def first_trap(name: str) -> str:
+    """The number that the numbers of a POU's traps count from."""
+    return f'@"trap.{name}"'
+
+
+def first_check(name: str) -> str:
+    """The number that the numbers of a POU's subrange checks count from."""
+    return f'@"check.{name}"'

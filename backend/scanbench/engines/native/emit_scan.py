@@ -1,9 +1,14 @@
 """The scan, and the loop that runs scans at a pace: the contract of `engines/engine.py` in IR."""
 
 from scanbench.check.layout import Layout
-from scanbench.check.program import Program, Task
-from scanbench.engines.native.emit_body import Unit
-from scanbench.engines.native.emit_function import UNLIKELY, FunctionText
+from scanbench.check.program import Pou, Program, ProgramInstance, Task
+from scanbench.check.types import BOOL, Kind, Record
+from scanbench.engines.native import emit_expressions, emit_statements
+from scanbench.engines.native.emit_body import Body, Unit
+from scanbench.engines.native.emit_function import UNLIKELY, FunctionText, Value
+from scanbench.engines.native.emit_memory import store
+from scanbench.engines.native.emit_places import address, load
+from scanbench.problems import Span
 
 DONE, KNOCKED, TRAP = 0, 1, 2
 """What `@run` returns."""
@@ -13,6 +18,9 @@ SLICE_NS = 2_000_000
 LATE_PERIODS = 10
 LATE_NS = 100_000_000
 """A deadline that is more than both of these in the past is moved to now."""
+
+SCRATCH = '@"t.scan"'
+"""Memory of the temporaries of what a configuration connects."""
 
 APPLY_FORCES = """\
 define internal void @forces(ptr %img) noinline cold #0 {{
@@ -221,7 +229,9 @@ def emit(unit: Unit, program: Program) -> None:
 
 def _scan(unit: Unit, program: Program) -> str:
     size = program.layout.size
-    text = FunctionText(f"define internal i32 @scan(ptr nonnull noundef align 8 dereferenceable({size}) %img) #0")
+    head = f"define internal i32 @scan(ptr nonnull noundef align 8 dereferenceable({size}) %img) #0"
+    text = FunctionText(head, SCRATCH)
+    body = _around(unit, text)
     scan = _field(text, Layout.SCAN)
     number = text.op(f"load i64, ptr {scan}, align 8{unit.module.tag('#scan')}")
     clock = text.op(f"and i64 {text.op(f'mul i64 {number}, {program.interval_ns}')}, {(1 << 63) - 1}")
@@ -230,12 +240,21 @@ def _scan(unit: Unit, program: Program) -> str:
     text.do(f"store i64 {limit}, ptr {_field(text, Layout.BUDGET)}, align 8{unit.module.tag('#budget')}")
     _forces(unit, text)
     for task in program.tasks:
-        _task(unit, text, task, number)
+        _task(body, task, number)
     _forces(unit, text)
     following = text.op(f"add i64 {number}, 1")
     text.do(f"store i64 {following}, ptr {scan}, align 8{unit.module.tag('#scan')}")
     text.do("ret i32 0")
+    if text.scratch_size:
+        unit.reserve(body.pou, SCRATCH, text.scratch_size)
     return text.text()
+
+
+def _around(unit: Unit, text: FunctionText) -> Body:
+    """What runs around the programs, for which all places are in the image."""
+    empty = Record("CONFIGURATION", Kind.STRUCT)
+    pou = Pou("CONFIGURATION", "function", empty, empty, (), None, Span("", 0, 0, 0, 0))
+    return Body(unit, pou, text, emit_expressions.scalar, emit_expressions.pieces, emit_statements.run)
 
 
 def _field(text: FunctionText, offset: int) -> str:
@@ -253,14 +272,32 @@ def _forces(unit: Unit, text: FunctionText) -> None:
     text.begin(on)
 
 
-def _task(unit: Unit, text: FunctionText, task: Task, number: str) -> None:
-    on = text.name("on")
-    if task.every > 1:
-        due = text.name("due")
-        rest = text.op(f"urem i64 {number}, {task.every}")
-        text.choose(text.op(f"icmp eq i64 {rest}, 0"), due, on)
-        text.begin(due)
+def _task(body: Body, task: Task, number: str) -> None:
+    text = body.text
+    due, on = text.name("due"), text.name("on")
+    text.choose(_is_due(body, task, number), due, on)
+    text.begin(due)
     for instance in task.programs:
-        text.check_status(text.op(f"call i32 {unit.symbol(instance.pou)}(ptr %img, i64 {instance.offset})"))
+        _program(body, instance)
     text.go(on)
     text.begin(on)
+
+
+def _is_due(body: Body, task: Task, number: str) -> str:
+    text, cyclic = body.text, "false"
+    if task.every:
+        cyclic = text.op(f"icmp eq i64 {text.op(f'urem i64 {number}, {task.every}')}, 0") if task.every > 1 else "true"
+    if task.single is None or task.previous is None:
+        return cyclic
+    single = load(body, task.single).ssa
+    where = address(body, task.previous)
+    before = load(body, task.previous).ssa
+    store(body, where, BOOL, Value(single, 0, 1))
+    return text.op(f"select i1 {single}, i1 {text.op(f'xor i1 {before}, true')}, i1 {cyclic}")
+
+
+def _program(body: Body, instance: ProgramInstance) -> None:
+    body.run(instance.before)
+    call = f"call i32 {body.unit.symbol(instance.pou)}(ptr %img, i64 {instance.offset})"
+    body.text.check_status(body.text.op(call))
+    body.run(instance.after)

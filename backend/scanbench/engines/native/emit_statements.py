@@ -1,13 +1,18 @@
 """Statements."""
 
+from typing import assert_never
+
 from scanbench.check.program import (
     Assign,
+    Blocks,
     CallBlock,
     Case,
+    Continue,
     Evaluate,
     Exit,
     For,
     If,
+    Jump,
     Place,
     Repeat,
     Return,
@@ -18,7 +23,8 @@ from scanbench.check.program import (
 from scanbench.check.types import Elementary
 from scanbench.engines.native import emit_calls, emit_loops, walk
 from scanbench.engines.native.emit_body import Body
-from scanbench.engines.native.emit_places import address, canonical, load_at, move, put
+from scanbench.engines.native.emit_memory import canonical, load_at, move, put
+from scanbench.engines.native.emit_places import address
 from scanbench.engines.native.emit_types import elementary, integer, is_real, value_type
 from scanbench.engines.native.emit_values import put as put_value
 from scanbench.engines.native.speculate import to_selects
@@ -50,26 +56,52 @@ def one(body: Body, statement: Stmt) -> None:
         case Case():
             case(body, statement)
         case For():
-            emit_loops.for_loop(body, statement, run)
+            emit_loops.for_loop(body, statement)
         case While():
-            emit_loops.while_loop(body, statement, run)
+            emit_loops.while_loop(body, statement)
         case Repeat():
-            emit_loops.repeat_loop(body, statement, run)
+            emit_loops.repeat_loop(body, statement)
+        case Blocks(inner):
+            blocks(body, inner)
+        case Exit() | Continue() | Return() | Jump():
+            leave(body, statement)
+        case _:
+            assert_never(statement)
+
+
+def leave(body: Body, statement: Exit | Continue | Return | Jump) -> None:
+    """Goes on somewhere else."""
+    match statement:
         case Exit():
-            _jump(body, body.exits[-1])
+            label = body.exits[-1]
+        case Continue():
+            label = body.rounds[-1]
         case Return():
-            _jump(body, body.leave)
-
-
-def _jump(body: Body, label: str) -> None:
+            label = body.leave
+        case Jump(number, back, trap):
+            if back:
+                emit_loops.take(body, "1", trap)
+            label = body.labels[number]
+        case _:
+            assert_never(statement)
     body.text.go(label)
     body.text.begin(body.text.name("dead"))
+
+
+def blocks(body: Body, inner: tuple[tuple[Stmt, ...], ...]) -> None:
+    """One after the other; each can be jumped to."""
+    outer, body.labels = body.labels, [body.text.name("block") for _ in inner]
+    for label, statements in zip(body.labels, inner, strict=True):
+        body.text.go(label)
+        body.text.begin(label)
+        run(body, statements)
+    body.labels = outer
 
 
 def assign(body: Body, statement: Assign) -> None:
     """Evaluates the value, then the target's address, then stores."""
     target = statement.target
-    put_value(body, target, emit_calls.value(body, statement.value, walk.address_calls(target)))
+    put_value(body, target, emit_calls.value(body, statement.value, walk.address_disturbs(target)))
 
 
 # ---- IF -------------------------------------------------------------------------------------------------------

@@ -1,9 +1,10 @@
 """Standard functions on strings."""
 
 from collections.abc import Callable
+from dataclasses import replace
 
 from scanbench.check.program import Intrinsic
-from scanbench.check.types import LINT, StringType
+from scanbench.check.types import LINT, MAX_STRING, Elementary, StringType
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
@@ -11,6 +12,7 @@ from scanbench.engines.native.emit_operators import convert
 from scanbench.engines.native.emit_strings import (
     Piece,
     as_one,
+    bytes_of,
     cut,
     helper,
     minus,
@@ -21,9 +23,9 @@ from scanbench.engines.native.emit_strings import (
     shifted,
     total,
 )
-from scanbench.engines.native.emit_types import bounds, elementary, string
+from scanbench.engines.native.emit_types import bounds, elementary, stored, string
 
-LONGEST = "32767"
+LONGEST = str(MAX_STRING)
 """No string is longer, so counts beyond it mean the same as it."""
 
 
@@ -40,15 +42,20 @@ def scalar_of(body: Body, expr: Intrinsic) -> Value:
 # ---- arguments ----------------------------------------------------------------------------------------------
 
 
+def _one(body: Body, pieces: list[Piece], type: StringType) -> Piece:
+    """The string in one stretch; an empty one has the width of its type."""
+    return replace(as_one(body, pieces), width=type.width)
+
+
 def _arguments(body: Body, expr: Intrinsic) -> tuple[list[Piece], list[str]]:
     """The strings, each in one stretch, and the numbers (i64), evaluated from left to right."""
     strings, numbers = [], []
     for position, arg in enumerate(expr.args):
         if isinstance(arg.type, StringType):
             pieces = body.pieces(arg)
-            if any(walk.calls_functions(later) for later in expr.args[position + 1 :]):
+            if any(walk.disturbs(later) for later in expr.args[position + 1 :]):
                 pieces = settled(body, pieces)
-            strings.append(as_one(body, pieces))
+            strings.append(_one(body, pieces, arg.type))
         else:
             numbers.append(convert(body, elementary(arg.type), LINT, body.scalar(arg)).ssa)
     return strings, numbers
@@ -60,8 +67,8 @@ def _clamped(body: Body, number: str, low: str, high: str) -> str:
 
 def _part(body: Body, of: Piece, start: str, length: str) -> Piece:
     """Characters of a piece, from a position that counts from 0."""
-    pointer = shifted(body, of.pointer, start)
-    return Piece(pointer, length, of.most, of.variable, of.start_of if start == "0" else None)
+    pointer = shifted(body, of.pointer, start, of.width)
+    return replace(of, pointer=pointer, length=length, start_of=of.start_of if start == "0" else None)
 
 
 # ---- functions that give a STRING -----------------------------------------------------------------------------
@@ -142,6 +149,63 @@ def _real_text(body: Body, expr: Intrinsic) -> list[Piece]:
     return [Piece(buffer, body.text.op(call), 32)]
 
 
+def _char_text(body: Body, expr: Intrinsic) -> list[Piece]:
+    type = elementary(expr.args[0].type)
+    char, buffer = body.scalar(expr.args[0]), body.text.buffer(type.size)
+    body.text.do(f"store {stored(type)} {char.ssa}, ptr {buffer}, align 1")
+    return [Piece(buffer, "1", 1, width=type.size)]
+
+
+def _recode(body: Body, expr: Intrinsic) -> list[Piece]:
+    (s,), _ = _arguments(body, expr)
+    width = string(expr.type).width
+    if width == s.width:
+        return [s]
+    buffer = body.text.buffer(max(s.most * width, 1))
+    how = helper(body, "widen" if width > s.width else "narrow")
+    body.text.do(f"call void {how}(ptr {buffer}, ptr {s.pointer}, i64 {s.length})")
+    return [Piece(buffer, s.length, s.most, width=width)]
+
+
+# ---- choices --------------------------------------------------------------------------------------------------
+
+
+def _chosen(body: Body, condition: str, a: Piece, b: Piece) -> Piece:
+    """The first where the condition holds, else the second."""
+    pointer = body.text.op(f"select i1 {condition}, ptr {a.pointer}, ptr {b.pointer}")
+    length = body.text.op(f"select i1 {condition}, i64 {a.length}, i64 {b.length}")
+    anywhere = None if a.variable is None and b.variable is None else ""
+    return Piece(pointer, length, max(a.most, b.most), anywhere, width=a.width)
+
+
+def _ones(body: Body, expr: Intrinsic) -> tuple[list[Piece], list[str]]:
+    """Strings in one stretch each, and what comes before them (as it is, without a conversion)."""
+    numbers = [body.scalar(arg).ssa for arg in expr.args if isinstance(arg.type, Elementary)]
+    texts = tuple(arg for arg in expr.args if isinstance(arg.type, StringType))
+    return [
+        _one(body, pieces, string(arg.type)) for pieces, arg in zip(ordered(body, texts), texts, strict=True)
+    ], numbers
+
+
+def _extreme(body: Body, expr: Intrinsic) -> list[Piece]:
+    (a, b), _ = _ones(body, expr)
+    first = compare(body, "lt" if expr.name == "MIN" else "gt", a.width, ([a], [b]))
+    return [_chosen(body, first.ssa, a, b)]
+
+
+def _select(body: Body, expr: Intrinsic) -> list[Piece]:
+    (a, b), (guard,) = _ones(body, expr)
+    return [_chosen(body, guard, b, a)]
+
+
+def _multiplex(body: Body, expr: Intrinsic) -> list[Piece]:
+    texts, (number,) = _ones(body, expr)
+    chosen = texts[0]
+    for position, each in enumerate(texts[1:], 1):
+        chosen = _chosen(body, body.text.op(f"icmp sge i64 {number}, {position}"), each, chosen)
+    return [chosen]
+
+
 # ---- functions that give a number -----------------------------------------------------------------------------
 
 
@@ -153,7 +217,8 @@ def _length(body: Body, expr: Intrinsic) -> Value:
 
 def _find(body: Body, expr: Intrinsic) -> Value:
     (s, s2), _ = _arguments(body, expr)
-    call = f"call i64 {helper(body, 'find')}(ptr {s.pointer}, i64 {s.length}, ptr {s2.pointer}, i64 {s2.length})"
+    find = helper(body, "find" if s.width == 1 else "findwide")
+    call = f"call i64 {find}(ptr {s.pointer}, i64 {s.length}, ptr {s2.pointer}, i64 {s2.length})"
     return convert(body, LINT, elementary(expr.type), Value(body.text.op(call), 0, s.most))
 
 
@@ -168,15 +233,32 @@ def _to_real(body: Body, expr: Intrinsic) -> Value:
     return Value(body.text.op(f"call double {helper(body, 'toreal')}(ptr {s.pointer}, i64 {s.length})"))
 
 
-def compare(body: Body, op: str, left: list[Piece], right: list[Piece]) -> Value:
+def compare(body: Body, op: str, width: int, sides: tuple[list[Piece], list[Piece]]) -> Value:
     """Strings by code, the shorter first."""
-    a, b = as_one(body, left), as_one(body, right)
-    given = f"(ptr {a.pointer}, i64 {a.length}, ptr {b.pointer}, i64 {b.length})"
+    a, b = (as_one(body, pieces) for pieces in sides)
     if op in ("eq", "ne"):
+        sizes = [bytes_of(body, each.length, width) for each in (a, b)]
+        given = f"(ptr {a.pointer}, i64 {sizes[0]}, ptr {b.pointer}, i64 {sizes[1]})"
         same = body.text.op(f"call i1 {helper(body, 'equal')}{given}")
         return Value(body.text.op(f"xor i1 {same}, true") if op == "ne" else same, 0, 1)
-    order = body.text.op(f"call i64 {helper(body, 'order')}{given}")
+    given = f"(ptr {a.pointer}, i64 {a.length}, ptr {b.pointer}, i64 {b.length})"
+    order = body.text.op(f"call i64 {helper(body, 'order' if width == 1 else 'orderwide')}{given}")
     return Value(body.text.op(f"icmp s{op} i64 {order}, 0"), 0, 1)
+
+
+def _char_at(body: Body, expr: Intrinsic) -> Value:
+    (s,), (p,) = _arguments(body, expr)
+    type = elementary(expr.type)
+    start, inside = _position(body, s, p)
+    pointer = shifted(body, s.pointer, start, s.width)
+    read, none, on = body.text.name("read"), body.text.block, body.text.name("on")
+    body.text.choose(inside, read, on)
+    body.text.begin(read)
+    char = body.text.op(f"load {stored(type)}, ptr {pointer}, align 1")
+    body.text.go(on)
+    body.text.begin(on)
+    ssa = body.text.op(f"phi {stored(type)} [ 0, %{none} ], [ {char}, %{read} ]")
+    return Value(ssa, *bounds(type))
 
 
 GIVES_STRING: dict[str, Callable[[Body, Intrinsic], list[Piece]]] = {
@@ -190,11 +272,18 @@ GIVES_STRING: dict[str, Callable[[Body, Intrinsic], list[Piece]]] = {
     "INT_TO_STR": _decimal,
     "UINT_TO_STR": _decimal,
     "REAL_TO_STR": _real_text,
+    "CHAR_STR": _char_text,
+    "RECODE": _recode,
+    "MIN": _extreme,
+    "MAX": _extreme,
+    "SEL": _select,
+    "MUX": _multiplex,
 }
 
 TAKES_STRING: dict[str, Callable[[Body, Intrinsic], Value]] = {
     "LEN": _length,
     "FIND": _find,
+    "CHAR_AT": _char_at,
     "STR_TO_INT": _to_int,
     "STR_TO_REAL": _to_real,
 }

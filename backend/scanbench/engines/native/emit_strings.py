@@ -3,16 +3,18 @@
 from dataclasses import dataclass, replace
 
 from scanbench.check.program import Expr, Place
+from scanbench.check.types import StringType
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body, Self
-from scanbench.engines.native.emit_places import Address, address
+from scanbench.engines.native.emit_memory import Address
+from scanbench.engines.native.emit_places import address
 from scanbench.engines.native.emit_types import STRING_HEAD, string
 from scanbench.engines.native.string_helpers import HELPERS
 
 
 @dataclass(frozen=True, slots=True)
 class Piece:
-    """Characters somewhere in memory: `length` (an i64) of them, never more than `most`."""
+    """Characters somewhere in memory: `length` (an i64) of them, never more than `most`, of `width` bytes each."""
 
     pointer: str
     length: str
@@ -21,9 +23,7 @@ class Piece:
     """The variable they stand in: '' for any, None for a constant or a buffer of ours."""
     start_of: tuple[Place, Self] | None = None
     """The variable whose first characters these are, and the instance that its Base.SELF counts from."""
-
-
-EMPTY = Piece("null", "0", 0)
+    width: int = 1
 
 
 def helper(body: Body, name: str) -> str:
@@ -59,28 +59,29 @@ def pick(body: Body, op: str, a: str, b: str) -> str:
     return body.text.op(f"call i64 {symbol}(i64 {a}, i64 {b})")
 
 
+def bytes_of(body: Body, length: str, width: int) -> str:
+    """Bytes that so many characters take."""
+    if width == 1:
+        return length
+    return str(int(length) * width) if length.isdigit() else body.text.op(f"mul nuw nsw i64 {length}, {width}")
+
+
 # ---- values -------------------------------------------------------------------------------------------------
 
 
 def of_place(body: Body, place: Place) -> Piece:
     """The characters of a variable."""
     where = address(body, place)
-    shared = place.variable == "" or place.variable.startswith("@")
-    piece = of_pointer(body, where.pointer, string(place.type).capacity, where.tag, shared)
+    piece = of_pointer(body, where.pointer, string(place.type), where.tag)
     return replace(piece, variable=place.variable, start_of=(place, body.self))
 
 
-def of_pointer(body: Body, pointer: str, capacity: int, tag: str = "", shared: bool = False) -> Piece:
-    """The characters of a STRING at an address.
-
-    The length of a shared one may have been overwritten as a number by somebody who has the same memory.
-    """
+def of_pointer(body: Body, pointer: str, type: StringType, tag: str = "") -> Piece:
+    """The characters of a STRING at an address. Its length may have been overwritten as a number: a union, a pointer."""
     short = body.text.op(f"load i16, ptr {pointer}, align 1{tag}")
-    length = body.text.op(f"zext i16 {short} to i64")
-    if shared:
-        length = pick(body, "umin", length, str(capacity))
-    data = body.text.op(f"getelementptr inbounds nuw i8, ptr {pointer}, i64 {STRING_HEAD}")
-    return Piece(data, length, capacity, "")
+    length = pick(body, "umin", body.text.op(f"zext i16 {short} to i64"), str(type.capacity))
+    data = body.text.address(pointer, STRING_HEAD)
+    return Piece(data, length, type.capacity, "", width=type.width)
 
 
 def cut(body: Body, pieces: list[Piece], capacity: int) -> list[Piece]:
@@ -113,9 +114,9 @@ def as_one(body: Body, pieces: list[Piece]) -> Piece:
 
 def copied(body: Body, pieces: list[Piece]) -> Piece:
     """A copy of the whole in a buffer."""
-    most = sum(piece.most for piece in pieces)
-    buffer = body.text.buffer(max(most, 1))
-    return Piece(buffer, _join(body, buffer, pieces, ""), most)
+    most, width = sum(piece.most for piece in pieces), pieces[0].width
+    buffer = body.text.buffer(max(most * width, 1))
+    return Piece(buffer, _join(body, buffer, pieces, ""), most, width=width)
 
 
 def ordered(body: Body, exprs: tuple[Expr, ...]) -> list[list[Piece]]:
@@ -123,7 +124,7 @@ def ordered(body: Body, exprs: tuple[Expr, ...]) -> list[list[Piece]]:
     values = []
     for position, expr in enumerate(exprs):
         pieces = body.pieces(expr)
-        if any(walk.calls_functions(later) for later in exprs[position + 1 :]):
+        if any(walk.disturbs(later) for later in exprs[position + 1 :]):
             pieces = settled(body, pieces)
         values.append(pieces)
     return values
@@ -141,7 +142,7 @@ def assign(body: Body, target: Place, pieces: list[Piece]) -> None:
     """Stores the whole in a variable, which the pieces may stand in."""
     pieces = cut(body, pieces, string(target.type).capacity)
     where = address(body, target)
-    data = body.text.op(f"getelementptr inbounds nuw i8, ptr {where.pointer}, i64 {STRING_HEAD}")
+    data = body.text.address(where.pointer, STRING_HEAD)
     if not any(_may_overlap(piece, target) for piece in pieces[1:]):
         length = _in_order(body, target, data, pieces, where.tag)
     elif not any(_may_overlap(piece, target) for piece in pieces[1:-1]) and _starts(body, pieces[0], target):
@@ -169,7 +170,7 @@ def _in_order(body: Body, target: Place, data: str, pieces: list[Piece], tag: st
 def _around(body: Body, data: str, pieces: list[Piece], tag: str) -> str:
     """Start and end of the target stay, the rest goes between: the end moves first."""
     before = total(body, pieces[:-1])
-    copy(body, shifted(body, data, before), pieces[-1], tag)
+    copy(body, shifted(body, data, before, pieces[-1].width), pieces[-1], tag)
     _join(body, data, pieces[1:-1], tag, pieces[0].length)
     return plus(body, before, pieces[-1].length)
 
@@ -177,25 +178,28 @@ def _around(body: Body, data: str, pieces: list[Piece], tag: str) -> str:
 def _join(body: Body, data: str, pieces: list[Piece], tag: str, start: str = "0") -> str:
     at = start
     for piece in pieces:
-        copy(body, shifted(body, data, at), piece, tag)
+        copy(body, shifted(body, data, at, piece.width), piece, tag)
         at = plus(body, at, piece.length)
     return at
 
 
-def shifted(body: Body, pointer: str, length: str) -> str:
+def shifted(body: Body, pointer: str, length: str, width: int) -> str:
     """The address so many characters on."""
-    return pointer if length == "0" else body.text.op(f"getelementptr inbounds nuw i8, ptr {pointer}, i64 {length}")
+    if length == "0":
+        return pointer
+    return body.text.op(f"getelementptr inbounds nuw i8, ptr {pointer}, i64 {bytes_of(body, length, width)}")
 
 
 def copy(body: Body, to: str, piece: Piece, tag: str) -> None:
     """Copies the characters; the two places may overlap."""
     if piece.length == "0":
         return
-    if piece.length.isdigit() and piece.variable is None:
+    size = bytes_of(body, piece.length, piece.width)
+    if size.isdigit() and piece.variable is None:
         body.module.declare("@llvm.memcpy", "declare void @llvm.memcpy.p0.p0.i64(ptr, ptr, i64, i1)")
-        body.text.do(f"call void @llvm.memcpy.p0.p0.i64(ptr {to}, ptr {piece.pointer}, i64 {piece.length}, i1 false)")
+        body.text.do(f"call void @llvm.memcpy.p0.p0.i64(ptr {to}, ptr {piece.pointer}, i64 {size}, i1 false)")
         return
-    body.text.do(f"call void {helper(body, 'copy')}(ptr {to}, ptr {piece.pointer}, i64 {piece.length})")
+    body.text.do(f"call void {helper(body, 'copy')}(ptr {to}, ptr {piece.pointer}, i64 {size})")
 
 
 def _starts(body: Body, piece: Piece, target: Place) -> bool:
@@ -208,6 +212,8 @@ def _starts(body: Body, piece: Piece, target: Place) -> bool:
         and target.variable != ""
         and (other.base, other.offset, other.slot, other.indices) == (target.base, target.offset, None, ())
         and target.slot is None
+        and target.reference is None
+        and other.reference is None
         and target.indices == ()
     )
 

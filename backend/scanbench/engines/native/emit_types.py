@@ -3,7 +3,7 @@
 import math
 import struct
 
-from scanbench.check.types import BOOL, ArrayType, Elementary, Kind, Record, StringType, Type
+from scanbench.check.types import BOOL, ArrayType, Elementary, Kind, OpenArray, Record, StringType, Type
 
 NAN = {4: "0x7FF8000000000000", 8: "0x7FF8000000000000"}
 """The canonical NaN; LLVM writes a float constant as the double of the same value."""
@@ -62,7 +62,7 @@ def is_real(type: Type) -> bool:
 
 def has_members(type: Type) -> bool:
     """Whether its bytes are also known by the names of members."""
-    if isinstance(type, ArrayType):
+    if isinstance(type, ArrayType | OpenArray):
         return has_members(type.element)
     return isinstance(type, Record)
 

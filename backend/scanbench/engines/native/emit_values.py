@@ -11,7 +11,8 @@ from scanbench.check.program import Place
 from scanbench.check.types import Elementary, StringType, Type
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
-from scanbench.engines.native.emit_places import Address, address, load_at, move, store
+from scanbench.engines.native.emit_memory import Address, load_at, move, store
+from scanbench.engines.native.emit_places import address
 from scanbench.engines.native.emit_strings import Piece, assign, of_pointer, settled
 
 
@@ -38,7 +39,7 @@ def settle(body: Body, held: Held, disturbed: bool) -> Held:
 def read(body: Body, pointer: str, type: Type, disturbed: bool) -> Held:
     """The value at an address."""
     if isinstance(type, StringType):
-        return settle(body, [of_pointer(body, pointer, type.capacity)], disturbed)
+        return settle(body, [of_pointer(body, pointer, type)], disturbed)
     if isinstance(type, Elementary):
         return load_at(body, Address(pointer), type)
     return settle(body, Bytes(pointer, type.size), disturbed)

@@ -1,13 +1,12 @@
 """The native engine: a program compiled to machine code, which runs many scans in one call without Python's lock."""
 
 import ctypes
-from pathlib import Path
-from time import perf_counter_ns
+from collections.abc import Sequence
 
 from scanbench.check.program import Program
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.native import jit
-from scanbench.engines.native.emit_program import emit_program
+from scanbench.engines.native.compiler import FAST, Compiler
 from scanbench.engines.native.emit_scan import KNOCKED, TRAP
 
 
@@ -32,16 +31,16 @@ class NativeEngine(Engine):
     name = "native"
 
     def __init__(
-        self, program: Program, memory: bytearray, opt_level: int = 2, object_cache: Path | None = None
+        self, program: Program, memory: bytearray, opt_level: int = FAST, objects: Sequence[bytes] | None = None
     ) -> None:
-        """`opt_level` 0 builds fast, 2 runs fast. Object code is kept in `object_cache`, a directory, if given."""
+        """`opt_level` 0 builds fast, 2 runs fast. Object code of the program that is there already is only linked."""
         if len(memory) != program.layout.size:
             raise ValueError(f"the image has {len(memory)} bytes, but the program needs {program.layout.size}")
         self.timings = jit.Timings()
-        start = perf_counter_ns()
-        ir = emit_program(program)
-        self.timings.emit = (perf_counter_ns() - start) / 1e6
-        self._code = jit.link(jit.compile_object(ir, opt_level, self.timings, object_cache), self.timings)
+        if objects is None:
+            build = Compiler().build(program, opt_level)
+            objects, self.timings = build.objects, build.timings
+        self._code = jit.link(objects, self.timings)
         self._run = _RUN(self._code.function("run"))
         self._image = (ctypes.c_uint8 * len(memory)).from_buffer(memory)
         self._address = ctypes.addressof(self._image)

@@ -2,7 +2,8 @@
 
 from collections.abc import Iterable
 
-from scanbench.check.program import Case, For, If, Pou, Repeat, Stmt, While
+from scanbench.check.program import Pou, Stmt
+from scanbench.engines.native import walk
 
 LARGE = 24
 """Statements from which on a body is compiled by itself: a call costs it nothing, and LLVM takes more than linear time
@@ -16,17 +17,11 @@ def attribute(pou: Pou) -> str:
     return " noinline" if size(pou.body) > LARGE else ""
 
 
+def shared(pou: Pou) -> bool:
+    """Whether modules that call it get a copy of the body, so that it may become part of the caller."""
+    return pou.inline or size(pou.body) <= LARGE
+
+
 def size(statements: Iterable[Stmt]) -> int:
     """Statements, with those inside of others."""
-    return sum(1 + sum(size(inner) for inner in _bodies(each)) for each in statements)
-
-
-def _bodies(statement: Stmt) -> list[tuple[Stmt, ...]]:
-    match statement:
-        case If(branches, orelse):
-            return [*(body for _, body in branches), orelse]
-        case Case(_, branches, orelse):
-            return [*(body for _, body in branches), orelse]
-        case For() | While() | Repeat():
-            return [statement.body]
-    return []
+    return sum(1 + sum(size(inner) for inner in walk.bodies(each)) for each in statements)

@@ -3,9 +3,9 @@
 import ctypes
 import ctypes.util
 import hashlib
-import os
-import tempfile
+from collections.abc import Iterable
 from dataclasses import dataclass
+from functools import cache
 from pathlib import Path
 from time import perf_counter_ns
 
@@ -19,7 +19,7 @@ _ready = False
 
 @dataclass(slots=True)
 class Timings:
-    """Milliseconds that the steps of a build took; 0 for what the cache made unnecessary."""
+    """Milliseconds that the steps of a build took; 0 for what was made unnecessary by what is kept."""
 
     emit: float = 0.0
     parse: float = 0.0
@@ -70,14 +70,14 @@ def _optimised(ir: str, machine: "llvm.TargetMachine", opt_level: int, timings: 
     module.triple = llvm.get_process_triple()
     module.data_layout = str(machine.target_data)
     module.verify()
-    timings.parse = (perf_counter_ns() - start) / 1e6
+    timings.parse += (perf_counter_ns() - start) / 1e6
     start = perf_counter_ns()
     if opt_level > 0:
         options = llvm.create_pipeline_tuning_options(speed_level=opt_level)
         options.loop_vectorization = options.slp_vectorization = options.loop_unrolling = True
         builder = llvm.create_pass_builder(machine, options)
         builder.getModulePassManager().run(module, builder)
-    timings.optimise = (perf_counter_ns() - start) / 1e6
+    timings.optimise += (perf_counter_ns() - start) / 1e6
     return module
 
 
@@ -94,45 +94,40 @@ def assembly(ir: str, opt_level: int = 2) -> str:
     return str(machine.emit_assembly(_optimised(ir, machine, opt_level, Timings())))
 
 
-def compile_object(ir: str, opt_level: int, timings: Timings, cache: Path | None = None) -> bytes:
-    """Object code of a module; from the cache directory, when it was compiled before on such a machine."""
+def compile_object(ir: str, opt_level: int, timings: Timings) -> bytes:
+    """Object code of a module."""
     _prepare()
-    path = cache / f"{_key(ir, opt_level)}.o" if cache else None
-    if path and path.is_file():
-        return path.read_bytes()
     machine = _machine(opt_level)
     module = _optimised(ir, machine, opt_level, timings)
     start = perf_counter_ns()
     code = bytes(machine.emit_object(module))
-    timings.codegen = (perf_counter_ns() - start) / 1e6
-    if path:
-        _write(path, code)
+    timings.codegen += (perf_counter_ns() - start) / 1e6
     return code
 
 
-def _key(ir: str, opt_level: int) -> str:
-    version = f"{llvmlite.__version__} {llvm.llvm_version_info}"
-    host = f"{llvm.get_host_cpu_name()} {llvm.get_host_cpu_features().flatten()}"
-    return hashlib.sha256(f"{version} {host} {opt_level}\n{ir}".encode()).hexdigest()
+@cache
+def host() -> str:
+    """Everything but the text that object code depends on."""
+    _prepare()
+    version = f"{llvmlite.__version__} {llvm.llvm_version_info} {llvm.get_process_triple()}"
+    own = hashlib.sha256(Path(__file__).read_bytes()).hexdigest()  # how it is called
+    return f"{version} {llvm.get_host_cpu_name()} {llvm.get_host_cpu_features().flatten()} {own}"
 
 
-def _write(path: Path, code: bytes) -> None:
-    """Whole or not at all, as other processes read the directory."""
-    path.parent.mkdir(parents=True, exist_ok=True)
-    handle, name = tempfile.mkstemp(dir=path.parent)
-    with os.fdopen(handle, "wb") as file:
-        file.write(code)
-    os.replace(name, path)
+def object_key(ir: str, opt_level: int) -> str:
+    """Under which the object code of a module is kept."""
+    return hashlib.sha256(f"{host()} {opt_level}\n{ir}".encode()).hexdigest()
 
 
-def link(code: bytes, timings: Timings) -> Code:
-    """Loads object code into the process."""
+def link(codes: Iterable[bytes], timings: Timings) -> Code:
+    """Loads object code into the process; its parts may call each other."""
     _prepare()
     start = perf_counter_ns()
     empty = llvm.parse_assembly("")
     empty.triple = llvm.get_process_triple()
     engine = llvm.create_mcjit_compiler(empty, _machine(0))
-    engine.add_object_file(llvm.ObjectFileRef.from_data(code))
+    for code in codes:
+        engine.add_object_file(llvm.ObjectFileRef.from_data(code))
     engine.finalize_object()
-    timings.link = (perf_counter_ns() - start) / 1e6
+    timings.link += (perf_counter_ns() - start) / 1e6
     return Code(engine)

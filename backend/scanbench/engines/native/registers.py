@@ -54,6 +54,8 @@ class Signature:
 
     parameters: tuple[Parameter, ...]
     result: Parameter | None
+    registers: dict[int, str]
+    """See `registers`."""
 
     @property
     def all(self) -> tuple[Parameter, ...]:
@@ -65,8 +67,8 @@ def signature(pou: Pou) -> Signature:
     free = registers(pou)
     parameters = tuple(Parameter(pou.frame.members[name], _passing(pou.frame.members[name], free))
                        for name in pou.parameters)  # fmt: skip
-    own = pou.frame.members.get(pou.name.upper()) if pou.result is not None else None
-    return Signature(parameters, Parameter(own, _back(own, free)) if own is not None else None)
+    own = pou.returned
+    return Signature(parameters, Parameter(own, _back(own, free)) if own is not None else None, free)
 
 
 def _passing(member: Member, free: dict[int, str]) -> Passing:
@@ -94,7 +96,8 @@ def registers(pou: Pou) -> dict[int, str]:
         if isinstance(seen, Pou):
             continue
         place, use = seen
-        if place.base is Base.FRAME and place.slot is None and not _whole(place, use, free):
+        own = place.base is Base.FRAME and place.slot is None and place.reference is None
+        if own and not _whole(place, use, free):
             for each in members:
                 if each.offset <= place.offset < each.offset + each.storage:
                     free.pop(each.offset, None)

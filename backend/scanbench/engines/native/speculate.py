@@ -6,21 +6,28 @@ image may be written, and that the condition has already checked the addresses.
 
 from collections.abc import Iterable
 from dataclasses import fields, is_dataclass
+from typing import assert_never
 
 from scanbench.check.program import (
     Assign,
     Binary,
+    CallFunction,
     Compare,
     Const,
     Convert,
     Expr,
     If,
+    Index,
     Intrinsic,
+    Limit,
     Load,
     Place,
     Pou,
+    RefOf,
+    Sequence,
     Stmt,
     Unary,
+    Violates,
 )
 from scanbench.check.types import Elementary, StringType
 from scanbench.engines.native import walk
@@ -41,7 +48,7 @@ class _Checked:
         self.body = body
         self.nodes = 0
         self.places: dict[object, Place] = {}
-        if not walk.calls_functions(condition):
+        if not walk.disturbs(condition):
             for seen in walk.of_expression(condition):
                 if isinstance(seen, tuple):
                     self.places[_key(seen[0])] = seen[0]
@@ -56,14 +63,18 @@ class _Checked:
     def allows_place(self, place: Place) -> bool:
         """Whether reaching the place cannot trap here."""
         self.nodes += 1
-        if place.slot is None and not place.indices:
+        if place.slot is None and place.reference is None and not place.indices:
             return True
         if _key(place) in self.places:
             return True
-        return place.slot is None and all(
-            within(range_of(self.body, index.value), (index.low, index.high)) and self.allows(index.value)
-            for index in place.indices
+        return (
+            place.slot is None and place.reference is None and all(self._allows_index(each) for each in place.indices)
         )
+
+    def _allows_index(self, index: Index) -> bool:
+        if not isinstance(index.low, int) or not isinstance(index.high, int):
+            return False
+        return within(range_of(self.body, index.value), (index.low, index.high)) and self.allows(index.value)
 
     def allows(self, expr: Expr) -> bool:
         """Whether evaluating it is cheap and cannot trap here."""
@@ -81,8 +92,16 @@ class _Checked:
             case Compare(_, _, left, right):
                 return not isinstance(left.type, StringType) and self.allows(left) and self.allows(right)
             case Intrinsic(name, _, args):
-                return name in CHEAP and all(self.allows(arg) for arg in args)
-        return False
+                plain = not any(isinstance(each.type, StringType) for each in args)
+                return name in CHEAP and plain and all(self.allows(arg) for arg in args)
+            case Limit(_, value, low, high, _):
+                return within(range_of(self.body, value), (low, high)) and self.allows(value)
+            case Violates(_, value, _, _, site):
+                return site == 0 and self.allows(value)
+            case CallFunction() | RefOf() | Sequence():
+                return False
+            case _:
+                assert_never(expr)
 
 
 def _divides(body: Body, type: Elementary, right: Expr) -> bool:
@@ -103,6 +122,9 @@ def range_of(body: Body, expr: Expr) -> Range:
         case Convert(type, operand) if isinstance(operand.type, Elementary) and not is_real(operand.type):
             inner = range_of(body, operand)
             return inner if isinstance(type, Elementary) and within(inner, bounds(type)) else _bounds(expr)
+        case Limit(_, value, low, high, _):
+            inner = range_of(body, value)
+            return min(max(inner[0], low), high), min(max(inner[1], low), high)
     return _bounds(expr)
 
 
@@ -134,12 +156,7 @@ def _plain(statements: Iterable[Stmt]) -> bool:
 
 
 def _address_reads(place: Place) -> list[Place]:
-    found: list[Place] = []
-    if place.slot is not None:
-        found += [place.slot, *_address_reads(place.slot)]
-    for index in place.indices:
-        found += [seen[0] for seen in walk.of_expression(index.value) if isinstance(seen, tuple)]
-    return found
+    return [seen[0] for seen in walk.of_address(place) if isinstance(seen, tuple)]
 
 
 def _key(node: object) -> object:

@@ -126,6 +126,111 @@ no:
   ret i1 false
 }"""
 
+ORDER_WIDE = """\
+define internal i64 @s.orderwide(ptr %a, i64 %n, ptr %b, i64 %m) noinline #0 {
+; the same for characters of two bytes
+entry:
+  %shorter = icmp ult i64 %n, %m
+  %common = select i1 %shorter, i64 %n, i64 %m
+  br label %next
+next:
+  %i = phi i64 [ 0, %entry ], [ %after, %same ]
+  %end = icmp eq i64 %i, %common
+  br i1 %end, label %lengths, label %look
+look:
+  %at = shl i64 %i, 1
+  %ap = getelementptr i8, ptr %a, i64 %at
+  %bp = getelementptr i8, ptr %b, i64 %at
+  %av = load i16, ptr %ap, align 1
+  %bv = load i16, ptr %bp, align 1
+  %alike = icmp eq i16 %av, %bv
+  br i1 %alike, label %same, label %differ
+same:
+  %after = add i64 %i, 1
+  br label %next
+differ:
+  %wa = zext i16 %av to i64
+  %wb = zext i16 %bv to i64
+  %difference = sub i64 %wa, %wb
+  ret i64 %difference
+lengths:
+  %rest = sub i64 %n, %m
+  ret i64 %rest
+}"""
+
+FIND_WIDE = """\
+define internal i64 @s.findwide(ptr %a, i64 %n, ptr %b, i64 %m) noinline #0 {
+; position from 1 of the first %b in %a, or 0; characters of two bytes
+entry:
+  %empty = icmp eq i64 %m, 0
+  %toolong = icmp ugt i64 %m, %n
+  %never = or i1 %empty, %toolong
+  br i1 %never, label %none, label %look
+look:
+  %last = sub i64 %n, %m
+  %size = shl i64 %m, 1
+  br label %try
+try:
+  %i = phi i64 [ 0, %look ], [ %next, %miss ]
+  %at = shl i64 %i, 1
+  %p = getelementptr i8, ptr %a, i64 %at
+  %same = call i1 @s.equal(ptr %p, i64 %size, ptr %b, i64 %size)
+  br i1 %same, label %found, label %miss
+miss:
+  %next = add i64 %i, 1
+  %on = icmp sle i64 %next, %last
+  br i1 %on, label %try, label %none
+found:
+  %position = add i64 %i, 1
+  ret i64 %position
+none:
+  ret i64 0
+}"""
+
+WIDEN = """\
+define internal void @s.widen(ptr noalias %to, ptr noalias %from, i64 %n) noinline #0 {
+entry:
+  br label %next
+next:
+  %i = phi i64 [ 0, %entry ], [ %after, %one ]
+  %end = icmp eq i64 %i, %n
+  br i1 %end, label %done, label %one
+one:
+  %p = getelementptr i8, ptr %from, i64 %i
+  %c = load i8, ptr %p, align 1
+  %wide = zext i8 %c to i16
+  %at = shl i64 %i, 1
+  %q = getelementptr i8, ptr %to, i64 %at
+  store i16 %wide, ptr %q, align 1
+  %after = add i64 %i, 1
+  br label %next
+done:
+  ret void
+}"""
+
+NARROW = """\
+define internal void @s.narrow(ptr noalias %to, ptr noalias %from, i64 %n) noinline #0 {
+entry:
+  br label %next
+next:
+  %i = phi i64 [ 0, %entry ], [ %after, %one ]
+  %end = icmp eq i64 %i, %n
+  br i1 %end, label %done, label %one
+one:
+  %at = shl i64 %i, 1
+  %p = getelementptr i8, ptr %from, i64 %at
+  %c = load i16, ptr %p, align 1
+  %strange = icmp ugt i16 %c, 255
+  %kept = select i1 %strange, i16 63, i16 %c
+  %small = trunc i16 %kept to i8
+  %q = getelementptr i8, ptr %to, i64 %i
+  store i8 %small, ptr %q, align 1
+  %after = add i64 %i, 1
+  br label %next
+done:
+  ret void
+}"""
+
 FIND = """\
 declare ptr @memmem(ptr, i64, ptr, i64)
 define internal i64 @s.find(ptr %a, i64 %n, ptr %b, i64 %m) #0 {
@@ -372,7 +477,11 @@ HELPERS: dict[str, tuple[str, tuple[str, ...]]] = {
     "copy": (COPY, ()),
     "order": (ORDER, ()),
     "equal": (EQUAL, ()),
+    "orderwide": (ORDER_WIDE, ()),
     "find": (FIND, ("equal",)),
+    "findwide": (FIND_WIDE, ("equal",)),
+    "widen": (WIDEN, ()),
+    "narrow": (NARROW, ()),
     "decimal": (DECIMAL, ("copy",)),
     "realtext": (REAL_TEXT, ()),
     "scan": (SCAN, ()),

@@ -1,28 +1,43 @@
-"""Walks over checked code: which places it reads, writes and takes references of, and whom it calls."""
+"""Walks over checked code: which places it reads, writes and takes references of, and whom it calls.
 
-from collections.abc import Iterable, Iterator
+A node that is not known here is an error: to overlook one would be to emit wrong code.
+"""
+
+from collections.abc import Iterable
 from enum import Enum
+from typing import assert_never
 
 from scanbench.check.program import (
     Assign,
     Binary,
+    Blocks,
     CallBlock,
     CallFunction,
     Case,
     Compare,
+    Const,
+    Continue,
     Convert,
     Evaluate,
+    Exit,
     Expr,
     For,
     If,
+    Index,
     Intrinsic,
+    Jump,
+    Limit,
     Load,
     Place,
     Pou,
+    RefOf,
     Repeat,
+    Return,
+    Sequence,
     SetBytes,
     Stmt,
     Unary,
+    Violates,
     While,
 )
 from scanbench.check.types import Section
@@ -41,97 +56,180 @@ class Use(Enum):
 Seen = tuple[Place, Use] | Pou
 
 
-def of_statements(statements: Iterable[Stmt]) -> Iterator[Seen]:
-    """Everything that these statements touch."""
-    for statement in statements:
-        yield from of_statement(statement)
-
-
-def of_statement(statement: Stmt) -> Iterator[Seen]:
-    """Everything that the statement touches."""
+def bodies(statement: Stmt) -> tuple[tuple[Stmt, ...], ...]:
+    """The statements inside of a statement, body by body."""
     match statement:
-        case Assign(target, value):
-            yield from of_place(target, Use.WRITE)
-            yield from of_expression(value)
-        case SetBytes(target):
-            yield from of_place(target, Use.WRITE)
-        case CallBlock():
-            yield from _block(statement)
-        case Evaluate(call):
-            yield from of_expression(call)
         case If(branches, orelse):
-            for condition, body in branches:
-                yield from of_expression(condition)
-                yield from of_statements(body)
-            yield from of_statements(orelse)
-        case Case(selector, cases, orelse):
-            yield from of_expression(selector)
-            for _, body in cases:
-                yield from of_statements(body)
-            yield from of_statements(orelse)
-        case For(variable, start, end, step, body):
-            yield from of_place(variable, Use.WRITE)
-            for part in (start, end, step):
-                yield from of_expression(part)
-            yield from of_statements(body)
-        case While(condition, body):
-            yield from of_expression(condition)
-            yield from of_statements(body)
-        case Repeat(body, until):
-            yield from of_statements(body)
-            yield from of_expression(until)
+            return (*(body for _, body in branches), orelse)
+        case Case(_, branches, orelse):
+            return (*(body for _, body in branches), orelse)
+        case For() | While() | Repeat():
+            return (statement.body,)
+        case Blocks(blocks):
+            return blocks
+        case Assign() | SetBytes() | CallBlock() | Evaluate() | Exit() | Continue() | Return() | Jump():
+            return ()
+        case _:
+            assert_never(statement)
 
 
-def _block(call: CallBlock) -> Iterator[Seen]:
-    yield from of_place(call.instance, Use.CALL)
-    for target, value in call.inputs:
-        yield from of_expression(value)
-        yield target, Use.WRITE
-    for slot, bound in call.in_outs:
-        yield slot, Use.WRITE
-        yield from of_place(bound, Use.REFERENCE)
-    yield call.pou
-    for _, target in call.outputs:
-        yield from of_place(target, Use.WRITE)
+def index_parts(index: Index) -> tuple[Expr, ...]:
+    """The expressions of an index."""
+    if isinstance(index.low, int) and isinstance(index.high, int) and isinstance(index.stride, int):
+        return (index.value,)
+    return (index.value, *(part for part in (index.low, index.high, index.stride) if not isinstance(part, int)))
 
 
-def of_place(place: Place, use: Use) -> Iterator[Seen]:
-    """The place itself, its slot, and what its indices read."""
-    yield place, use
-    if place.slot is not None:
-        yield from of_place(place.slot, Use.READ)
-    for index in place.indices:
-        yield from of_expression(index.value)
+def of_statements(statements: Iterable[Stmt]) -> list[Seen]:
+    """Everything that these statements touch."""
+    seen: list[Seen] = []
+    _statements(statements, seen)
+    return seen
 
 
-def of_expression(expr: Expr) -> Iterator[Seen]:
+def of_place(place: Place, use: Use) -> list[Seen]:
+    """The place itself, its slot or reference, and what its indices read."""
+    return [(place, use), *of_address(place)]
+
+
+def of_address(place: Place) -> list[Seen]:
+    """What finding the place's address touches."""
+    seen: list[Seen] = []
+    _address(place, seen)
+    return seen
+
+
+def of_expression(expr: Expr) -> list[Seen]:
     """Everything that evaluating it touches."""
+    seen: list[Seen] = []
+    _expression(expr, seen)
+    return seen
+
+
+# ---- gathering ------------------------------------------------------------------------------------------------
+
+
+def _statements(statements: Iterable[Stmt], seen: list[Seen]) -> None:
+    for statement in statements:
+        match statement:
+            case Assign(target, value):
+                _place(target, Use.WRITE, seen)
+                _expression(value, seen)
+            case If(branches, orelse):
+                for condition, body in branches:
+                    _expression(condition, seen)
+                    _statements(body, seen)
+                _statements(orelse, seen)
+            case CallBlock():
+                _block(statement, seen)
+            case _:
+                _rarer(statement, seen)
+                for body in bodies(statement):
+                    _statements(body, seen)
+
+
+def _rarer(
+    statement: SetBytes | Evaluate | Case | For | While | Repeat | Exit | Continue | Return | Blocks | Jump,
+    seen: list[Seen],
+) -> None:
+    """What the statement touches, without those inside of it."""
+    match statement:
+        case SetBytes(target):
+            _place(target, Use.WRITE, seen)
+        case Evaluate(call):
+            _expression(call, seen)
+        case Case(selector):
+            _expression(selector, seen)
+        case For(variable, start, end, step):
+            _place(variable, Use.WRITE, seen)
+            for part in (start, end, step):
+                _expression(part, seen)
+        case While(condition):
+            _expression(condition, seen)
+        case Repeat(_, until):
+            _expression(until, seen)
+        case Exit() | Continue() | Return() | Blocks() | Jump():
+            return
+        case _:
+            assert_never(statement)
+
+
+def _block(call: CallBlock, seen: list[Seen]) -> None:
+    _place(call.instance, Use.CALL, seen)
+    for target, value in call.inputs:
+        _expression(value, seen)
+        _place(target, Use.WRITE, seen)
+    for slot, bound in call.in_outs:
+        seen.append((slot, Use.WRITE))
+        _place(bound, Use.REFERENCE, seen)
+    seen.append(call.pou)
+    for value, target in call.outputs:
+        _expression(value, seen)
+        _place(target, Use.WRITE, seen)
+
+
+def _place(place: Place, use: Use, seen: list[Seen]) -> None:
+    seen.append((place, use))
+    if place.indices or place.slot is not None or place.reference is not None:
+        _address(place, seen)
+
+
+def _address(place: Place, seen: list[Seen]) -> None:
+    if place.slot is not None:
+        _place(place.slot, Use.READ, seen)
+    if place.reference is not None:
+        _expression(place.reference, seen)
+    for index in place.indices:
+        for part in index_parts(index):
+            _expression(part, seen)
+
+
+def _expression(expr: Expr, seen: list[Seen]) -> None:
     match expr:
         case Load(place):
-            yield from of_place(place, Use.READ)
-        case Unary(_, _, operand) | Convert(_, operand):
-            yield from of_expression(operand)
+            _place(place, Use.READ, seen)
+        case Const():
+            return
         case Binary(_, _, left, right) | Compare(_, _, left, right):
-            yield from of_expression(left)
-            yield from of_expression(right)
-        case Intrinsic(_, _, args):
-            for arg in args:
-                yield from of_expression(arg)
-        case CallFunction(pou, _, arguments):
-            for name, argument in zip(pou.parameters, arguments, strict=True):
-                if isinstance(argument, Place):
-                    in_out = pou.frame.members[name].section is Section.IN_OUT
-                    yield from of_place(argument, Use.REFERENCE if in_out else Use.WRITE)
-                elif argument is not None:
-                    yield from of_expression(argument)
-            yield pou
+            _expression(left, seen)
+            _expression(right, seen)
+        case Unary(_, _, operand) | Convert(_, operand):
+            _expression(operand, seen)
+        case Limit(_, operand) | Violates(_, operand):
+            _expression(operand, seen)
+        case Intrinsic(_, _, operands):
+            for each in operands:
+                _expression(each, seen)
+        case CallFunction():
+            _function(expr, seen)
+        case RefOf(place):
+            _place(place, Use.REFERENCE, seen)
+        case Sequence(body, value):
+            _statements(body, seen)
+            _expression(value, seen)
+        case _:
+            assert_never(expr)
 
 
-def calls_functions(expr: Expr) -> bool:
+def _function(call: CallFunction, seen: list[Seen]) -> None:
+    for name, argument in zip(call.pou.parameters, call.args, strict=True):
+        if isinstance(argument, Place):
+            in_out = call.pou.frame.members[name].section is Section.IN_OUT
+            _place(argument, Use.REFERENCE if in_out else Use.WRITE, seen)
+        elif argument is not None:
+            _expression(argument, seen)
+    seen.append(call.pou)
+
+
+def _changes(seen: Seen) -> bool:
+    return isinstance(seen, Pou) or seen[1] is Use.WRITE
+
+
+def disturbs(expr: Expr) -> bool:
     """Whether evaluating it runs code that may change variables."""
-    return any(isinstance(seen, Pou) for seen in of_expression(expr))
+    return any(_changes(seen) for seen in of_expression(expr))
 
 
-def address_calls(place: Place) -> bool:
+def address_disturbs(place: Place) -> bool:
     """Whether finding its address runs code that may change variables."""
-    return any(isinstance(seen, Pou) for seen in of_place(place, Use.READ))
+    return any(_changes(seen) for seen in of_address(place))

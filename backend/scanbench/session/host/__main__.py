@@ -1,4 +1,4 @@
-"""Child main: `python -m scanbench.session.host FD`, where FD is the socket to the parent."""
+"""Child main: `python -m scanbench.session.host FD [CACHE]`: FD is the socket to the parent, CACHE a directory."""
 
 import ctypes
 import os
@@ -6,19 +6,20 @@ import signal
 import socket
 import sys
 import threading
+from pathlib import Path
 
 import zstandard
 
-from scanbench.check.program import Program
 from scanbench.runtime.header import Mode
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.replay import replay
 from scanbench.runtime.resource import Resource
 from scanbench.session import protocol
-from scanbench.session.host.build import BuildFailed, compile_sources, find_engines, make_engine
+from scanbench.session.host.build import Builder, BuildFailed, Built
 from scanbench.session.host.link import Link
 from scanbench.session.host.lookup import look_up
-from scanbench.session.host.loop import TICK_NS, BuildRefused, Loop, Swap
+from scanbench.session.host.loop import TICK_NS, Loop
+from scanbench.session.host.swaps import BuildRefused, Swap
 
 _PR_SET_PDEATHSIG = 1
 
@@ -29,14 +30,15 @@ def main() -> int:
     sys.setswitchinterval(0.0002)
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's business
     with socket.socket(fileno=int(sys.argv[1])) as sock:
-        return Host(Link(sock)).run()
+        return Host(Link(sock), Builder(Path(sys.argv[2]) if len(sys.argv) > 2 else None)).run()
 
 
 class Host:
     """The link's thread and the loop's, and builds beside them."""
 
-    def __init__(self, link: Link) -> None:
-        self._link = link
+    def __init__(self, link: Link, builder: Builder) -> None:
+        self._link, self._builder = link, builder
+        self._building = threading.Lock()
         self._start: protocol.Start | None = None
         self._started = threading.Event()
         self._loop: Loop | None = None
@@ -67,11 +69,12 @@ class Host:
         return 0
 
     def _make_loop(self, start: protocol.Start) -> Loop:
-        program = compile_sources(start.sources)
-        resource = _restored(program, start)
-        note = find_engines().message
+        resource = _restored(self._builder.build(start.sources), start)
+        note = self._builder.message
         self._link.post(protocol.Ready(note))
-        return Loop(resource, self._link, start.sources.version, start.speed, start.paused, note)
+        loop = Loop(resource, self._link, start.sources.version, start.speed, start.paused, note, self._builder.tiers)
+        self._optimise(loop)
+        return loop
 
     def _serve(self) -> None:
         self._link.serve(self._on_link, self._on_tick, TICK_NS)
@@ -109,23 +112,29 @@ class Host:
                 self._loop.give(message)
 
     def _build(self, build: protocol.Build, loop: Loop) -> None:
-        """Compiles while the old program runs; the loop swaps in its seam."""
-        try:
-            program = compile_sources(build.sources)
-            memory = bytearray(program.layout.size)
-            engine = make_engine(program, memory)
-        except Exception as error:  # whatever it is, the old program goes on and somebody must be told
-            loop.give(BuildRefused(build.ref, f"the build failed, the old program goes on: {error}"))
-            return
-        loop.give(Swap(build.ref, program, engine, memory, build.sources.version, build.author))
+        """Compiles while the old program runs; the loop swaps in its seam. One build at a time."""
+        with self._building:
+            try:
+                built = self._builder.build(build.sources)
+                memory = bytearray(built.program.layout.size)
+                engine = built.engine(built.program, memory)
+            except Exception as error:  # whatever it is, the old program goes on and somebody must be told
+                loop.give(BuildRefused(build.ref, f"the build failed, the old program goes on: {error}"))
+                return
+            loop.give(Swap(build.ref, built.program, engine, memory, build.sources.version, build.author))
+            self._optimise(loop)
+
+    def _optimise(self, loop: Loop) -> None:
+        if self._builder.tiers is not None:
+            self._builder.tiers.optimise(loop.give)
 
 
-def _restored(program: Program, start: protocol.Start) -> Resource:
+def _restored(built: Built, start: protocol.Start) -> Resource:
     """Cold, or as the last life of this PLC left it."""
     if start.checkpoint is None:
-        return Resource(program, make_engine, Mode.MONITOR)
+        return Resource(built.program, built.engine, Mode.MONITOR)
     state = zstandard.ZstdDecompressor().decompress(start.checkpoint.image)
-    resource = Resource(program, make_engine, Mode.MONITOR, state)
+    resource = Resource(built.program, built.engine, Mode.MONITOR, state)
     resource.adopt(Journal(start.journal[: start.checkpoint.entries]))
     replay(resource, start.journal[start.checkpoint.entries :], start.until)
     return resource

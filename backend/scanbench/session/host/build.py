@@ -1,17 +1,22 @@
 """Sources -> program and engine, inside the host."""
 
-from collections.abc import Callable
 from dataclasses import dataclass
 from functools import cache
+from pathlib import Path
+from typing import TYPE_CHECKING
 
-from scanbench.check.build import check_sources
+from scanbench.check.incremental import Checks
 from scanbench.check.program import Program
+from scanbench.engines.cache import BlobCache
 from scanbench.engines.engine import Engine
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Severity
-from scanbench.runtime.resource import EngineFactory
+from scanbench.session.known import key_of, recall
 from scanbench.session.protocol import Sources
+
+if TYPE_CHECKING:
+    from scanbench.session.host.tiers import Tiers
 
 
 class BuildFailed(Exception):
@@ -20,22 +25,19 @@ class BuildFailed(Exception):
 
 @dataclass(frozen=True, slots=True)
 class Engines:
-    """The engine that runs programs here, and why it is not the fast one, if it is not."""
+    """The tiers of native code, or why there are none."""
 
-    make: EngineFactory
+    tiers: "Tiers | None"
     message: str
 
 
-@cache
-def find_engines() -> Engines:
+def find_engines(cache: BlobCache | None) -> Engines:
     """Native where LLVM is there, else the reference engine."""
     try:
-        from scanbench.engines.native.engine import NativeEngine
+        from scanbench.session.host.tiers import Tiers
     except ImportError as error:
-        from scanbench.engines.interpreter.engine import ReferenceEngine
-
-        return Engines(ReferenceEngine, f"LLVM is missing ({error}): the slow reference engine runs the program")
-    return Engines(NativeEngine, "")
+        return Engines(None, f"LLVM is missing ({error}): the slow reference engine runs the program")
+    return Engines(Tiers(cache), "")
 
 
 @cache
@@ -49,18 +51,50 @@ def find_model(name: str) -> Model:
     raise BuildFailed(f"no model {name}: there are {', '.join(model.name for model in models)}{broken}")
 
 
-def compile_sources(sources: Sources) -> Program:
-    """The checked program."""
-    checked = check_sources(sources.files, find_model(sources.model), sources.interval_ns)
-    if checked.program is None:
-        errors = [problem for problem in checked.problems if problem.severity is Severity.ERROR]
-        raise BuildFailed(f"{len(errors)} errors, the first: {errors[0]}" if errors else "nothing to run")
-    return checked.program
+class Builder:
+    """Builds the programs of one host, one after the other."""
+
+    def __init__(self, cache: Path | None) -> None:
+        self._cache = BlobCache(cache) if cache is not None else None
+        self._engines = find_engines(self._cache)
+        self._checks = Checks()
+
+    @property
+    def message(self) -> str:
+        """Why the engine is not the fast one, if it is not."""
+        return self._engines.message
+
+    @property
+    def tiers(self) -> "Tiers | None":
+        """The tiers of native code."""
+        return self._engines.tiers
+
+    def build(self, sources: Sources) -> "Built":
+        """The checked program: from the disk if it is known there."""
+        model = find_model(sources.model)
+        key = key_of(sources, model)
+        program = recall(self._cache, key) if self._cache is not None else None
+        if program is None:
+            checked = self._checks.check(sources.files, model, sources.interval_ns)
+            if checked.program is None:
+                errors = [problem for problem in checked.problems if problem.severity is Severity.ERROR]
+                raise BuildFailed(f"{len(errors)} errors, the first: {errors[0]}" if errors else "nothing to run")
+            program = checked.program
+        return Built(program, key, self._engines.tiers)
 
 
-def make_engine(program: Program, memory: bytearray) -> Engine:
-    """The engine for a program, machine code and all."""
-    return find_engines().make(program, memory)
+@dataclass(frozen=True, slots=True)
+class Built:
+    """A checked program, and how an engine for it is made."""
 
+    program: Program
+    key: str
+    tiers: "Tiers | None"
 
-EngineMaker = Callable[[Program, bytearray], Engine]
+    def engine(self, program: Program, memory: bytearray) -> Engine:
+        """The engine, machine code and all."""
+        if self.tiers is not None:
+            return self.tiers.engine(program, memory, self.key)
+        from scanbench.engines.interpreter.engine import ReferenceEngine
+
+        return ReferenceEngine(program, memory)

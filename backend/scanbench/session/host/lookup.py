@@ -2,7 +2,7 @@
 
 from scanbench.check.program import Program
 from scanbench.check.symbols import Symbol, UnknownPath, complete, members, resolve
-from scanbench.check.types import Elementary, StringType
+from scanbench.check.types import Elementary, Enumeration, StringType
 from scanbench.session.protocol import Found, Lookup, SymbolInfo, WatchItem
 
 COMPLETIONS = 50
@@ -43,4 +43,5 @@ def symbol_info(symbol: Symbol) -> SymbolInfo:
         writable=symbol.writable,
         section=str(symbol.section),
         expandable=not simple,
+        values=symbol.type.values if isinstance(symbol.type, Enumeration) else (),
     )

@@ -6,13 +6,13 @@ frames and state. Everything that touches the image is here, in one thread.
 
 import threading
 from collections import deque
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
 import zstandard
 
-from scanbench.check.program import Program
 from scanbench.check.symbols import Symbol
-from scanbench.engines.engine import Engine, Pace, Reason
+from scanbench.check.violations import Violations, read_violations
+from scanbench.engines.engine import Pace, Reason
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.resource import Resource
@@ -20,6 +20,7 @@ from scanbench.session import protocol
 from scanbench.session.host.link import Link
 from scanbench.session.host.lookup import watch_item
 from scanbench.session.host.status import host_state
+from scanbench.session.host.swaps import BuildRefused, Optimising, Recode, Swap
 from scanbench.taps.watch import WatchPlan
 
 TICK_NS = 50_000_000
@@ -28,33 +29,18 @@ COUNTING_NS = 200_000_000
 CHECKPOINT_NS = 2_000_000_000
 _FOREVER = 1 << 40
 _MAX_SPEED = 0.0
-
-
-@dataclass(frozen=True, slots=True)
-class Swap:
-    """A compiled program, ready to take over."""
-
-    ref: int
-    program: Program
-    engine: Engine
-    memory: bytearray
-    version: int
-    author: str
-
-
-@dataclass(frozen=True, slots=True)
-class BuildRefused:
-    """A build that came to nothing."""
-
-    ref: int
-    message: str
+OPTIMISING = "the program is being optimised: it runs slower for a moment"
 
 
 class Loop:
     """Runs one resource, and serves what comes from the parent between scans."""
 
-    def __init__(self, resource: Resource, link: Link, version: int, speed: float, paused: bool, note: str) -> None:
+    def __init__(
+        self, resource: Resource, link: Link, version: int, speed: float, paused: bool, note: str,
+        tiers: Optimising | None = None,
+    ) -> None:  # fmt: skip
         self.resource = resource
+        self._tiers = tiers
         self._link, self._version, self._note = link, version, note
         self._inbox: deque[object] = deque()
         self._wake = threading.Event()
@@ -67,7 +53,8 @@ class Loop:
         self._watched: dict[int, str] = {}
         self._plan = WatchPlan({}, len(resource.memory))
         self._last_state: protocol.HostState | None = None
-        self._state_at = self._checkpoint_at = 0
+        self._state_at = self._checkpoint_at = self._diagnosed_at = 0
+        self._diagnosed: Violations | None = None
         self._checkpointed = (-1, -1)
         self._sent_entries = len(resource.journal)
         self._set_pace()
@@ -135,6 +122,9 @@ class Loop:
                 self._link.post(protocol.Frame(frame, message.to))
             case Swap():
                 self._swap(message)
+            case Recode():
+                if message.program is self.resource.program and message.engine is not None:
+                    self.resource.engine = message.engine
             case BuildRefused():
                 self._ack(message.ref, False, message.message)
             case protocol.Quit():
@@ -218,12 +208,22 @@ class Loop:
             frame = self._plan.sample(self.resource.memory, header.scan, header.clock_ns)
             if frame is not None:
                 self._link.post(protocol.Frame(frame))
-        state = host_state(self.resource, self._speed, self._paused, self._version, self._note)
+        note = self._note or (OPTIMISING if self._tiers is not None and self._tiers.optimising else "")
+        state = host_state(self.resource, self._speed, self._paused, self._version, note)
         if state != self._last_state and (now >= self._state_at or self._differs(state)):
             self._last_state, self._state_at = state, now + COUNTING_NS
             self._link.post(state)
+        if now >= self._diagnosed_at:
+            self._diagnosed_at = now + COUNTING_NS
+            self._diagnose()
         if now >= self._checkpoint_at:
             self._checkpoint()
+
+    def _diagnose(self) -> None:
+        violations = read_violations(self.resource.program, self.resource.memory)
+        if violations != self._diagnosed:
+            self._diagnosed = violations
+            self._link.post(protocol.Diagnosed(violations))
 
     def _differs(self, state: protocol.HostState) -> bool:
         """Whether more than counters changed: people wait for that, and in a pause for every scan."""

@@ -4,6 +4,7 @@ import { t } from "../../logic/text";
 import { build, save, useDocuments } from "../../store/documents";
 import { useNavigation } from "../../store/navigate";
 import { addToWatch } from "../../store/watchlist";
+import "./checks";
 import { modelOf } from "./models";
 import { editor, KeyCode, KeyMod, monospaceFont, options } from "./monaco";
 

@@ -3,6 +3,7 @@ import { t } from "../../logic/text";
 import { build, isDirty, save, useDocuments } from "../../store/documents";
 import { showPanel } from "../../store/navigate";
 import { useLost } from "../../store/plc";
+import { toggleChecks, usePrefs } from "../../store/prefs";
 import { Icon } from "../../ui/Icon";
 import { StateWord } from "../../ui/StateWord";
 
@@ -22,6 +23,7 @@ export function EditorBar({ path }: { path: string }) {
       {pou && <span className="faint cut">{t(`kind.${pou.kind}`)}</span>}
       <span className="grow" />
       <BuildOutcome />
+      <ChecksToggle />
       <button
         type="button"
         className="btn quiet sm"
@@ -42,6 +44,22 @@ export function EditorBar({ path }: { path: string }) {
         {building ? t("building") : t("build")}
       </button>
     </div>
+  );
+}
+
+function ChecksToggle() {
+  const shown = usePrefs((prefs) => prefs.checks);
+  return (
+    <button
+      type="button"
+      className={`btn quiet sm${shown ? " on" : ""}`}
+      aria-pressed={shown}
+      aria-label={t("checks.show")}
+      title={t("checks.hint")}
+      onClick={toggleChecks}
+    >
+      {t("checks.short")}
+    </button>
   );
 }
 

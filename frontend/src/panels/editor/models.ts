@@ -1,11 +1,13 @@
 /** One Monaco model for each open file, in step with the document store both ways; diagnostics become markers. */
 import { edit, useDocuments } from "../../store/documents";
-import type { Problem } from "../../wire/types";
+import { usePlc } from "../../store/plc";
+import type { Problem, Violation } from "../../wire/types";
 import { editor, MarkerSeverity, Uri } from "./monaco";
 import { LANGUAGE } from "./st";
 
 const models = new Map<string, editor.ITextModel>();
 const OWNER = "scanbench";
+const RUNTIME = "scanbench.runtime";
 
 const SEVERITY: Record<Problem["severity"], MarkerSeverity> = {
   error: MarkerSeverity.Error,
@@ -21,6 +23,7 @@ export function modelOf(path: string, text: string): editor.ITextModel {
   model.onDidChangeContent(() => edit(path, model.getValue()));
   models.set(path, model);
   markModel(path, model);
+  markViolations(path, model);
   return model;
 }
 
@@ -42,6 +45,25 @@ function markModel(path: string, model: editor.ITextModel): void {
       })),
   );
 }
+
+/** Where an embedded check found a value outside of its subrange while the program ran. */
+function markViolations(path: string, model: editor.ITextModel): void {
+  const { violations } = usePlc.getState().diagnostics;
+  const marker = (violation: Violation) => ({
+    severity: MarkerSeverity.Warning,
+    message: `${violation.text} (${violation.times}x)`,
+    startLineNumber: violation.line,
+    startColumn: violation.column,
+    endLineNumber: violation.end_line,
+    endColumn: violation.end_column,
+  });
+  editor.setModelMarkers(model, RUNTIME, violations.filter((violation) => violation.file === path).map(marker));
+}
+
+usePlc.subscribe((now, before) => {
+  if (now.diagnostics === before.diagnostics) return;
+  for (const [path, model] of models) markViolations(path, model);
+});
 
 // A text that changed in the store but not by typing (theirs was taken, or a colleague saved) goes into the model.
 useDocuments.subscribe((now, before) => {

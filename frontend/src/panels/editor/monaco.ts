@@ -113,4 +113,4 @@ export function monospaceFont(): string {
   return getComputedStyle(document.documentElement).getPropertyValue("--font-mono").trim();
 }
 
-export { editor, KeyCode, KeyMod, MarkerSeverity, Uri } from "monaco-editor/editor";
+export { Emitter, editor, KeyCode, KeyMod, languages, MarkerSeverity, Uri } from "monaco-editor/editor";

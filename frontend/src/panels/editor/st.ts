@@ -8,10 +8,14 @@ const keywords =
 END_FUNCTION_BLOCK END_IF END_PROGRAM END_REPEAT END_RESOURCE END_STRUCT END_TYPE END_VAR END_WHILE EXIT CONTINUE FOR FUNCTION
 FUNCTION_BLOCK IF MOD NOT OF ON OR PROGRAM REPEAT RESOURCE RETAIN NON_RETAIN RETURN STRUCT TASK THEN TO TYPE UNTIL VAR
 VAR_ACCESS VAR_CONFIG VAR_EXTERNAL VAR_GLOBAL VAR_IN_OUT VAR_INPUT VAR_OUTPUT VAR_TEMP WHILE WITH XOR R_EDGE F_EDGE
-INTERVAL PRIORITY SINGLE`.split(/\s+/);
+INTERVAL PRIORITY SINGLE CLASS END_CLASS INTERFACE END_INTERFACE METHOD END_METHOD PROPERTY END_PROPERTY GET SET END_GET END_SET
+NAMESPACE END_NAMESPACE USING UNION END_UNION EXTENDS IMPLEMENTS OVERRIDE ABSTRACT FINAL THIS SUPER PUBLIC PRIVATE PROTECTED
+INTERNAL REF_TO REFERENCE POINTER REF NULL OVERLAP PERSISTENT AND_THEN OR_ELSE`.split(/\s+/);
 
 const types = `BOOL BYTE WORD DWORD LWORD SINT INT DINT LINT USINT UINT UDINT ULINT REAL LREAL TIME LTIME DATE TOD DT
-TIME_OF_DAY DATE_AND_TIME STRING WSTRING CHAR WCHAR TON TOF TP CTU CTD CTUD R_TRIG F_TRIG SR RS`.split(/\s+/);
+TIME_OF_DAY DATE_AND_TIME STRING WSTRING CHAR WCHAR LDATE LTOD LDT LTIME_OF_DAY LDATE_AND_TIME TON TOF TP CTU CTD CTUD R_TRIG F_TRIG SR RS`.split(
+  /\s+/,
+);
 
 export const tokenizer: languages.IMonarchLanguage = {
   ignoreCase: true,
@@ -21,6 +25,11 @@ export const tokenizer: languages.IMonarchLanguage = {
   constants: ["TRUE", "FALSE"],
   tokenizer: {
     root: [
+      // Operators of Instruction List stand first in their line; elsewhere they are names like any other.
+      [
+        /^\s*(LDN?|STN?|S|R|JMP(CN?)?|CAL(CN?)?|RET(CN?)?|(AND|OR|XOR)N?|ADD|SUB|MUL|DIV|[GLN][ET]|EQ)(?=\(|\s+[\w%'"#]|\s*$)/,
+        "keyword",
+      ],
       [/\(\*/, "comment", "@comment"],
       [/\/\*/, "comment", "@ccomment"],
       [/\/\/.*$/, "comment"],
@@ -29,7 +38,7 @@ export const tokenizer: languages.IMonarchLanguage = {
       [/"/, "string", "@wstring"],
       [/%[IQM][XBWDL]?[\d.*]+/, "variable.predefined"],
       [/[A-Z_]\w*_TO_[A-Z_]\w*(?=\s*\()/, "type"],
-      [/(T|TIME|LT|LTIME|D|DATE|TOD|DT|TIME_OF_DAY|DATE_AND_TIME)#[\w.+\-:]+/, "number"],
+      [/(L?T|L?TIME|L?D|L?DATE|L?TOD|L?DT|L?TIME_OF_DAY|L?DATE_AND_TIME)#[\w.+\-:]+/, "number"],
       [/([A-Z_]\w*#)?(2#[01_]+|8#[0-7_]+|16#[\dA-F_]+)/, "number"],
       [/(BYTE|WORD|DWORD|LWORD|[US]?S?I?D?L?INT|L?REAL|BOOL)#/, "type"],
       [/\d[\d_]*(\.\d[\d_]*)?(E[+-]?\d+)?/, "number"],

@@ -1,0 +1,82 @@
+"""Which declaration a name means: NAMESPACE and USING. Every table of declarations is keyed by `NS.NAME` in upper case."""
+
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass, field
+
+from scanbench.check.context import Report
+from scanbench.problems import Span
+
+
+@dataclass(frozen=True, slots=True)
+class Space:
+    """Where a declaration stands, and what it sees without qualification."""
+
+    namespace: str = ""
+    using: tuple[str, ...] = ()
+
+    def around(self) -> list[str]:
+        """The namespace and those around it, the nearest first, in upper case."""
+        parts = self.namespace.upper().split(".") if self.namespace else []
+        return [".".join(parts[:count]) for count in range(len(parts), 0, -1)]
+
+    def candidates(self, key: str) -> list[str]:
+        """What the name may mean in full, the nearest first."""
+        if not self.namespace and not self.using:
+            return [key]
+        around = self.around()
+        used = [f"{outer}.{using}.{key}".upper().lstrip(".") for using in self.using for outer in (*around, "")]
+        return [*(f"{outer}.{key}" for outer in around), *used, key]
+
+
+@dataclass(slots=True)
+class Names:
+    """Looks names up from where the checker is now: own namespace, those around it, USING, then the global names."""
+
+    report: Report
+    space: Space = Space()
+    internal: dict[str, str] = field(default_factory=dict)
+    """Declarations that are INTERNAL: key, and the namespace that may use it."""
+
+    @contextmanager
+    def within(self, space: Space) -> Iterator[None]:
+        """Looks from there meanwhile: a declaration is made when it is first asked for, from anywhere."""
+        before, self.space = self.space, space
+        try:
+            yield
+        finally:
+            self.space = before
+
+    def find(self, name: str, known: Collection[str], span: Span) -> str | None:
+        """The key that the name means here."""
+        key = name.upper()
+        if not self.space.namespace and not self.space.using and not self.internal:
+            return key if key in known else None
+        found = self._candidates(key, known)
+        if len(found) > 1:
+            raise self.report.reject(
+                "T001", f"`{name}` may be {' or '.join(found)}; write one of these instead.", span
+            )
+        for each in found:
+            home = self.internal.get(each)
+            if home is not None and home not in self.space.around():
+                raise self.report.reject("T014", f"`{name}` is INTERNAL of the namespace {home}.", span)
+        return found[0] if found else None
+
+    def _candidates(self, key: str, known: Collection[str]) -> list[str]:
+        around = self.space.around()
+        for outer in around:
+            if f"{outer}.{key}" in known:
+                return [f"{outer}.{key}"]
+        used = []
+        for using in self.space.using:
+            for outer in (*around, ""):
+                full = f"{outer}.{using}.{key}".upper().lstrip(".")
+                if full in known and full not in used:
+                    used.append(full)
+        return used or ([key] if key in known else [])
+
+
+def qualified(namespace: str, name: str) -> str:
+    """The full name of what a namespace declares."""
+    return f"{namespace}.{name}" if namespace else name

@@ -1,0 +1,56 @@
+"""The library's upper half: what the `.st` files beside this one declare, for every type that the standard names."""
+
+import re
+from collections.abc import Iterator
+from functools import cache
+from importlib.resources import files
+
+from scanbench.syntax import tree
+from scanbench.syntax.parse_st import parse_st
+from scanbench.syntax.source import Source
+
+FILES = ("timers", "counters", "bistable", "strings", "bits", "dates", "text_of_times", "clock")
+COUNTED = {
+    "INT": (-(1 << 15), (1 << 15) - 1),
+    "DINT": (-(1 << 31), (1 << 31) - 1),
+    "LINT": (-(1 << 63), (1 << 63) - 1),
+    "UDINT": (0, (1 << 32) - 1),
+    "ULINT": (0, (1 << 64) - 1),
+}
+"""Types of counters, and their bounds; `counters.st` has them for INT."""
+WORD = re.compile(r"-32768|\w+(?:#\w+)?")
+
+
+@cache
+def library() -> tuple[tree.File, ...]:
+    """The standard library's ST files, parsed."""
+    made = []
+    for path, text in _texts():
+        file, problems = parse_st(Source(path, text))
+        assert not problems, problems
+        made.append(file)
+    return tuple(made)
+
+
+def _texts() -> Iterator[tuple[str, str]]:
+    """Path and text of each file; those that stand for several types once for each, line by line the same."""
+    for name in FILES:
+        path = f"standard/{name}.st"
+        text = files("scanbench.check").joinpath(path).read_text("utf-8")
+        yield path, text
+        if name == "counters":
+            for type, (low, high) in COUNTED.items():
+                yield path, _replaced(text, _suffixed(type) | {"INT": type, "-32768": str(low), "32767": str(high)})
+        if name == "timers":
+            yield path, _replaced(text, {each: f"{each}_TIME" for each in ("TON", "TOF", "TP")})
+            long = {"TIME": "LTIME", "T#0s": "LTIME#0s"}
+            yield path, _replaced(text, long | {each: f"{each}_LTIME" for each in ("TON", "TOF", "TP")})
+            yield path, _replaced(text, long | {each: f"L{each}" for each in ("TON", "TOF", "TP")})
+
+
+def _suffixed(type: str) -> dict[str, str]:
+    return {name: f"{name}_{type}" for name in ("CTU", "CTD", "CTUD")}
+
+
+def _replaced(text: str, words: dict[str, str]) -> str:
+    return WORD.sub(lambda match: words.get(match.group(), match.group()), text)

@@ -1,0 +1,85 @@
+"""The list of subrange violations in an image, for people: where, which instance, which value, how often."""
+
+import struct
+from dataclasses import dataclass
+
+from scanbench.check.layout import Layout
+from scanbench.check.program import CheckSite, Program
+from scanbench.check.symbols import instance_at
+from scanbench.problems import Span
+
+_HEAD = struct.Struct("<II")
+_ENTRY = struct.Struct("<IIQQQQ8x")
+assert _ENTRY.size == Layout.VIOLATION_BYTES
+
+
+@dataclass(frozen=True, slots=True)
+class Violation:
+    """One place and instance at which a value left its subrange; see `Layout.VIOLATION_BYTES`."""
+
+    site: int
+    """Index into `Program.checks` plus one."""
+    span: Span
+    pou: str
+    instance: str
+    """Path of the instance that ran, '' in a FUNCTION."""
+    variable: str
+    value: int
+    low: int
+    high: int
+    times: int
+    first_scan: int
+    last_scan: int
+
+    def __str__(self) -> str:
+        where = f" in {self.instance}" if self.instance else f" in {self.pou}"
+        if self.variable == "EN_CHECK":
+            return f"EN_CHECK{where}: ENO was FALSE"
+        return f"{self.variable}{where} was {self.value}, outside of {self.low}..{self.high}"
+
+
+@dataclass(frozen=True, slots=True)
+class Violations:
+    """The list as it stands, in the order in which the places first violated."""
+
+    entries: tuple[Violation, ...] = ()
+    dropped: int = 0
+    """Violations that found the list full."""
+    count: int = 0
+    """Violations in all, saturating at 2**32 - 1."""
+
+
+def read_violations(program: Program, image: bytes | bytearray | memoryview) -> Violations:
+    """The violations recorded in an image since they were last cleared."""
+    layout = program.layout
+    if not layout.violations:
+        return Violations()
+    used, dropped = _HEAD.unpack_from(image, layout.violations)
+    count = int.from_bytes(image[Layout.SUBRANGE_COUNT : Layout.SUBRANGE_COUNT + 4], "little")
+    at = layout.violations + _HEAD.size
+    entries = []
+    for index in range(min(used, Layout.VIOLATION_LIMIT)):
+        number, times, instance, value, first, last = _ENTRY.unpack_from(image, at + index * _ENTRY.size)
+        if not 1 <= number <= len(program.checks):
+            continue  # a tool wrote over the list
+        site = program.checks[number - 1]
+        path = instance_at(program, instance, site.pou) if instance else ""
+        shown = _signed(site, value)
+        made = Violation(
+            number, site.span, site.pou, path, site.variable, shown, site.low, site.high, times, first, last
+        )
+        entries.append(made)
+    return Violations(tuple(entries), dropped, count)
+
+
+def cleared(layout: Layout) -> tuple[tuple[int, bytes], ...]:
+    """What to write, and where, so that the list is empty and nothing has happened."""
+    if not layout.violations:
+        return ()
+    size = _HEAD.size + Layout.VIOLATION_LIMIT * Layout.VIOLATION_BYTES
+    return ((layout.violations, bytes(size)), (Layout.SUBRANGE_ERROR, bytes(1)), (Layout.SUBRANGE_COUNT, bytes(4)))
+
+
+def _signed(site: CheckSite, value: int) -> int:
+    """The list keeps 64 bits: bounds beyond LINT say that they are a ULINT's."""
+    return value if site.high >= 1 << 63 or value < 1 << 63 else value - (1 << 64)

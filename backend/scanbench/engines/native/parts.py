@@ -1,0 +1,121 @@
+"""The modules of a program, part by part; what did not change since the last program is not emitted again."""
+
+from dataclasses import dataclass, field
+
+from scanbench.check.program import Pou, Program, Stmt
+from scanbench.engines.native import inlining, jit, walk
+from scanbench.engines.native.effects import Effects
+from scanbench.engines.native.emit_body import SCRATCH_LIMIT, TooLarge
+from scanbench.engines.native.emit_program import Emitter
+from scanbench.engines.native.registers import Signature, signature
+
+
+@dataclass(eq=False, slots=True)
+class Part:
+    """One module."""
+
+    text: str
+    scratch: int
+    """Bytes of temporaries."""
+    _keys: dict[int, str] = field(default_factory=dict)
+
+    def key(self, opt_level: int) -> str:
+        """Under which its object code is kept."""
+        known = self._keys.get(opt_level)
+        if known is None:
+            known = self._keys[opt_level] = jit.object_key(self.text, opt_level)
+        return known
+
+
+class _Same:
+    """Equal to the same object only: a body is never changed, and comparing two would take long."""
+
+    __slots__ = ("body",)
+
+    def __init__(self, body: tuple[Stmt, ...]) -> None:
+        self.body = body
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Same) and other.body is self.body
+
+    def __hash__(self) -> int:
+        return id(self.body)
+
+
+@dataclass(frozen=True, slots=True)
+class _Body:
+    """What a POU's body says, without what it calls."""
+
+    same: _Same
+    writes: frozenset[str]
+    callees: tuple[Pou, ...]
+    shared: bool
+    signature: Signature | None
+
+
+@dataclass(frozen=True, slots=True)
+class _Emitted:
+    depends: object
+    part: Part
+
+
+class Parts:
+    """Makes the parts of programs. It remembers the last program: the next one may share POUs with it."""
+
+    def __init__(self) -> None:
+        self._bodies: dict[Pou, _Body] = {}
+        self._emitted: dict[Pou, _Emitted] = {}
+
+    def of(self, program: Program) -> list[Part]:
+        """One part for each POU, the scan, and the numbers that the others refer to."""
+        bodies: dict[Pou, _Body] = {}
+        emitted: dict[Pou, _Emitted] = {}
+        faces: dict[Pou, object] = {}
+        writes: dict[Pou, frozenset[str]] = {}
+        signatures: dict[Pou, Signature] = {}
+        emitter = Emitter(program, Effects(writes), signatures)
+        for pou in program.pous:
+            body = bodies[pou] = self._body(pou)
+            writes[pou] = body.writes.union(*(writes[callee] for callee in body.callees))
+            if body.signature is not None:
+                signatures[pou] = body.signature
+            if pou in emitter.housed:
+                continue  # no POU calls a program
+            called = tuple(faces[callee] for callee in body.callees)
+            faces[pou] = _face(emitter.names[pou], pou, body, writes[pou], called)
+            depends = (emitter.names[pou], body.same, pou.frame_offset, program.layout.size, called)
+            known = self._emitted.get(pou)
+            if known is None or known.depends != depends:
+                unit = emitter.pou(pou)
+                known = _Emitted(depends, Part(unit.module.text(), unit.scratch))
+            emitted[pou] = known
+        self._bodies, self._emitted = bodies, emitted
+        ends = [Part(unit.module.text(), unit.scratch) for unit in (emitter.scan(), emitter.numbers())]
+        return _fitting([*(each.part for each in emitted.values()), *ends])
+
+    def _body(self, pou: Pou) -> _Body:
+        known = self._bodies.get(pou)
+        if known is not None and known.same.body is pou.body:
+            return known
+        callees = dict.fromkeys(seen for seen in walk.of_statements(pou.body) if isinstance(seen, Pou))
+        writes = Effects(dict.fromkeys(callees, frozenset())).written(pou.body)
+        how = signature(pou) if pou.kind == "function" else None
+        return _Body(_Same(pou.body), writes, tuple(callees), inlining.shared(pou), how)
+
+
+def _face(name: str, pou: Pou, body: _Body, writes: frozenset[str], called: object) -> object:
+    """Everything that the modules of callers may depend on."""
+    how = body.signature
+    passed = how and tuple((each.member.name, each.member.offset, each.passing) for each in how.all)
+    inside = (body.same, called) if body.shared else None
+    return name, pou.frame_offset, passed, writes, inside
+
+
+def _fitting(parts: list[Part]) -> list[Part]:
+    needed = sum(part.scratch for part in parts)
+    if needed > SCRATCH_LIMIT:
+        raise TooLarge(
+            f"the POUs need {needed} bytes for strings, arrays and structures inside of statements; all together may use "
+            f"{SCRATCH_LIMIT}: use smaller types, or make several statements of the largest"
+        )
+    return parts

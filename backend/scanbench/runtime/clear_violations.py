@@ -1,0 +1,19 @@
+"""ClearViolations: empties the list of subrange violations, and what the program sees of it."""
+
+from dataclasses import dataclass
+
+from scanbench.check.violations import cleared, read_violations
+from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
+
+
+@dataclass(frozen=True, slots=True)
+class ClearViolations(Command):
+    """Also sets `_SubrangeError` to FALSE and `_SubrangeErrorCount` to 0, in every mode."""
+
+    def plan(self, view: View) -> Plan | Refusal:
+        """Zeros over the list."""
+        patches = tuple(Patch.whole(offset, data) for offset, data in cleared(view.program.layout))
+        if not patches:
+            return Plan((), "this program has no subrange checks, so there is nothing to clear")
+        count = read_violations(view.program, view.memory).count
+        return Plan(patches, f"runtime diagnostics cleared: {count} violation{'s' * (count != 1)}")

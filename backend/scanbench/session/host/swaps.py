@@ -1,0 +1,43 @@
+"""What builds hand over to the loop, which takes it in its seam."""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from scanbench.check.program import Program
+from scanbench.engines.engine import Engine
+
+
+@dataclass(frozen=True, slots=True)
+class Swap:
+    """A compiled program, ready to take over."""
+
+    ref: int
+    program: Program
+    engine: Engine
+    memory: bytearray
+    version: int
+    author: str
+
+
+@dataclass(frozen=True, slots=True)
+class BuildRefused:
+    """A build that came to nothing."""
+
+    ref: int
+    message: str
+
+
+@dataclass(frozen=True, slots=True)
+class Recode:
+    """Optimised code of a program, on the same memory; no engine when it was given up."""
+
+    program: Program
+    engine: Engine | None
+
+
+class Optimising(Protocol):
+    """Who makes optimised code behind."""
+
+    @property
+    def optimising(self) -> bool:
+        """Whether optimised code is still to come."""

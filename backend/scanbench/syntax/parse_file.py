@@ -1,0 +1,28 @@
+"""One file of a project -> tree, whatever it is written in: the ending of its name says how to read it."""
+
+from scanbench.problems import Problem
+from scanbench.syntax import tree
+from scanbench.syntax.parse_st import parse_st
+from scanbench.syntax.source import Source
+from scanbench.syntax.tcpou import parse_tc
+
+TEXT_ENDINGS = (".st", ".iecst", ".exp")
+"""Plain text; `.exp` is what older CODESYS exports."""
+XML_ENDINGS = (".tcpou", ".tcdut", ".tcgvl", ".tcio")
+ENDINGS = TEXT_ENDINGS + XML_ENDINGS
+"""Of the names of program files, in lower case."""
+MAX_SIZE = 8_000_000
+"""Characters of one file: 200,000 lines and more."""
+
+
+def is_program_file(name: str) -> bool:
+    """Whether a file of this name is part of a program."""
+    return name.lower().endswith(ENDINGS)
+
+
+def parse_file(source: Source) -> tuple[tree.File, list[Problem]]:
+    """The tree of what could be read, and every problem on the way, in the order of the text."""
+    if len(source.text) > MAX_SIZE:
+        message = f"This file has more than {MAX_SIZE:,} characters; split it up."
+        return tree.File(source.name), [Problem("S003", message, source.span(0, 1))]
+    return parse_tc(source) if source.name.lower().endswith(XML_ENDINGS) else parse_st(source)

@@ -1,0 +1,33 @@
+"""Every problem has a page, and the examples on it do what the page says."""
+
+import re
+from pathlib import Path
+
+import pytest
+
+from scanbench.check.build import check_sources
+from scanbench.problems import TABLE, Severity
+from tests.caseformat import MODELS
+
+PAGES = Path(__file__).parents[3] / "docs/problems"
+FENCE = re.compile(r"```(\w+)\n(.*?)\n```", re.DOTALL)
+LANGUAGE = sorted(code for code in TABLE if not code.startswith("M"))
+
+
+def examples(code: str) -> tuple[str, str]:
+    """The failing and the mended example of a page."""
+    failing, mended = FENCE.findall((PAGES / f"{code}.md").read_text("utf-8"))
+    return failing[1], mended[1]
+
+
+def test_every_problem_has_a_page_with_its_title() -> None:
+    titles = {path.stem: path.read_text("utf-8").splitlines()[0] for path in PAGES.glob("????.md")}
+    assert titles == {code: f"# {code}: {title}" for code, title in TABLE.items()}
+
+
+@pytest.mark.parametrize("code", LANGUAGE)
+def test_the_failing_example_fails_and_the_mended_one_does_not(code: str) -> None:
+    model = MODELS["CJ1M-CPU63" if code == "T011" else "GENERIC-IEC"]
+    failing, mended = (check_sources({"a.st": text}, model).problems for text in examples(code))
+    assert code in {problem.code for problem in failing}, failing
+    assert [problem for problem in mended if problem.severity is Severity.ERROR or problem.code == code] == []

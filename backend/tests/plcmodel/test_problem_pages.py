@@ -1,0 +1,18 @@
+"""The examples on the pages of the problems of model files."""
+
+import pytest
+
+from scanbench.problems import TABLE
+from tests.docs.test_problem_pages import examples
+
+from .conftest import Load
+from .test_load import SMALL
+
+
+@pytest.mark.parametrize("code", sorted(code for code in TABLE if code.startswith("M")))
+def test_the_failing_example_fails(code: str, load: Load) -> None:
+    """They are parts of a small model that is right as it stands."""
+    failing, mended = examples(code)
+    assert SMALL.count(mended) == 1, mended
+    problems = load(SMALL.replace(mended, failing))[1]
+    assert code in {problem.code for problem in problems}, problems

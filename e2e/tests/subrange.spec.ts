@@ -1,0 +1,101 @@
+import { expect, test } from '../fixtures/test';
+
+const PROGRAM = `TYPE
+  Level : INT (0..1000);
+  Color : (RED, GREEN, BLUE);
+END_TYPE
+
+FUNCTION_BLOCK Valve
+VAR_INPUT want : INT; END_VAR
+VAR open : Level; END_VAR
+  open := want;
+END_FUNCTION_BLOCK
+
+PROGRAM Main
+VAR
+  x    : Level;
+  y    : INT := 5;
+  z    : INT;
+  err  : BOOL;
+  lamp : Color := GREEN;
+  text : WSTRING[20] := "Grüße";
+  v1   : Valve;
+END_VAR
+  z := x + y;
+  err := SUBRANGE_ERROR(x);
+  v1(want := z);
+  x := 7 * 2;
+END_PROGRAM
+`;
+
+test('a value outside of its subrange is limited, listed, marked, and leads to the source', async ({ openAs }) => {
+  const jo = await openAs('Jo');
+  await jo.runs();
+  await jo.top.newProject('Subranges');
+  const main = jo.editor('Main.st');
+  await expect(main.region).toBeVisible();
+  await main.replaceWith(PROGRAM.replace('  x := 7 * 2;\n', ''));
+  await main.build();
+  await expect(main.outcome).toContainText('Built');
+  await jo.runs();
+  for (const path of ['Main.x', 'Main.z', 'Main.err', 'Main.lamp', 'Main.text']) await jo.watch.add(path);
+
+  await test.step('enumerations are shown by name and written so, wide strings in their quotes', async () => {
+    await jo.watch.shows('Main.lamp', 'GREEN');
+    await jo.watch.set('Main.lamp', 'Color#BLUE');
+    await jo.watch.shows('Main.lamp', 'BLUE');
+    await jo.watch.shows('Main.text', '"Grüße"');
+  });
+
+  await test.step('nothing is listed as long as all is well', async () => {
+    await jo.diagnostics.show();
+    await expect(jo.page.getByText('No violations.')).toBeVisible();
+    await jo.showPanel('Watch');
+  });
+
+  await test.step('the operation goes on with the limited value, and the program sees it', async () => {
+    await jo.watch.set('Main.x', '1200');
+    await jo.watch.shows('Main.z', '1005');
+    await jo.watch.shows('Main.err', 'TRUE');
+  });
+
+  const mika = await openAs('Mika');
+  await mika.runs();
+  await mika.top.goTo(/Subranges/);
+  for (const ide of [jo, mika]) {
+    await test.step('everybody sees place, instance, value and how often', async () => {
+      await ide.diagnostics.show();
+      const read = ide.diagnostics.entry('x was 1200, outside of 0..1000');
+      await expect(read).toContainText('Main.st:22:8');
+      await expect(ide.diagnostics.entry('open was 1005, outside of 0..1000')).toContainText('Main.v1');
+    });
+  }
+
+  await test.step('a click goes to the source, which is marked', async () => {
+    await jo.diagnostics.entry('open was 1005').click();
+    await expect(jo.statusBar).toContainText('Ln 9,');
+    await expect(main.region.locator('.squiggly-warning').first()).toBeVisible();
+    await jo.page.screenshot({ path: 'test-results/subrange.png' });
+  });
+
+  await test.step('the view of embedded checks shows them in the text, and those that are not needed', async () => {
+    await main.replaceWith(PROGRAM);
+    await expect(main.region.getByText('⊂ 0..1000')).toHaveCount(0);
+    await main.region.getByRole('button', { name: 'Show embedded checks' }).click();
+    await expect(main.region.getByText('⊂ 0..1000').first()).toBeVisible();
+    await expect(main.region.getByText('✓ 0..1000').first()).toBeVisible();
+    await jo.page.screenshot({ path: 'test-results/subrange-checks.png' });
+    await main.region.getByRole('button', { name: 'Show embedded checks' }).click();
+    await expect(main.region.getByText('⊂ 0..1000')).toHaveCount(0);
+  });
+
+  await test.step('back in range, the list is cleared for everybody', async () => {
+    await jo.showPanel('Watch');
+    await jo.watch.set('Main.x', '12');
+    await jo.watch.shows('Main.z', '17');
+    await jo.diagnostics.show();
+    await jo.diagnostics.clearButton.click();
+    await expect(jo.page.getByText('No violations.')).toBeVisible();
+    await expect(mika.page.getByText('No violations.')).toBeVisible();
+  });
+});
