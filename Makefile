@@ -21,6 +21,7 @@ SOURCES = $(shell find frontend/src frontend/public frontend/index.html frontend
 NODE_ROOTS := $(patsubst %/package-lock.json,%,$(wildcard frontend/package-lock.json frontend/tools/package-lock.json e2e/package-lock.json))
 
 .PHONY: help setup setup-test run test check bench shots lock clean
+.PHONY: fuzz features
 .PHONY: lint types layers unit wire wire-check frontend-check frontend-unit frontend-build e2e
 .PHONY: tools-python tools-node system-chromium system-postgresql
 
@@ -29,6 +30,8 @@ help:
 	@echo "make test    everything: lint, types, layers, unit and case tests, frontend, browser stories"
 	@echo "make check   lint, types and layers only"
 	@echo "make bench   time the native engine beside C, and what watched values cost"
+	@echo "make fuzz    compare the engines on fresh random programs (N=100000, SEED=1 to begin with)"
+	@echo "make features  write docs/features.md: the features of the standard and the cases that show them"
 	@echo "make shots   take the README's screenshots again"
 	@echo "make wire    generate the browser's types from the backend's messages"
 	@echo "make lock    resolve the dependencies again and write the lock files"
@@ -51,6 +54,14 @@ check: $(VENV)/.stamp-runtime $(VENV)/.stamp-dev $(NODE_ROOTS:%=%/node_modules/.
 bench: $(VENV)/.stamp-runtime
 	@$(BIN)/scanbench bench $(ARGS)
 	@$(BIN)/python -m scanbench.bench.watch
+
+N ?= 10000
+SEED ?=
+fuzz: $(VENV)/.stamp-dev
+	@cd backend && $(BIN)/python -m tests.programs $(N) $(SEED)
+
+features: $(VENV)/.stamp-dev
+	@cd backend && $(BIN)/python -m tests.features
 
 shots: setup-test
 	@cd e2e && $(NPM) run shots

@@ -10,14 +10,15 @@ from scanbench.check.layout import Layout
 from scanbench.check.program import Program
 from scanbench.check.symbols import Symbol, UnknownPath, at_offset, resolve
 from scanbench.check.values import format_value, parse_value
+from scanbench.check.violations import read_violations
 from scanbench.engines.engine import Engine, Reason, Stop
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.syntax.literals import duration
 
-HEAD = re.compile(r"^\[(case|source|scans|trap|model|interval|budget|feature)\b\s*(.*?)\]\s*$")
+HEAD = re.compile(r"^\[(case|source|scans|trap|model|interval|budget|feature|violations)\b\s*(.*?)\]\s*$")
 LINE = re.compile(r"^\s*(\d+)\s*:(.*?)(?:\|(.*))?$")
-PAIR = re.compile(r"\s*([^\s:=,]+(?:\[[^\]]*\][^\s:=,]*)*)\s*:?=\s*('(?:\$.|[^'])*'|[^,]+)\s*(?:,|$)")
+PAIR = re.compile(r"\s*([^\s:=,]+(?:\[[^\]]*\][^\s:=,]*)*)\s*:?=\s*('(?:\$.|[^'])*'|\"(?:\$.|[^\"])*\"|[^,]+)\s*(?:,|$)")
 
 MODELS: dict[str, Model] = {model.name: model for model in load_all(model_directory())[0]}
 
@@ -43,6 +44,8 @@ class Case:
     budget: int | None = None
     features: list[str] = field(default_factory=list)
     """Numbers of what it shows, as in `tests/features`: `72.4`."""
+    violations: list[str] | None = None
+    """The list of subrange violations after the last scan, as `shown_violations` writes it."""
 
 
 def read_cases(path: Path) -> list[Case]:
@@ -66,8 +69,14 @@ def read_cases(path: Path) -> list[Case]:
                 cases[-1].features += rest.replace(",", " ").split()
             elif part == "interval":
                 cases[-1].interval_ns = duration(rest)
+            elif part == "violations":
+                cases[-1].violations = []
         elif part == "source":
             cases[-1].source += line + "\n"
+        elif part == "violations" and line.strip():
+            expected_violations = cases[-1].violations
+            assert expected_violations is not None
+            expected_violations.append(line.strip())
         elif part == "scans" and line.strip():
             match = LINE.match(line)
             assert match, f"{path}:{number}: a line is `scan: sets | expectations`"
@@ -144,6 +153,19 @@ def run_case(case: Case, engines: list[Callable[[Program, bytearray], Engine]]) 
             shown = find(program, path, memories[0])[2]
             assert same(shown, value), f"line {step.line if step else 0}, scan {scan}: {path} is {shown}, not {value}"
         check_stop(program, case, stops[0], scan == last)
+    if case.violations is not None:
+        assert shown_violations(program, memories[0]) == case.violations
+
+
+def shown_violations(program: Program, memory: bytearray) -> list[str]:
+    """A line for each: `line:column instance variable = value, low..high, times, scans first..last`."""
+    found = read_violations(program, memory)
+    lines = [
+        f"{each.span.line}:{each.span.column} {each.instance or each.pou} {each.variable} = {each.value}, "
+        f"{each.low}..{each.high}, {each.times}, scans {each.first_scan}..{each.last_scan}"
+        for each in found.entries
+    ]
+    return lines + ([f"dropped {found.dropped}"] if found.dropped else [])
 
 
 def same(shown: str, wanted: str) -> bool:

@@ -23,8 +23,10 @@ from scanbench.check.scopes import decode, place_of
 from scanbench.check.standard_calls import StandardCallChecker
 from scanbench.check.types import (
     BOOL,
+    INT,
     ArrayType,
     Elementary,
+    Kind,
     Member,
     OpenArray,
     Record,
@@ -156,7 +158,8 @@ class ArgumentChecker(StandardCallChecker):
                 return
             taken = self.temporary(member.type, value.span)
             bound.places[key] = taken
-            bound.after.append(Assign(target, self._output(Load(taken), target.type, argument), argument.span))
+            value = _generic(member, Load(taken), target.type)
+            bound.after.append(Assign(target, self._output(value, target.type, argument), argument.span))
 
     def _output(self, value: Expr, target: Type, argument: tree.Argument) -> Expr:
         """What is stored for `name => target` or `NOT name => target`."""
@@ -223,6 +226,14 @@ class ArgumentChecker(StandardCallChecker):
         name, which = member.name.upper().rsplit("$", 1)
         low, number = which.startswith("LOW"), int(which.lstrip("LOWHIG"))
         return self.array_bounds(places[name])[number - 1][0 if low else 1]
+
+
+def _generic(output: Member, value: Expr, target: Type) -> Expr:
+    """An integer output of a standard function (SPLIT_DATE) is of ANY_INT: it becomes what it is stored in."""
+    whole = isinstance(target, Elementary) and target.kind in (Kind.INT, Kind.UINT)
+    if whole and isinstance(target, Elementary) and output.type == INT and output.span.file.startswith("standard/"):
+        return fold.convert(target, value)
+    return value
 
 
 def _takes(target: Type, output: Type) -> bool:

@@ -115,11 +115,12 @@ class Checker:
             if method.pou is not None and not method.abstract:
                 self._check_method(method, method.pou)
         self._check_library()
+        order = self._order()
+        self.report.join(order)
         configurations = [each for file in self.parsed for each in file.configurations]
         return assemble(
-            self.report, self.declarations, self.pous, self.globals, self._order(), configurations, interval_ns,
-            self._end(),
-        )  # fmt: skip
+            self.report, self.declarations, self.pous, self.globals, order, configurations, interval_ns, self._end()
+        )
 
     def _end(self) -> Span:
         """Where a problem of the whole program is shown: at the beginning of its first file."""
@@ -135,10 +136,17 @@ class Checker:
         return CallChecker(self.report, self.declarations, self.pous, scope, None).constant(node, type)
 
     def _declare_pous(self) -> None:
+        blocks_of_library = []
         for key, declaration in (*self.declarations.block_trees.items(), *self.names.functions.items()):
+            if declaration.kind == "function_block" and declaration.span.file.startswith("standard/"):
+                blocks_of_library.append((key, declaration))
+                continue
             with self.declarations.names.within(Space(declaration.namespace, declaration.using)):
                 self._declare_pou(key, declaration)
         declare_methods(self.pous.classes, self.declarations)
+        for key, declaration in blocks_of_library:
+            if key in self.declarations.types:  # somebody declared an instance
+                self._declare_pou(key, declaration)
         check_classes(self.pous.classes, self.report)
         methods = [each.pou.frame for each in self.pous.classes.methods() if each.pou is not None]
         blocks = [each for each in self.declarations.types.values() if isinstance(each, Record)]
@@ -185,7 +193,7 @@ class Checker:
     def _check(
         self, pou: Pou, declaration: tree.PouDeclaration, instance: Record, space: Space, this: Place | None
     ) -> None:
-        with self.declarations.names.within(space):
+        with self.declarations.names.within(space), self.report.apart() as self.report.parts[pou]:
             externals = self._externals(declaration, pou, instance, space)
             scope = Scope(pou.name, self.globals, instance, pou.frame, externals, this=this, space=space)
             pou.body = StatementChecker(self.report, self.declarations, self.pous, scope, pou).body(declaration.body)

@@ -24,6 +24,7 @@ from scanbench.check.program import (
     Sequence,
     SetBytes,
     Stmt,
+    Violates,
 )
 from scanbench.check.scopes import decode
 from scanbench.check.standard.functions import FUNCTIONS

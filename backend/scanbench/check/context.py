@@ -1,10 +1,11 @@
 """What all parts of the checker share: problems met, sites of traps and subrange checks, near matches."""
 
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 
-from scanbench.check.program import CheckSite, TrapKind, TrapSite
+from scanbench.check.program import CheckSite, Pou, TrapKind, TrapSite
 from scanbench.problems import Problem, Severity, Span
 
 
@@ -19,6 +20,28 @@ class Report:
     problems: list[Problem] = field(default_factory=list)
     traps: list[TrapSite] = field(default_factory=list)
     checks: list[CheckSite] = field(default_factory=list)
+    parts: dict[Pou, "Report"] = field(default_factory=dict)
+    """What was met in the body of each POU; its sites are numbered from 1 there."""
+
+    @contextmanager
+    def apart(self) -> Iterator["Report"]:
+        """What is met meanwhile goes into a report of its own, for `parts`."""
+        before, inner = (self.problems, self.traps, self.checks), Report()
+        self.problems, self.traps, self.checks = inner.problems, inner.traps, inner.checks
+        try:
+            yield inner
+        finally:
+            self.problems, self.traps, self.checks = before
+
+    def join(self, order: Iterable[Pou]) -> None:
+        """Takes over the parts of these POUs, whose sites then count from the end of what is there."""
+        for pou in order:
+            part = self.parts.get(pou)
+            if part is not None:
+                pou.first_trap, pou.first_check = len(self.traps), len(self.checks)
+                self.problems += [problem for problem in part.problems if problem not in self.problems]
+                self.traps += part.traps
+                self.checks += part.checks
 
     def error(self, code: str, message: str, span: Span) -> None:
         problem = Problem(code, message, span)

@@ -68,7 +68,9 @@ class Dispatcher:
         return known or self._remember(name, found, lambda: self._body(name, owner, found))
 
     def _remember(self, name: str, found: dict[Pou, list[int]], make: Callable[[], Pou]) -> Pou:
-        made = self.pous.dispatchers[name] = make()
+        with self.report.apart() as part:
+            made = self.pous.dispatchers[name] = make()
+        self.report.parts[made] = part
         for callee in found:
             self.pous.use(made, callee)
         return made

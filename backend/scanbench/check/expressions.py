@@ -94,7 +94,7 @@ class ExpressionChecker(OperatorChecker):
             case tree.PartialAccess():
                 return self._part_value(node)
             case tree.IndexOf():
-                return self._character_at(node) or self._read(node)
+                return self._element(node)
             case _:
                 return self._read(node)
 
@@ -162,18 +162,15 @@ class ExpressionChecker(OperatorChecker):
             return fold.compare("ne", BOOL, fold.binary("and", LWORD, shifted, Const(LWORD, 1)), Const(LWORD, 0))
         return fold.convert(part, shifted)
 
-    def _character_at(self, node: tree.IndexOf) -> Expr | None:
-        """`text[1]`: one character of a string."""
-        if len(node.indices) != 1 or not self._is_text(node.array):
-            return None
-        text = self.expr(node.array)
-        assert isinstance(text.type, StringType)
-        index = self._index_value(node.indices[0])
-        return Intrinsic("CHAR_AT", CHAR if text.type.width == 1 else WCHAR, (text, fold.convert(LINT, index)))
-
-    def _is_text(self, node: tree.Expression) -> bool:
-        found = self.scope.find(node.name) if isinstance(node, tree.Name) else None
-        return found is not None and isinstance(found[0].type, StringType)
+    def _element(self, node: tree.IndexOf) -> Expr:
+        """An element of an array; `text[1]` is one character of a string."""
+        place, member = self.place(node.array)
+        if isinstance(place.type, StringType) and len(node.indices) == 1:
+            index = fold.convert(LINT, self.index_value(node.indices[0]))
+            text = self.known(place, member) or Load(place)
+            return Intrinsic("CHAR_AT", CHAR if place.type.width == 1 else WCHAR, (text, index))
+        place, member = self.automatic(*self.elements(place, member, node), node)
+        return self.known(place, member) or self.read(place, node.span, shown(node))
 
     # ---- operators --------------------------------------------------------------------------------------
 

@@ -9,10 +9,21 @@ from typing import TYPE_CHECKING
 
 from scanbench.check import conversions
 from scanbench.check.context import Rejected, did_you_mean
-from scanbench.check.il_flow import BROKEN, NOTHING, Current, Flow
+from scanbench.check.il_flow import BROKEN, NOTHING, Current, Flow, Label
 from scanbench.check.program import Assign, Blocks, Const, If, Jump, Pou, Return, Stmt, TrapKind
 from scanbench.check.standard.functions import FUNCTIONS
-from scanbench.check.types import BOOL, ArrayType, Kind, OpenArray, Record, Section, Type, has_instance
+from scanbench.check.types import (
+    BOOL,
+    ArrayType,
+    Elementary,
+    Kind,
+    OpenArray,
+    Record,
+    Section,
+    Type,
+    base_of,
+    has_instance,
+)
 from scanbench.check.untyped import ANY_INT, is_untyped, settle
 from scanbench.problems import Span
 from scanbench.syntax import tree
@@ -51,6 +62,7 @@ class InstructionList:
         self._open: list[_Open] = []
         self._current: Current = NOTHING
         self._dead = False
+        self._find_wanted()
 
     def statements(self) -> tuple[Stmt, ...]:
         """The statements of the body; with labels, one `Blocks`."""
@@ -77,6 +89,35 @@ class InstructionList:
                 self._report.error(
                     "D001", f"The label `{node.label}` stands already in line {known.line}; rename one.", node.span
                 )
+
+    def _find_wanted(self) -> None:
+        """What the first instruction at each label works on tells which type a literal takes that a jump brings there."""
+        fresh: list[Label] = []
+        for node in self._body.instructions:
+            if node.label is not None:
+                fresh.append(self._flow.labels[node.label.upper()])
+            if not node.operator:
+                continue
+            takes = node.operator == "ST" or (node.operator in BINARY and not node.arguments)
+            type = self._type(node.operand) if takes and node.operand is not None else None
+            for label in fresh:
+                label.wanted = base_of(type) if isinstance(type, Elementary) else None
+            fresh.clear()
+
+    def _literal_for(self, name: str) -> None:
+        """Before the way to a label: a literal is kept in the type that is wanted there."""
+        label, current = self._flow.labels[name.upper()], self._current
+        if not label.used or label.wanted is None or not isinstance(current.node, tree.Literal):
+            return
+        span, mark = current.node.span, self._report.mark()
+        try:
+            value = self._checker.as_type(current.node, label.wanted, "The current result")
+        except Rejected:
+            self._report.undo(mark)
+            return
+        register = self._register(label.wanted, span)
+        self._emit(Assign(self._checker.place(register)[0], value, span))
+        self._current = Current(register, label.wanted)
 
     def _round(self) -> None:
         self._flow.start()
@@ -112,6 +153,7 @@ class InstructionList:
             )
             self._open.clear()
             self._current = BROKEN
+        self._literal_for(name)
         self._blocks.append([])
         joined = self._flow.enter(name, self._current)
         self._dead = self._dead and not self._flow.falls
@@ -244,6 +286,7 @@ class InstructionList:
         target = labels[operand.name.upper()].block
         back = target < len(self._blocks)
         trap = self._checker.trap(TrapKind.LOOP, node.span, "the jump back never ends") if back else 0
+        self._literal_for(operand.name)
         self._flow.jump(operand.name, self._current)
         self._conditionally(node, Jump(target, back, trap, node.span))
         self._flow.falls = self._flow.falls and node.conditional

@@ -35,6 +35,8 @@ class Label:
     """Number of the block that begins here; block 0 comes before all labels."""
     used: bool = False
     """Whether any JMP names it."""
+    wanted: Type | None = None
+    """What a literal becomes on its way here."""
     ways: list[Current] = field(default_factory=list)
     """The current result on each way to here, in this round."""
     taken: Current = BROKEN

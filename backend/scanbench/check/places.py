@@ -10,6 +10,7 @@ from scanbench.check.scopes import SYSTEM, decode, place_of
 from scanbench.check.shown import shown
 from scanbench.check.types import (
     BOOL,
+    DINT,
     ELEMENTARY,
     LINT,
     SLOT_BYTES,
@@ -24,7 +25,7 @@ from scanbench.check.types import (
     Section,
     Type,
 )
-from scanbench.check.untyped import settle
+from scanbench.check.untyped import ANY_INT, settle
 from scanbench.problems import Span
 from scanbench.syntax import tree
 
@@ -45,7 +46,10 @@ Found = tuple[Place, Member | None]
 class PlaceChecker(SubrangeChecker):
     def place(self, node: tree.Expression) -> Found:
         """The variable; of a REFERENCE TO, what it refers to."""
-        place, member = self.raw_place(node)
+        return self.automatic(*self.raw_place(node), node)
+
+    def automatic(self, place: Place, member: Member | None, node: tree.Expression) -> Found:
+        """Of a REFERENCE TO, what it refers to."""
         if isinstance(place.type, Reference) and place.type.automatic:
             return self.behind(Load(place), node.span, shown(node)), None
         return place, member
@@ -58,7 +62,7 @@ class PlaceChecker(SubrangeChecker):
             case tree.MemberOf():
                 return self._member(node)
             case tree.IndexOf():
-                return self._indexed(node)
+                return self.elements(*self.place(node.array), node)
             case tree.Dereference():
                 return self._dereferenced(node)
             case tree.PartialAccess(owner, size, index, span):
@@ -175,8 +179,8 @@ class PlaceChecker(SubrangeChecker):
 
     # ---- elements ---------------------------------------------------------------------------------------
 
-    def _indexed(self, node: tree.IndexOf) -> Found:
-        place, member = self.place(node.array)
+    def elements(self, place: Place, member: Member | None, node: tree.IndexOf) -> Found:
+        """The element of an array, or what a pointer with an index points to."""
         type, indices = place.type, list(node.indices)
         if isinstance(type, Reference) and type.pointer and len(indices) == 1:
             moved = self.moved("add", Load(place), self.expr(indices[0]), node.span, of_target=True)
@@ -199,7 +203,7 @@ class PlaceChecker(SubrangeChecker):
         """A pointer further on; see `ReferenceChecker`."""
         raise NotImplementedError
 
-    def _index_value(self, node: tree.Expression) -> Expr:
+    def index_value(self, node: tree.Expression) -> Expr:
         index = settle(self.expr(node))
         if not isinstance(index.type, Elementary) or index.type.kind not in (Kind.INT, Kind.UINT):
             raise self.report.reject("T002", f"An index is an integer, not {index.type}.", node.span)
@@ -208,7 +212,7 @@ class PlaceChecker(SubrangeChecker):
     def _index(self, place: Place, type: ArrayType, dimension: int, node: tree.Expression) -> Place:
         low, high = type.bounds[dimension]
         stride = type.stride(dimension)
-        index = self._index_value(node)
+        index = self.index_value(node)
         if isinstance(index, Const):
             number = int(index.value)
             if not low <= number <= high:
@@ -224,7 +228,7 @@ class PlaceChecker(SubrangeChecker):
             count = fold.binary("add", LINT, fold.binary("sub", LINT, high, low), Const(LINT, 1))
             stride = fold.binary("mul", LINT, stride, count)
         trap = self.trap(TrapKind.BOUNDS, node.span, "index outside of the bounds of this ARRAY[*]")
-        index = Index(self._index_value(node), *limits[dimension], stride, trap)
+        index = Index(self.index_value(node), *limits[dimension], stride, trap)
         return replace(place, indices=(*place.indices, index))
 
     def array_bounds(self, place: Place) -> list[tuple[Expr, Expr]]:
@@ -260,7 +264,8 @@ class PlaceChecker(SubrangeChecker):
         number = settle(self.expr(values[1]))
         if not isinstance(number, Const) or not isinstance(number.value, int) or not 1 <= number.value <= len(limits):
             raise self.report.reject("T012", f"The dimension is a constant from 1 to {len(limits)}.", values[1].span)
-        return limits[number.value - 1][upper]
+        bound = limits[number.value - 1][upper]
+        return Const(ANY_INT, bound.value) if isinstance(bound, Const) else fold.convert(DINT, bound)
 
     # ---- parts of integers ------------------------------------------------------------------------------
 

@@ -66,7 +66,7 @@ def read_violations(program: Program, image: bytes | bytearray | memoryview) -> 
         path = instance_at(program, instance, site.pou) if instance else ""
         shown = _signed(site, value)
         made = Violation(
-            number, site.span, site.pou, path, site.variable, shown, site.low, site.high, times, first, last
+            number, _plain(site.span), site.pou, path, site.variable, shown, site.low, site.high, times, first, last
         )
         entries.append(made)
     return Violations(tuple(entries), dropped, count)
@@ -78,6 +78,11 @@ def cleared(layout: Layout) -> tuple[tuple[int, bytes], ...]:
         return ()
     size = _HEAD.size + Layout.VIOLATION_LIMIT * Layout.VIOLATION_BYTES
     return ((layout.violations, bytes(size)), (Layout.SUBRANGE_ERROR, bytes(1)), (Layout.SUBRANGE_COUNT, bytes(4)))
+
+
+def _plain(span: Span) -> Span:
+    """A span as data, to be sent on: one of a tree may still keep its whole text."""
+    return Span(span.file, span.line, span.column, span.end_line, span.end_column)
 
 
 def _signed(site: CheckSite, value: int) -> int:

@@ -85,9 +85,14 @@ class Cursor:
         if kind is Lex.KEYWORD:
             raise self.fail(f"{what} expected; `{self.texts[self.at]}` is a keyword and cannot be a name")
         if kind is Lex.STRING and self.texts[self.at][0] == '"':
-            self.report("X001", f"Names in quotes are not supported; write {self.texts[self.at][1:-1]}.", self.here())
-            raise Unexpected
+            raise self.quoted(self.at)
         raise self.fail(f"{what} expected")
+
+    def quoted(self, token: int) -> Unexpected:
+        """To be raised where one vendor writes a name in quotes."""
+        message = f"Names in quotes are not supported; write {self.texts[token][1:-1]}."
+        self.report("X001", message, self.span_of(token))
+        return Unexpected()
 
     def qualified(self, what: str) -> str:
         """`Name.Name`, as written."""

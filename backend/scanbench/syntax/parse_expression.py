@@ -17,10 +17,12 @@ BINARY: dict[str, tuple[int, str]] = {
 
 UNARY = {"-": "neg", "+": "plus", "NOT": "not"}
 POSTFIX = frozenset((".", "[", "(", "^"))
+QUOTED_NAME = POSTFIX | {":="}
 FUNCTION_FORMS = ("AND", "OR", "XOR", "MOD")
 """Operators that are also functions: `AND(a, b)`."""
 LITERALS = frozenset((Lex.INTEGER, Lex.REAL, Lex.TIME, Lex.STRING, Lex.TYPED))
 REFUSED = {
+    "__CATCH": "check before you compute; a trap stops the PLC",
     "__NEW": "memory that is allocated while the program runs",
     "__DELETE": "memory that is allocated while the program runs",
     "__QUERYINTERFACE": "use `?=`",
@@ -59,7 +61,9 @@ class ExpressionParser(LiteralParser):
             return self._postfix(name) if self.texts[at + 1] in POSTFIX else name
         if kind in LITERALS:
             self.at = at + 1
-            return self._postfix(self.literal(at)) if self.texts[self.at] == "." else self.literal(at)
+            if kind is Lex.STRING and self.texts[at][0] == '"' and self.texts[at + 1] in QUOTED_NAME:
+                raise self.quoted(at)
+            return self.literal(at)
         if kind is Lex.ADDRESS:
             self.at = at + 1
             return tree.DirectAddress(self.texts[at], self.span_of(at))

@@ -45,6 +45,8 @@ class IlParser(StatementParser):
         if self.kinds[at] is not NAME:
             return False
         behind = at + 1
+        while self.texts[behind] == "." and self.kinds[behind + 1] is NAME:
+            behind += 2  # a method: `axis.move( ... )`
         if text not in BEGINNINGS:
             return self.texts[behind] == "(" and self._mnemonic_after_call(behind)
         if text.startswith("RET"):

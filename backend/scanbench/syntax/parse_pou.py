@@ -41,13 +41,9 @@ class PouParser(IlParser):
             if self.word() in MEMBERS and self.kinds[self.at + 1] is NAME:
                 methods += self.member(kind)
                 continue
-            if self.texts[self.at] in BLOCK_ENDS:
-                stray = self.take()
-                self.report("S003", f"`{self.texts[stray]}` without its beginning.", self.span_of(stray))
-                self.accept(";")
             before = self.at
-            body = self._joined(body, self.body())
-            if self.at == before and self.texts[before] not in BLOCK_ENDS:
+            body = _joined(body, self._whole_body())
+            if self.at == before:
                 break
         if body and kind in ("CLASS", "INTERFACE"):
             where = body.span if isinstance(body, tree.IlBody) else body[0].span
@@ -60,15 +56,15 @@ class PouParser(IlParser):
             extends, implements, modifiers, access, namespace, using + more,
         )  # fmt: skip
 
-    def _joined(self, first: Body, second: Body) -> Body:
-        """A body goes on behind a method that stands in it."""
-        if not first or not second:
-            return first or second
-        if isinstance(first, tree.IlBody) and isinstance(second, tree.IlBody):
-            return replace(first, instructions=first.instructions + second.instructions)
-        if isinstance(first, tuple) and isinstance(second, tuple):
-            return first + second
-        return first
+    def _whole_body(self) -> Body:
+        """A body; what closes a block that was never opened is reported, and the body goes on."""
+        body = self.body()
+        while self.texts[self.at] in BLOCK_ENDS:
+            stray = self.take()
+            self.report("S003", f"`{self.texts[stray]}` without its beginning.", self.span_of(stray))
+            self.accept(";")
+            body = _joined(body, self.body())
+        return body
 
     def _modifiers(self) -> tuple[str, tuple[str, ...]]:
         """Access and modifiers before a name, in any order."""
@@ -190,7 +186,7 @@ class PouParser(IlParser):
         self, owner: str, name: int, result: tree.TypeSpec | None, access: str, modifiers: tuple[str, ...]
     ) -> tree.PouDeclaration:
         sections = self.sections()
-        body = self.body()
+        body = self._whole_body()
         self._check_kept("METHOD", sections)
         # in an interface, and where a vendor's export says nothing more, the next declaration ends it
         if not self.accept("END_METHOD") and not (owner == "INTERFACE" and not body):
@@ -202,7 +198,7 @@ class PouParser(IlParser):
         """A method without variables of its own."""
         name = self.name("the name of the ACTION")
         self.accept(":")
-        body = self.body()
+        body = self._whole_body()
         if not self.accept("END_ACTION"):
             self._missing("END_ACTION", f"ACTION {self.texts[name]}")
         self.accept(";")
@@ -224,12 +220,12 @@ class PouParser(IlParser):
         if word != "PROPERTY":
             sections = self.sections()
             kind = "get" if word == "PROPERTY_GET" else "set"
-            found.append(self._declared(kind, name, result, sections, self.body(), access, modifiers))
+            found.append(self._declared(kind, name, result, sections, self._whole_body(), access, modifiers))
         while word == "PROPERTY" and (part := self._part()):
             self.take()
             own_access, _ = self._modifiers()
             sections = self.sections()
-            body = self.body() if not self._part() else ()
+            body = self._whole_body() if not self._part() else ()
             shown = own_access if own_access != "PUBLIC" else access
             found.append(self._declared(part.lower(), name, result, sections, body, shown, modifiers))
             if not self.accept(f"END_{part}") and owner != "INTERFACE" and not self.is_("END_PROPERTY"):
@@ -265,6 +261,17 @@ class PouParser(IlParser):
         return tree.PouDeclaration(
             kind, self.texts[name], result, sections, body, self.span_of(name), modifiers=modifiers, access=access
         )
+
+
+def _joined(first: Body, second: Body) -> Body:
+    """A body goes on behind a method that stands in it."""
+    if not first or not second:
+        return first or second
+    if isinstance(first, tree.IlBody) and isinstance(second, tree.IlBody):
+        return replace(first, instructions=first.instructions + second.instructions)
+    if isinstance(first, tuple) and isinstance(second, tuple):
+        return first + second
+    return first
 
 
 def with_member(pou: tree.PouDeclaration, members: list[tree.PouDeclaration]) -> tree.PouDeclaration:

@@ -21,7 +21,11 @@ REFUSED = {
     "GOTO": "use IF and loops",
     "__TRY": "check before you compute; a trap stops the PLC",
     "TRY": "check before you compute; a trap stops the PLC",
+    "__CATCH": "check before you compute; a trap stops the PLC",
+    "__FINALLY": "check before you compute; a trap stops the PLC",
+    "__ENDTRY": "check before you compute; a trap stops the PLC",
     "REGION": "remove it, and its END_REGION",
+    "END_REGION": "remove it, and its REGION",
 }
 LABEL_KINDS = frozenset((NAME, Lex.INTEGER, Lex.TYPED, Lex.STRING, Lex.TIME))
 LABEL_TEXTS = frozenset((",", "..", ".", "-", "+", "TRUE", "FALSE"))
@@ -122,7 +126,7 @@ class StatementParser(DeclarationParser):
         return tree.Assignment(target, value, span, operator)
 
     def _refused(self, word: str) -> None:
-        if word in REFUSED and self.texts[self.at + 1] not in (";", "?=", "=", "^"):
+        if word in REFUSED and (word[:2] == "__" or self.texts[self.at + 1] not in (";", "?=", "=", "^")):
             self.report("X001", f"{word} is not supported; {REFUSED[word]}.", self.here())
             raise Unexpected
         if self.texts[self.at + 1] == ":":

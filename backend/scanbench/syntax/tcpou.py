@@ -52,6 +52,8 @@ class _Outline:
         self._open = [self.root]
         self._parts: list[str] = []
         self._at = 0
+        self._escaped = -1
+        """Where the last escaped character ended."""
 
     def read(self) -> str:
         # one byte a character, so that positions in bytes are positions in the text; what is kept is taken from the text
@@ -82,11 +84,12 @@ class _Outline:
         if self.text[at] == "&":
             # an escaped character stands at the near end of its place: `&lt;=` must stay one operator
             last = self.text.index(";", at)
-            at = at if self._at == at else last
+            at = at if self._escaped == at else last
             self._blank(at)
             self._parts.append(data)
             self._at += 1
             self._blank(last + 1)
+            self._escaped = last + 1
             return
         self._blank(at)
         self._parts.append(self.text[at : at + len(data)])

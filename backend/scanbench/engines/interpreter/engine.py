@@ -2,6 +2,7 @@
 
 import time
 from collections.abc import Callable
+from dataclasses import replace
 
 from scanbench.check.layout import Layout
 from scanbench.check.program import Expr, Pou, Program, ProgramInstance, Task
@@ -36,7 +37,7 @@ class ReferenceEngine(Engine):
 
     def _program(self, instance: ProgramInstance) -> Callable[[], None]:
         """One program instance of a task, with what is connected to it."""
-        make = Statements(self, instance.pou)
+        make = Statements(self, replace(instance.pou, first_trap=0, first_check=0))
         steps = (make.block(instance.before), self._bodies[instance.pou], make.block(instance.after))
 
         def run() -> None:

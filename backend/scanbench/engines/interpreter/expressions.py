@@ -57,7 +57,7 @@ class Expressions(ABC):
         self.pou = pou
         self.caller = caller
         self.memory = bodies.memory
-        self.places = Places(bodies.memory, pou.frame_offset, self.evaluate)
+        self.places = Places(bodies.memory, pou.frame_offset, self.evaluate, pou.first_trap)
 
     @abstractmethod
     def block(self, statements: Sequence[Stmt]) -> Body:
@@ -118,7 +118,7 @@ class Expressions(ABC):
             return arithmetic.real(node.op, type, left, right)
         if node.op != "div":
             return arithmetic.integer(node.op, type, left, right)
-        wrap, trap = arithmetic.wrapper(type), node.trap
+        wrap, trap = arithmetic.wrapper(type), self.pou.first_trap + node.trap
 
         def divide(instance: int) -> Value:
             a, b = left(instance), right(instance)
@@ -176,8 +176,8 @@ class Expressions(ABC):
 
         return violates
 
-    def _recorder(self, site: int) -> Callable[[int, int], None]:
-        record, caller = self.bodies.record, self.caller
+    def _recorder(self, number: int) -> Callable[[int, int], None]:
+        record, caller, site = self.bodies.record, self.caller, self.pou.first_check + number
         if caller is None:
             return lambda instance, value: record(site, instance, value)
         return lambda instance, value: record(site, caller[0], value)

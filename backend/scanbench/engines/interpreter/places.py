@@ -29,12 +29,15 @@ class Trapped(Exception):
 
 
 class Places:
-    """Closures on places, for the body of one POU."""
+    """Closures on places, for the body of one POU, whose trap sites count from `first_trap`."""
 
-    def __init__(self, memory: bytearray, frame_offset: int, evaluate: Callable[[Expr], Read]) -> None:
+    def __init__(
+        self, memory: bytearray, frame_offset: int, evaluate: Callable[[Expr], Read], first_trap: int = 0
+    ) -> None:
         self.memory = memory
         self.frame_offset = frame_offset
         self.evaluate = evaluate
+        self.first_trap = first_trap
 
     def fixed(self, place: Place) -> int | None:
         """The byte offset of a place that is always there."""
@@ -57,7 +60,7 @@ class Places:
 
     def _step(self, index: Index) -> Address:
         """Bytes from the first element of a dimension."""
-        value, trap = self.evaluate(index.value), index.trap
+        value, trap = self.evaluate(index.value), self.first_trap + index.trap
         low, high, stride = index.low, index.high, index.stride
         if isinstance(low, int) and isinstance(high, int) and isinstance(stride, int):
 
@@ -88,7 +91,7 @@ class Places:
     def _open(self, place: Place, start: Reference) -> Reference:
         """Bounds that come with a call may say anything: so the element is checked as a reference is."""
         steps = [self._step(index) for index in place.indices]
-        end, trap = self._end(place.type.size), place.null_trap or place.indices[-1].trap
+        end, trap = self._end(place.type.size), self.first_trap + (place.null_trap or place.indices[-1].trap)
 
         def indexed(instance: int) -> int:
             first = start(instance)
@@ -118,7 +121,7 @@ class Places:
         else:
             assert place.reference is not None
             follow = self.evaluate(place.reference)
-        offset, trap = place.offset, place.null_trap
+        offset, trap = place.offset, self.first_trap + place.null_trap
         end = self._end(_reach(place, size))
         # what a BOOL's reference says of the bit goes on, unless the place names one itself; other types have none
         kept = BYTE_OFFSET | (BIT_NUMBER if place.type.kind is Kind.BOOL and place.bit is None else 0)

@@ -123,7 +123,7 @@ class Statements(Expressions):
     def _call_block(self, node: CallBlock) -> Body:
         where, body = self.places.address(node.instance, node.pou.instance.size), self.bodies.body(node.pou)
         caller = [0]
-        inner = Statements(self.bodies, node.pou, caller)
+        inner = Statements(self.bodies, self.pou, caller)
         bind = putter(self.memory, SLOT)
         inputs = [(self.evaluate(value), inner.places.write(place)) for place, value in node.inputs]
         slots = [(inner.places.address(slot), self.places.reference(actual)) for slot, actual in node.in_outs]
@@ -177,9 +177,9 @@ class Statements(Expressions):
 
     # ---- loops and jumps ----------------------------------------------------------------------------------------
 
-    def _spender(self, trap: int) -> Callable[[int], None]:
+    def _spender(self, number: int) -> Callable[[int], None]:
         """Takes rounds from the loop budget of the scan."""
-        memory, at = self.memory, Layout.BUDGET
+        memory, at, trap = self.memory, Layout.BUDGET, self.pou.first_trap + number
 
         def spend(rounds: int) -> None:
             left = int.from_bytes(memory[at : at + 8], "little", signed=True) - rounds
