@@ -61,7 +61,7 @@ fuzz: $(VENV)/.stamp-dev
 	@cd backend && $(BIN)/python -m tests.programs $(N) $(SEED)
 
 features: $(VENV)/.stamp-dev
-	@cd backend && $(BIN)/python -m tests.features
+	@cd backend && $(BIN)/python -m tests.features && $(BIN)/python -m tests.standard_page
 
 shots: setup-test
 	@cd e2e && $(NPM) run shots

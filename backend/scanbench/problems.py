@@ -28,6 +28,10 @@ class Span:
         """The stretch from the start of this one to the end of `last`."""
         return Span(self.file, self.line, self.column, last.end_line, last.end_column)
 
+    def plain(self) -> "Span":
+        """The same, with nothing behind it that could change or take room."""
+        return self
+
     def __str__(self) -> str:
         return f"{self.file}:{self.line}:{self.column}"
 
@@ -75,7 +79,7 @@ TABLE: dict[str, str] = {
     "T006": "condition that is not BOOL",
     "T007": "CASE label that is not constant or stands twice",
     "T008": "FOR loop that cannot be counted",
-    "T009": "EXIT outside of a loop",
+    "T009": "EXIT or CONTINUE outside of a loop",
     "T010": "something that can be called, read or indexed only elsewhere",
     "T011": "write to read-only memory of the model",
     "T012": "constant index outside of the array",

@@ -6,7 +6,6 @@ from scanbench.check import fold
 from scanbench.check.context import did_you_mean
 from scanbench.check.program import (
     Assign,
-    Base,
     CallFunction,
     Const,
     Evaluate,
@@ -19,7 +18,8 @@ from scanbench.check.program import (
     SetBytes,
     Stmt,
 )
-from scanbench.check.scopes import decode, place_of
+from scanbench.check.scopes import decode
+from scanbench.check.shown import shown
 from scanbench.check.standard_calls import StandardCallChecker
 from scanbench.check.types import (
     BOOL,
@@ -158,8 +158,8 @@ class ArgumentChecker(StandardCallChecker):
                 return
             taken = self.temporary(member.type, value.span)
             bound.places[key] = taken
-            value = _generic(member, Load(taken), target.type)
-            bound.after.append(Assign(target, self._output(value, target.type, argument), argument.span))
+            whole = _generic(member, Load(taken), target.type)
+            bound.after.append(Assign(target, self._output(whole, target.type, argument), argument.span))
 
     def _output(self, value: Expr, target: Type, argument: tree.Argument) -> Expr:
         """What is stored for `name => target` or `NOT name => target`."""
@@ -167,7 +167,8 @@ class ArgumentChecker(StandardCallChecker):
             if not isinstance(value.type, Elementary) or value.type != BOOL:
                 raise self.report.reject("T002", f"Only a BOOL can be negated, not {value.type}.", argument.span)
             value = fold.unary("not", BOOL, value)
-        return self.coerce(value, target, argument.span, f"The target of `{argument.name}`")
+        assert argument.value is not None
+        return self.coerce(value, target, argument.span, f"`{shown(argument.value)}`")
 
     def _input(self, member: Member, value: tree.Expression | None, span: Span) -> Expr:
         if value is not None:

@@ -11,6 +11,7 @@ from scanbench.check.layout import Layout
 from scanbench.check.program import Base, Place, Pou, Program, ProgramInstance, Task
 from scanbench.check.scopes import Pous
 from scanbench.check.settings import Settings
+from scanbench.check.start_references import bind_start_references
 from scanbench.check.types import BOOL, Kind, Member, Record, Section
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Span
@@ -200,6 +201,7 @@ def _initial_image(
     for instance in instances:
         data = instance.pou.instance.initial()
         image[instance.offset : instance.offset + len(data)] = data
+    bind_start_references(declarations, variables, instances, image)
     for offset, mask, data in declarations.located:
         for index, byte in enumerate(data, offset):
             image[index] = image[index] & ~mask | byte & mask

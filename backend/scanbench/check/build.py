@@ -6,9 +6,9 @@ refuse recursion; lay out the image. Each pass goes on as far as it can, so that
 
 import re
 import sys
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from contextlib import suppress
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from scanbench.check.assemble import assemble, place_areas, place_globals
 from scanbench.check.calls import CallChecker
@@ -19,16 +19,15 @@ from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare import Declarations
 from scanbench.check.names import Space, qualified
 from scanbench.check.order import Order
-from scanbench.check.program import Assign, Base, Const, Place, Pou, Program
+from scanbench.check.program import Assign, Base, Const, Expr, Place, Pou, Program
 from scanbench.check.scopes import Pous, Scope, place_of
 from scanbench.check.standard.library import library
 from scanbench.check.statements import StatementChecker
-from scanbench.check.types import BOOL, Kind, Member, Record, Section, Type
+from scanbench.check.types import BOOL, Kind, Member, Record, Reference, Section, Type
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem, Severity, Span
 from scanbench.syntax import tree
-from scanbench.syntax.parse_file import parse_file
-from scanbench.syntax.source import Source
+from scanbench.syntax.chunks import Chunked, read
 
 RECURSION_LIMIT = 20_000
 """Python frames for a deep expression: the parser bounds depth, the checks walk it with a few frames a level."""
@@ -43,7 +42,7 @@ class PouInfo:
     name: str
     """In full: with its namespace, and for a method with its class."""
     kind: str
-    """program, function_block, function, class, interface, method, get, set, type or global."""
+    """program, function_block, function, class, interface, method, property, type or global."""
     file: str
     line: int
 
@@ -59,17 +58,29 @@ class Checked:
 
 def check_sources(sources: Mapping[str, str], model: Model, interval_ns: int = 10_000_000) -> Checked:
     """Checks all files of a project together. `interval_ns` is the task's, where no CONFIGURATION says another."""
-    report = Report()
-    parsed = []
-    for name, text in sources.items():
-        file, problems = parse_file(Source(name, text))
-        report.problems += problems
-        parsed.append(file)
-    enabling = frozenset(name for name, text in sources.items() if ENABLING.search(text))
-    program = Checker(report, model, parsed, enabling).run(interval_ns)
-    problems = sorted(report.problems, key=lambda each: (each.span.file, each.span.line, each.span.column))
-    failed = any(problem.severity is Severity.ERROR for problem in problems)
-    return Checked(None if failed else program, tuple(problems), tuple(_infos(parsed)))
+    files = [read(name, text) for name, text in sources.items()]
+    checker = checker_of(files, model)
+    return concluded(files, checker.report, checker.run(interval_ns))
+
+
+def checker_of(files: Sequence[Chunked], model: Model) -> "Checker":
+    """What checks these files together."""
+    enabling = frozenset(file.name for file in files if ENABLING.search(file.text))
+    return Checker(Report(), model, [file.file for file in files], enabling)
+
+
+def concluded(files: Sequence[Chunked], report: Report, program: Program | None) -> Checked:
+    """What came out, in spans that do not move any more."""
+    found = [*(problem for file in files for problem in file.problems), *report.problems]
+    problems = list(dict.fromkeys(replace(problem, span=problem.span.plain()) for problem in found))
+    problems.sort(key=lambda each: (each.span.file, each.span.line, each.span.column))
+    if any(problem.severity is Severity.ERROR for problem in problems):
+        program = None
+    if program is not None:
+        traps = tuple(replace(site, span=site.span.plain()) for site in program.traps)
+        checks = tuple(replace(site, span=site.span.plain()) for site in program.checks)
+        program = replace(program, traps=traps, checks=checks)
+    return Checked(program, tuple(problems), tuple(_infos([file.file for file in files])))
 
 
 def _infos(parsed: list[tree.File]) -> list[PouInfo]:
@@ -78,14 +89,25 @@ def _infos(parsed: list[tree.File]) -> list[PouInfo]:
         for pou in file.pous:
             name = qualified(pou.namespace, pou.name)
             made.append(PouInfo(name, pou.kind, file.name, pou.span.line))
-            made += [PouInfo(f"{name}.{each.name}", each.kind, file.name, each.span.line) for each in pou.methods]
-        made += [PouInfo(qualified(each.namespace, each.name), "type", file.name, each.span.line) for each in file.types]
+            made += _methods(name, pou)
+        made += [
+            PouInfo(qualified(each.namespace, each.name), "type", file.name, each.span.line) for each in file.types
+        ]
         for section in (*file.globals, *(each for conf in file.configurations for each in globals_of(conf))):
             made += [
                 PouInfo(qualified(section.namespace, each.name), "global", file.name, each.span.line)
                 for each in section.variables
             ]
     return made
+
+
+def _methods(owner: str, pou: tree.PouDeclaration) -> list[PouInfo]:
+    """Methods and properties; the two halves of a property are one."""
+    made: dict[str, PouInfo] = {}
+    for each in pou.methods:
+        kind = "method" if each.kind == "method" else "property"
+        made.setdefault(each.name.upper(), PouInfo(f"{owner}.{each.name}", kind, each.span.file, each.span.line))
+    return list(made.values())
 
 
 @dataclass(slots=True)
@@ -99,21 +121,49 @@ class Checker:
     pous: Pous = field(default_factory=Pous)
     declarations: Declarations = field(init=False)
     names: Collector = field(init=False)
+    declared: tuple[int, int, int] = (0, 0, 0)
+    """What was reported of the declarations."""
+    frames: dict[Pou, tuple[dict[str, Member], int, int]] = field(default_factory=dict)
+    """Members, size and alignment of the frame of each POU, before its body adds temporaries."""
 
     def run(self, interval_ns: int) -> Program | None:
+        """All passes."""
+        self.declare()
+        for declaration in self.names.user:
+            self._check_body(declaration)
+        for method in self.pous.classes.methods():
+            if method.pou is not None and not method.abstract:
+                self._check_method(method, method.pou)
+        return self.finish(interval_ns)
+
+    def declare(self) -> None:
+        """Everything but bodies."""
         areas = place_areas(self.model)
         self.declarations = Declarations(self.report, self.model, areas, self._constant)
+        self.declarations.reference_of = self._reference
         self.names = Collector(self.report, self.declarations, self.enabling)
         self.names.collect(self.parsed)
         self.pous.classes = collect(self.declarations)
         declare_globals(self.parsed, self.globals, self.declarations, self.pous)
         place_globals(self.model, areas, self.globals)
         self._declare_pous()
-        for declaration in self.names.user:
-            self._check_body(declaration)
-        for method in self.pous.classes.methods():
-            if method.pou is not None and not method.abstract:
-                self._check_method(method, method.pou)
+        self.declarations.declare_types()
+        self.declared = self.report.mark()
+
+    def recheck(self, pou: Pou, declaration: tree.PouDeclaration) -> None:
+        """Checks another body of a POU whose declarations are the same; `finish` has to follow."""
+        self.report.undo(self.declared)
+        members, size, align = self.frames[pou]
+        pou.frame.members.clear()
+        pou.frame.members.update(members)
+        pou.frame.size, pou.frame.align = size, align
+        self.pous.uses.pop(pou, None)
+        self.pous.this_traps.pop(pou.name, None)
+        self._check_body(declaration)
+
+    def finish(self, interval_ns: int) -> Program | None:
+        """What all bodies together make."""
+        self.report.undo(self.declared)
         self._check_library()
         order = self._order()
         self.report.join(order)
@@ -128,6 +178,12 @@ class Checker:
         return Span(name, 1, 1, 1, 2)
 
     # ---- declarations -----------------------------------------------------------------------------------
+
+    def _reference(self, owner: Record, node: tree.Expression, type: Reference) -> Expr:
+        """What a reference starts with."""
+        scope = Scope(owner.name, self.globals, constants=(owner,), space=self.declarations.names.space)
+        checker = CallChecker(self.report, self.declarations, self.pous, scope, None)
+        return checker.as_type(node, type, "The start value")
 
     def _constant(self, node: tree.Expression, type: Type | None) -> Const:
         """A constant expression among the declarations."""
@@ -193,6 +249,7 @@ class Checker:
     def _check(
         self, pou: Pou, declaration: tree.PouDeclaration, instance: Record, space: Space, this: Place | None
     ) -> None:
+        self.frames[pou] = dict(pou.frame.members), pou.frame.size, pou.frame.align
         with self.declarations.names.within(space), self.report.apart() as self.report.parts[pou]:
             externals = self._externals(declaration, pou, instance, space)
             scope = Scope(pou.name, self.globals, instance, pou.frame, externals, this=this, space=space)

@@ -103,7 +103,7 @@ class CallChecker(ObjectChecker):
         if name is None or self._hides(name):
             return None
         names: Names = self.declarations.names
-        key = names.find(name, self.pous.functions, callee.span) if self.pous.functions else None
+        key = names.find(name, callee.span, self.pous.functions) if self.pous.functions else None
         return self.pous.functions[key] if key is not None else None
 
     def _hides(self, path: str) -> bool:
@@ -119,6 +119,10 @@ class CallChecker(ObjectChecker):
     def _standard(self, node: tree.Call, wanted: Type | None, eno: Place | None = None) -> Expr:
         """A function that is no POU; `eno` becomes FALSE where it finds that its result is not right."""
         if not isinstance(node.callee, tree.Name):
+            path = dotted(node.callee)
+            if path is not None and self._is_qualified_name(node.callee):
+                hint = did_you_mean(path, [pou.name for pou in self.pous.functions.values()])
+                raise self.report.reject("T001", f"There is no function `{path}`.{hint}", node.span)
             self._no_value(node.callee)
             raise self.report.reject(
                 "T010", "Only functions, methods and instances of function blocks can be called.", node.span
@@ -130,7 +134,7 @@ class CallChecker(ObjectChecker):
         standard = self.standard(node, key, wanted, eno)
         if standard is not None:
             return standard
-        known = [*(pou.name for pou in self.pous.functions.values()), *FUNCTIONS]
+        known = [*(pou.name for pou in self.pous.functions.values() if not pou.name.startswith("__")), *FUNCTIONS]
         hint = did_you_mean(name, known)
         if self.declarations.find_type(name, node.span) in self.declarations.block_trees:
             hint = f" `{name}` is a FUNCTION_BLOCK: declare an instance in VAR and call that."
@@ -139,6 +143,9 @@ class CallChecker(ObjectChecker):
         if self.scope.find(name) is not None:
             raise self.report.reject("T010", f"`{name}` is a variable; it cannot be called.", node.span)
         raise self.report.reject("T001", f"There is no function `{name}`.{hint}", node.span)
+
+    def _is_qualified_name(self, callee: tree.Expression) -> bool:
+        return isinstance(callee, tree.MemberOf) and self._is_qualified(callee)
 
     def _no_value(self, callee: tree.Expression) -> None:
         """Refuses an instance of a block that is called for a value."""
@@ -290,7 +297,7 @@ class CallChecker(ObjectChecker):
             target = self.target(argument.value)
             outputs.append((self._output(Load(own), target.type, argument), target))
         for each in formals:
-            if each.hidden and "$" in each.name[1:]:
+            if each.hidden and each.section is Section.INPUT:
                 inputs.append((own_place(record, each), self.open_bound(each, bound)))
         self.pous.use(self.pou, callee)
         call = CallBlock(instance, callee, tuple(inputs), tuple(in_outs), tuple(outputs), node.span)

@@ -143,5 +143,3 @@ def check_instances(classes: Classes, owners: Iterable[Record], report: Report) 
             report.error(
                 "D014", f"`{found.name}` is ABSTRACT, so `{member.name}` cannot be an instance of it.", member.span
             )
-
-

@@ -166,7 +166,7 @@ def _link(owner: Class, classes: Classes, declarations: Declarations) -> None:
 def _parent(name: str, keyword: str, owner: Class, classes: Classes, declarations: Declarations) -> Class:
     declaration, report = owner.declaration, declarations.report
     with declarations.names.within(Space(declaration.namespace, declaration.using)):
-        key = declarations.names.find(name, declarations.block_trees, declaration.span)
+        key = declarations.names.find(name, declaration.span, declarations.block_trees)
     if key is None:
         interface = keyword == "IMPLEMENTS" or owner.kind == "interface"
         known = [each.name for each in classes.by_key.values() if (each.kind == "interface") == interface]

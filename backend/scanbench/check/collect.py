@@ -32,18 +32,22 @@ class Collector:
 
     def collect(self, parsed: list[tree.File]) -> None:
         """All names of types and POUs."""
+        internal = self.declarations.names.internal
         for file in parsed:
+            internal |= {space.upper(): space.upper().rpartition(".")[0] for space in file.internal}
             for declaration in file.types:
                 key = self._first(declaration.namespace, declaration.name, declaration.span)
                 if key is not None:
                     self.declarations.type_trees[key] = declaration
+                    if declaration.access == "INTERNAL" and declaration.namespace:
+                        internal[key] = declaration.namespace.upper()
             for pou in file.pous:
                 key = self._first(pou.namespace, pou.name, pou.span)
                 if key is None:
                     continue
                 if pou.access == "INTERNAL" and pou.namespace:
-                    self.declarations.names.internal[key] = pou.namespace.upper()
-                made = self._with_enable(key, pou) if file.name in self.enabling else pou
+                    internal[key] = pou.namespace.upper()
+                made = self.with_enable(key, pou) if file.name in self.enabling else pou
                 self._register(key, made)
                 self.user.append(made)
         for file in library():
@@ -68,9 +72,9 @@ class Collector:
 
     # ---- EN and ENO -------------------------------------------------------------------------------------
 
-    def _with_enable(self, key: str, pou: tree.PouDeclaration) -> tree.PouDeclaration:
+    def with_enable(self, key: str, pou: tree.PouDeclaration) -> tree.PouDeclaration:
         """A body that names EN or ENO has them as input and output, declared or not."""
-        methods = tuple(self._with_enable("", method) for method in pou.methods)
+        methods = tuple(self.with_enable("", method) for method in pou.methods)
         if methods != pou.methods:
             pou = replace(pou, methods=methods)
         if pou.kind not in ("function", "function_block", "method"):
@@ -136,7 +140,9 @@ class _Lists:
     lists: dict[str, str] = field(default_factory=dict)
     """The list that a variable came from, by the name it is kept under."""
 
-    def declare(self, variables: Record, section: tree.VariableSection, variable: tree.Variable, constant: bool) -> None:
+    def declare(
+        self, variables: Record, section: tree.VariableSection, variable: tree.Variable, constant: bool
+    ) -> None:
         """Adds a global variable under its full name."""
         name = qualified(section.namespace, variable.name)
         key, own = name.upper(), f"{section.list_name}.{variable.name}"

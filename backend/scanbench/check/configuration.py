@@ -159,7 +159,7 @@ class Planner:
                 runs.append(PlannedBlock(made, path, span))
 
     def _pou(self, program: tree.ProgramDeclaration) -> Pou | None:
-        key = self._declarations.names.find(program.type_name, self._pous.blocks, program.span)
+        key = self._declarations.names.find(program.type_name, program.span, self._pous.blocks)
         pou = self._pous.blocks.get(key or "")
         if pou is not None and pou.kind == "program":
             return pou

@@ -5,6 +5,7 @@ from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare import Declarations
 from scanbench.check.program import Assign, CallBlock, Case, For, If, Load, Place, ProgramInstance, Repeat, Stmt, While
 from scanbench.check.scopes import Pous, Scope
+from scanbench.check.shown import shown
 from scanbench.check.types import BOOL, Kind, Member, Record, Section
 from scanbench.problems import Span
 from scanbench.syntax import tree
@@ -43,6 +44,7 @@ class Wiring:
         self, instance: ProgramInstance, declaration: tree.ProgramDeclaration
     ) -> tuple[tuple[Stmt, ...], tuple[Stmt, ...]]:
         """What is copied before the program runs, and after."""
+        self._checker.pou = instance.pou  # values are run, so subranges are checked
         before: list[Stmt] = []
         after: list[Stmt] = []
         seen: set[str] = set()
@@ -83,7 +85,7 @@ class Wiring:
         if argument.output:
             target = self._checker.target(value)
             self._fixed(target, value.span)
-            return Assign(target, self._checker.coerce(Load(own), target.type, span, "The target"), span)
+            return Assign(target, self._checker.coerce(Load(own), target.type, span, f"`{shown(value)}`"), span)
         checked = self._checker.as_type(value, own.type, f"`{member.name}`")
         if isinstance(checked, Load):
             self._fixed(checked.place, value.span)

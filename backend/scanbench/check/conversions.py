@@ -19,6 +19,7 @@ from dataclasses import dataclass, replace
 
 from scanbench.check import fold
 from scanbench.check.program import Compare, Const, Expr, Intrinsic
+from scanbench.check.standard_fold import intrinsic
 from scanbench.check.types import (
     ABBREVIATIONS,
     BOOL,
@@ -129,7 +130,7 @@ def _trunc(expr: Expr, source: Type, target: Type) -> Expr | str:
         return f": TRUNC needs a REAL or LREAL, not {source}."
     if not isinstance(target, Elementary) or target.kind not in (Kind.INT, Kind.UINT):
         return ": TRUNC gives an integer."
-    return Intrinsic("TRUNC", target, (expr,))
+    return intrinsic("TRUNC", target, (expr,))
 
 
 def _from_bcd(expr: Expr, source: Type, target: Type, library: Library) -> Expr | str:

@@ -1,7 +1,6 @@
 """Declarations -> types and members with offsets."""
 
 import struct
-from collections import ChainMap
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
@@ -25,6 +24,7 @@ from scanbench.check.types import (
     ABBREVIATIONS,
     ELEMENTARY,
     MAX_STRING,
+    NULL,
     SLOT_BYTES,
     ArrayType,
     Elementary,
@@ -52,6 +52,8 @@ CALLED = ("function", "method", "get", "set")
 
 ConstantOf = Callable[[tree.Expression, Type | None], Const]
 """Evaluates a constant expression, or rejects."""
+ReferenceOf = Callable[[Record, tree.Expression, Reference], Expr]
+"""The reference that an expression gives among the variables of an owner, or rejects."""
 Inherit = Callable[[Record, tree.PouDeclaration], None]
 """Gives the record of a block what it has from its base, before its own members."""
 
@@ -80,6 +82,9 @@ class Declarations:
     """What is being declared: constants declared above can stand in bounds and initial values."""
     incomplete: bool = False
     """Whether any variable waits for its address."""
+    start_references: list[tuple[Record, Member, tree.Expression]] = field(default_factory=list)
+    """References that start with REF(variable): owner, variable, what it starts with."""
+    reference_of: ReferenceOf = field(default=lambda owner, node, type: Const(NULL, 0))
     names: Names = field(init=False)
     values: EnumerationValues = field(init=False)
     shells: dict[str, Record] = field(default_factory=dict)
@@ -151,6 +156,13 @@ class Declarations:
                 with suppress(Rejected):
                     self.named(key, origin.span)
 
+    def declare_types(self) -> None:
+        """Makes the types that nothing used, for what is wrong in them."""
+        for key, declaration in self.type_trees.items():
+            if key not in self.types:
+                with suppress(Rejected):
+                    self.named(key, declaration.span)
+
     def referred(self, spec: tree.TypeSpec) -> Type:
         """A type that something refers to: while types are open, one that need not be complete."""
         if not isinstance(spec, tree.NamedType) or not self._open:
@@ -179,7 +191,7 @@ class Declarations:
 
     def find_type(self, name: str, span: Span) -> str | None:
         """The key of the type or block that this name means here."""
-        return self.names.find(name, ChainMap(self.type_trees, self.block_trees), span)
+        return self.names.find(name, span, self.type_trees, self.block_trees)
 
     def _declared(self, declaration: tree.TypeDeclaration) -> Type:
         name = qualified(declaration.namespace, declaration.name)
@@ -357,6 +369,8 @@ class Declarations:
             if section is Section.IN_OUT:
                 if variable.initial is not None:
                     self.report.error("D004", "An in-out has no initial value; it is bound at each call.", member.span)
+            elif isinstance(made, Reference) and isinstance(variable.initial, tree.Call):
+                self._start_reference(owner, member, variable.initial)
             elif variable.initial is not None:
                 member.initial = self.initial(variable.initial, made)
             else:
@@ -384,6 +398,11 @@ class Declarations:
         self.incomplete = True
         owner.place(member)
         return member
+
+    def _start_reference(self, owner: Record, member: Member, node: tree.Expression) -> None:
+        if owner.kind is not Kind.BLOCK and member.section is not Section.GLOBAL:
+            raise self.report.reject("D004", "This starts with NULL; assign the reference in the body.", node.span)
+        self.start_references.append((owner, member, node))
 
     def _place(self, owner: Record, member: Member, variable: tree.Variable) -> None:
         if variable.address is not None and member.section is Section.MEMBER and is_relative(variable.address):

@@ -89,9 +89,7 @@ class Dispatcher:
         made = Pou(
             name, "function", Record(name, Kind.BLOCK), frame, signature.parameters, signature.result, signature.span
         )
-        branches = [
-            (_labels(numbers), (self._go_on(made, callee, trap),)) for callee, numbers in found.items()
-        ]
+        branches = [(_labels(numbers), (self._go_on(made, callee, trap),)) for callee, numbers in found.items()]
         slot = place_of(frame.members["THIS"], Base.FRAME, frame, trap).slot
         assert slot is not None
         otherwise = self._nothing(made)

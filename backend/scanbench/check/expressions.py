@@ -17,6 +17,8 @@ from scanbench.check.types import (
     Enumeration,
     Kind,
     Member,
+    OpenArray,
+    Record,
     Reference,
     Section,
     StringType,
@@ -45,6 +47,8 @@ class ExpressionChecker(OperatorChecker):
 
     def coerce(self, expr: Expr, type: Type, span: Span, what: str) -> Expr:
         expr = self.plain(expr, span)
+        if isinstance(type, OpenArray):
+            raise self.report.reject("T003", "An ARRAY[*] cannot be assigned as a whole; assign its elements.", span)
         if isinstance(type, Subrange):
             inner = self.coerce(expr, base_of(type), span, what)
             return self.into(inner, type, span, what.strip("`"))
@@ -133,7 +137,15 @@ class ExpressionChecker(OperatorChecker):
             if read is not None:
                 return read
         place, member = self.place(node)
-        return self.known(place, member) or self.read(place, node.span, shown(node))
+        return self._value_at(place, member, node)
+
+    def _value_at(self, place: Place, member: Member | None, node: tree.Expression) -> Expr:
+        known = self.known(place, member)
+        if known is not None:
+            return known
+        if not isinstance(place.type, Subrange):
+            return Load(place)
+        return self.read(place, node.span, shown(node))
 
     def known(self, place: Place, member: Member | None) -> Const | None:
         """The value of a CONSTANT."""
@@ -170,12 +182,12 @@ class ExpressionChecker(OperatorChecker):
             text = self.known(place, member) or Load(place)
             return Intrinsic("CHAR_AT", CHAR if place.type.width == 1 else WCHAR, (text, index))
         place, member = self.automatic(*self.elements(place, member, node), node)
-        return self.known(place, member) or self.read(place, node.span, shown(node))
+        return self._value_at(place, member, node)
 
     # ---- operators --------------------------------------------------------------------------------------
 
     def _unary(self, node: tree.UnaryOp, wanted: Type | None) -> Expr:
-        operand = self.expr(node.operand, wanted)
+        operand = self.plain(self.expr(node.operand, wanted), node.operand.span)
         type = operand.type
         if isinstance(type, Enumeration):
             type = base_of(type)
@@ -214,7 +226,10 @@ def _hint(source: Type | None, target: Type) -> str:
     if isinstance(target, Enumeration) and target.values:
         return f" Write one of its values, e.g. {target.values[0][0]}."
     if isinstance(target, Reference):
-        return " Write REF(variable)."
+        instance = isinstance(target.target, Record) and target.target.kind is Kind.INTERFACE
+        if isinstance(source, Reference):
+            return ""
+        return " Assign an instance that implements it." if instance else " Write REF(variable)."
     if isinstance(source, Reference) and source.target == target:
         return " Dereference it with `^`."
     return conversion_hint(source, target)

@@ -172,7 +172,8 @@ class InstructionList:
                 "T010", f"There is no current result for {_shown(node)}; load a value with LD first"
                 f"{self._current.why}.", node.span,
             )  # fmt: skip
-        return self._current.node
+        result = self._current.node
+        return tree.Name(result.name, node.span) if isinstance(result, tree.Name) else result
 
     def _set(self, node: tree.Expression, span: Span) -> None:
         """Makes a value the current result."""

@@ -1,23 +1,137 @@
-"""Checks of a project that changes a little from one to the next."""
+"""Checks of a project that changes a little from one to the next.
 
+What is kept: the tree of each chunk of text, all declarations, and the checked body of each POU. A body holds as long as its
+own text and all declarations are the same; spans move by themselves (`Source.above`). Where anything else changes, all is
+checked anew. So the programs of one `Checks` share POUs: only the newest is to be run, and the one before it may run on
+natively.
+"""
+
+import re
 from collections.abc import Mapping
+from dataclasses import dataclass, field, fields
 
-from scanbench.check.build import Checked, check_sources
+from scanbench.check.build import ENABLING, Checked, Checker, checker_of, concluded
+from scanbench.check.garbage import without_collection
+from scanbench.check.names import qualified
+from scanbench.check.program import Pou
 from scanbench.plcmodel.model import Model
+from scanbench.problems import Problem
+from scanbench.syntax import tree
+from scanbench.syntax.chunks import Chunk, Chunked, read
+
+_TELLS_PLACE = re.compile(r"\bline \d|:\d+:\d+")
 
 
 class Checks:
-    """Checks projects one after the other, and remembers the last."""
+    """Checks the projects of a server, or of one PLC; remembers some."""
 
-    def __init__(self) -> None:
-        self._last: tuple[dict[str, str], Model, int, Checked] | None = None
+    def __init__(self, limit: int = 1) -> None:
+        self._limit = limit
+        self._known: list[_Project] = []
 
     def check(self, sources: Mapping[str, str], model: Model, interval_ns: int) -> Checked:
         """What `check_sources` finds."""
-        if self._last is not None:
-            files, before, interval, checked = self._last
-            if files == sources and before == model and interval == interval_ns:
-                return checked
-        checked = check_sources(sources, model, interval_ns)
-        self._last = (dict(sources), model, interval_ns, checked)
-        return checked
+        project = next((each for each in self._known if each.is_about(sources, model, interval_ns)), None)
+        if project is None:
+            with without_collection():
+                project = _Project(model, interval_ns, {name: read(name, text) for name, text in sources.items()})
+                project.start()
+        else:
+            self._known.remove(project)
+            project.change(sources)
+        self._known.insert(0, project)
+        del self._known[self._limit :]
+        return project.checked
+
+
+@dataclass(slots=True)
+class _Edit:
+    """One chunk that was parsed anew."""
+
+    file: str
+    chunk: Chunk
+    before: tree.PouDeclaration | None
+    """Its POU before."""
+    moved: bool
+    """Whether lines below it are others now."""
+
+
+@dataclass(slots=True)
+class _Project:
+    model: Model
+    interval_ns: int
+    files: dict[str, Chunked]
+    checker: Checker = field(init=False)
+    checked: Checked = field(init=False)
+
+    def is_about(self, sources: Mapping[str, str], model: Model, interval_ns: int) -> bool:
+        """Whether these are likely an edit of the same files."""
+        same = self.interval_ns == interval_ns and list(self.files) == list(sources)
+        return same and (self.model is model or self.model == model)
+
+    def start(self) -> None:
+        """Checks everything."""
+        files = list(self.files.values())
+        self.checker = checker_of(files, self.model)
+        self.checked = concluded(files, self.checker.report, self.checker.run(self.interval_ns))
+
+    def change(self, sources: Mapping[str, str]) -> None:
+        """Checks what changed."""
+        edits: list[_Edit | None] = [
+            self._edit(name, text) for name, text in sources.items() if text != self.files[name].text
+        ]
+        if not edits:
+            return
+        bodies = [self._changed_body(edit) for edit in edits if edit is not None]
+        known = [body for body in bodies if body is not None]
+        moved = any(edit is None or edit.moved for edit in edits)
+        if None in edits or (moved and self._tells_places()):
+            # spans of kept trees moved, but messages that tell a place did not
+            self.files = {name: read(name, text) for name, text in sources.items()}
+            self.start()
+            return
+        if len(known) < len(edits):
+            self.start()
+            return
+        for pou, declaration in known:
+            self.checker.recheck(pou, declaration)
+        program = self.checker.finish(self.interval_ns)
+        self.checked = concluded(list(self.files.values()), self.checker.report, program)
+
+    def _edit(self, name: str, text: str) -> _Edit | None:
+        """Takes the file's new text; None when it was not one POU that changed."""
+        file = self.files[name]
+        before, lines = {id(chunk): chunk.pou for chunk in file.chunks}, file.text.count("\n")
+        chunk = file.edited(text)
+        if chunk is None:
+            return None
+        return _Edit(name, chunk, before[id(chunk)], text.count("\n") != lines)
+
+    def _changed_body(self, edit: _Edit) -> tuple[Pou, tree.PouDeclaration] | None:
+        """The POU to be checked again, if nothing but its body changed."""
+        old, new, names = edit.before, edit.chunk.pou, self.checker.names
+        if old is None or new is None:
+            return None
+        if edit.file in self.checker.enabling:
+            old, new = names.with_enable("", old), names.with_enable("", new)
+        elif ENABLING.search(edit.chunk.source.text):
+            return None
+        if old.methods or not _same_declarations(old, new):
+            return None
+        key = qualified(new.namespace, new.name).upper()
+        pous = self.checker.pous
+        pou = (pous.functions if new.kind == "function" else pous.blocks).get(key)
+        if pou is None or pou not in self.checker.frames or pou.inline or pou.span != new.span:
+            return None
+        return pou, new
+
+    def _tells_places(self) -> bool:
+        parts = [problem for part in self.checker.report.parts.values() for problem in part.problems]
+        read_problems = [problem for file in self.files.values() for problem in file.problems]
+        found: list[Problem] = [*self.checker.report.problems, *parts, *read_problems]
+        return any(_TELLS_PLACE.search(problem.message) for problem in found)
+
+
+def _same_declarations(old: tree.PouDeclaration, new: tree.PouDeclaration) -> bool:
+    """Whether two POUs of one place differ in their bodies only; that one of them names ENO is part of its declarations."""
+    return all(getattr(old, each.name) == getattr(new, each.name) for each in fields(old) if each.name != "body")

@@ -89,7 +89,7 @@ class LiteralChecker(ReferenceChecker):
         if node.kind == "bool" and type == BOOL:
             return Const(BOOL, node.value)
         if node.kind == "int" and type.kind is Kind.CHAR:
-            return Const(type, self._in_range(int(node.value), type, node.span))  # type: ignore[arg-type]
+            return Const(type, self._in_range(int(node.value), type, node.span))
         if node.kind not in ("int", "real"):
             raise self.report.reject("S004", f"This is not a value of {name}.", node.span)
         value = Const(ANY_INT if node.kind == "int" else ANY_REAL, node.value)

@@ -1,6 +1,6 @@
 """Which declaration a name means: NAMESPACE and USING. Every table of declarations is keyed by `NS.NAME` in upper case."""
 
-from collections.abc import Collection, Iterator
+from collections.abc import Callable, Collection, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 
@@ -34,9 +34,9 @@ class Names:
     """Looks names up from where the checker is now: own namespace, those around it, USING, then the global names."""
 
     report: Report
-    space: Space = Space()
+    space: Space = field(default_factory=Space)
     internal: dict[str, str] = field(default_factory=dict)
-    """Declarations that are INTERNAL: key, and the namespace that may use it."""
+    """Declarations and namespaces that are INTERNAL: key, and the namespace that may use it."""
 
     @contextmanager
     def within(self, space: Space) -> Iterator[None]:
@@ -47,34 +47,42 @@ class Names:
         finally:
             self.space = before
 
-    def find(self, name: str, known: Collection[str], span: Span) -> str | None:
-        """The key that the name means here."""
+    def find(self, name: str, span: Span, *tables: Collection[str]) -> str | None:
+        """The key that the name means here, in any of these tables."""
         key = name.upper()
+
+        def known(full: str) -> bool:
+            return any(full in table for table in tables)
+
         if not self.space.namespace and not self.space.using and not self.internal:
-            return key if key in known else None
+            return key if known(key) else None
         found = self._candidates(key, known)
         if len(found) > 1:
-            raise self.report.reject(
-                "T001", f"`{name}` may be {' or '.join(found)}; write one of these instead.", span
-            )
-        for each in found:
-            home = self.internal.get(each)
-            if home is not None and home not in self.space.around():
-                raise self.report.reject("T014", f"`{name}` is INTERNAL of the namespace {home}.", span)
+            raise self.report.reject("T001", f"`{name}` may be {' or '.join(found)}; write one of these instead.", span)
+        if found and self.internal:
+            self._may_use(name, found[0], span)
         return found[0] if found else None
 
-    def _candidates(self, key: str, known: Collection[str]) -> list[str]:
+    def _may_use(self, name: str, key: str, span: Span) -> None:
+        """Refuses what is INTERNAL of a namespace that this place is not in, itself or what is around it."""
+        parts = key.split(".")
+        for count in range(1, len(parts) + 1):
+            home = self.internal.get(".".join(parts[:count]))
+            if home and home not in self.space.around():
+                raise self.report.reject("T014", f"`{name}` is INTERNAL of the namespace {home}.", span)
+
+    def _candidates(self, key: str, known: Callable[[str], bool]) -> list[str]:
         around = self.space.around()
         for outer in around:
-            if f"{outer}.{key}" in known:
+            if known(f"{outer}.{key}"):
                 return [f"{outer}.{key}"]
         used = []
         for using in self.space.using:
             for outer in (*around, ""):
                 full = f"{outer}.{using}.{key}".upper().lstrip(".")
-                if full in known and full not in used:
+                if full not in used and known(full):
                     used.append(full)
-        return used or ([key] if key in known else [])
+        return used or ([key] if known(key) else [])
 
 
 def qualified(namespace: str, name: str) -> str:

@@ -189,7 +189,9 @@ class ObjectChecker(ArgumentChecker):
             known = [each.declaration.name for parent in (receiver.owner, *receiver.owner.ancestors())
                      for each in parent.methods.values()]  # fmt: skip
             raise self.report.reject(
-                "T001", f"`{receiver.owner.name}` has no method `{node.name}`.{did_you_mean(node.name, known)}", node.span
+                "T001",
+                f"`{receiver.owner.name}` has no method `{node.name}`.{did_you_mean(node.name, known)}",
+                node.span,
             )
         return receiver, method
 
@@ -201,8 +203,11 @@ class ObjectChecker(ArgumentChecker):
         """`Namespace.name`, and nothing of an instance."""
         path = dotted(node)
         first = path.split(".")[0] if path else ""
-        return bool(path) and first.upper() not in ("THIS", "SUPER") and self.scope.find(first) is None and (
-            not self._property_of_own(first)
+        return (
+            bool(path)
+            and first.upper() not in ("THIS", "SUPER")
+            and self.scope.find(first) is None
+            and (not self._property_of_own(first))
         )
 
     def _property_of_own(self, name: str) -> bool:
@@ -384,5 +389,3 @@ def dotted(node: tree.Expression) -> str | None:
 
 def _to_interface(type: Type) -> bool:
     return isinstance(type, Reference) and isinstance(type.target, Record) and type.target.kind is Kind.INTERFACE
-
-

@@ -37,6 +37,8 @@ from scanbench.problems import Span
 COMPARISONS = ("eq", "ne", "lt", "le", "gt", "ge")
 NUMERIC = (Kind.INT, Kind.UINT, Kind.REAL)
 MOMENTS = (Kind.TIME, Kind.DATE)
+SHORT = {"TIME_OF_DAY": "TOD", "LTIME_OF_DAY": "LTOD", "DATE_AND_TIME": "DT", "LDATE_AND_TIME": "LDT"}
+"""As the names of conversions have it."""
 DAY_NS = 86_400_000_000_000
 
 
@@ -258,14 +260,15 @@ def conversion_hint(source: Type | None, target: Type) -> str:
     if isinstance(source, Reference) or isinstance(target, Reference | Record):
         return ""
     first, second = (_short(type) for type in (source, target))
-    known = {*ELEMENTARY, "STRING", "WSTRING"}
+    known = {*ELEMENTARY, *SHORT.values(), "STRING", "WSTRING"}
     return f" Convert it with {first}_TO_{second}." if {first, second} <= known else ""
 
 
 def _short(type: Type | None) -> str:
     if isinstance(type, StringType):
         return "WSTRING" if type.width == 2 else "STRING"
-    return str(base_of(type)) if isinstance(type, Elementary) else str(type)
+    name = str(base_of(type)) if isinstance(type, Elementary) else str(type)
+    return SHORT.get(name, name)
 
 
 def _unsigned(type: Elementary) -> str:

@@ -47,6 +47,8 @@ class Order:
         called = self.uses.get(pou, {}).items()
         calls = 1 + sum(self._calls.get(callee, 0) * places for callee, places in called)
         if calls > MAX_CALLS:
-            self.report.error("D013", f"One call of `{pou.name}` leads to {calls} calls; at most {MAX_CALLS}.", pou.span)
+            self.report.error(
+                "D013", f"One call of `{pou.name}` leads to {calls} calls; at most {MAX_CALLS}.", pou.span
+            )
             calls = 0
         self._calls[pou] = calls

@@ -444,7 +444,7 @@ class Pou:
 class ProgramInstance:
     """`before` and `after` are what a CONFIGURATION connects: run around the body, with places of Base.IMAGE only.
 
-    Sites in them count from 0 (as with a POU whose `first_check` is 0). `pou` may be a function block that a task
+    Sites in them count from 0 (as with a POU whose `first_check` is 0), and no instance is running there. `pou` may be a function block that a task
     runs by itself: `name` is the path of that instance.
     """
 

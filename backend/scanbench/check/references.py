@@ -142,7 +142,8 @@ class ReferenceChecker(PlaceChecker):
         if not isinstance(type, Reference):
             raise self.report.reject("T002", f"`REF=` binds a reference; `{shown(target)}` is {type}.", target.span)
         self.assignable(place, member, target.span)
-        if (isinstance(value, tree.Name) and value.name.upper() == "NULL") or isinstance(value, tree.Literal):
+        null = isinstance(value, tree.Name) and value.name.upper() == "NULL"
+        if null or isinstance(value, tree.Literal | tree.Call):
             return place, self.coerce(self.expr(value), replace(type, automatic=False), span, shown(target))
         source, _ = self.raw_place(value) if isinstance(value, VARIABLES) else (None, None)
         if source is not None and isinstance(source.type, Reference) and source.type.automatic:

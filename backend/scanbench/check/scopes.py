@@ -44,7 +44,7 @@ class Scope:
     """Records under declaration, for constant expressions."""
     this: Place | None = None
     """Slot of THIS, in a method: the variables of the instance stand behind it."""
-    space: Space = Space()
+    space: Space = field(default_factory=Space)
     """The namespaces whose global variables are visible."""
 
     def find(self, name: str) -> tuple[Member, Base, Record] | None:

@@ -105,6 +105,8 @@ class Settings:
         """The variable of a path that may begin with the name of a resource."""
         first, _, rest = path.partition(".")
         if first.strip().upper() in self._resources:
+            if len(self._resources) == 1:
+                path = rest
             with suppress(UnknownPath):
                 return resolve(self._program, rest)
         try:

@@ -33,9 +33,8 @@ class StandardArguments(ExpressionChecker):
             missing = [formal for index, formal in enumerate(row.formals) if index not in given]
             takes = f"{', '.join(row.formals)}{', ...' if row.variadic else ''}" or "nothing"
             hint = f" `{missing[0]}` is missing." if missing else ""
-            raise self.report.reject(
-                "T004", f"`{name}` takes {len(row.formals)} arguments ({takes}), not {len(given)}.{hint}", node.span
-            )
+            takes = f"{len(row.formals)} argument{'s' if len(row.formals) != 1 else ''} ({takes})"
+            raise self.report.reject("T004", f"`{name}` takes {takes}, not {len(given)}.{hint}", node.span)
         return [given[index] for index in range(count)]
 
     def _position(self, argument: tree.Argument, name: str, row: Row) -> int:

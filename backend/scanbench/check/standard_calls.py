@@ -2,8 +2,9 @@
 
 import re
 
-from scanbench.check import conversions, fold
-from scanbench.check.program import Compare, Const, Expr, Intrinsic, Place
+from scanbench.check import conversions, fold, standard_fold
+from scanbench.check.context import did_you_mean
+from scanbench.check.program import Compare, Const, Expr, Place
 from scanbench.check.standard.functions import (
     FUNCTIONS,
     INTERNAL,
@@ -117,7 +118,7 @@ class StandardCallChecker(ChoiceFunctions):
                 hint = f" Convert it with {type}_TO_{same}, or write {same}#..."
             raise self.report.reject("T002", f"`{name}` needs a bit string, not {type}.{hint}", bits_tree.span)
         count = self.integer(self.expr(count_tree), count_tree.span, name)
-        return Intrinsic(row.intrinsic, bits.type, (bits, count))
+        return standard_fold.intrinsic(row.intrinsic, bits.type, (bits, count))
 
     # ---- strings ----------------------------------------------------------------------------------------
 
@@ -129,7 +130,7 @@ class StandardCallChecker(ChoiceFunctions):
                 args.append(self.integer(value, node.span, name))
                 continue
             if isinstance(value.type, Elementary) and value.type.kind is Kind.CHAR:
-                value = Intrinsic("CHAR_STR", StringType(1, value.type.size), (value,))
+                value = standard_fold.intrinsic("CHAR_STR", StringType(1, value.type.size), (value,))
             if not isinstance(value.type, StringType):
                 raise self.report.reject("T002", f"`{name}` needs a STRING, not {settle(value).type}.", node.span)
             args.append(value)
@@ -139,14 +140,14 @@ class StandardCallChecker(ChoiceFunctions):
                 "T002", f"`{name}` cannot join STRING and WSTRING; convert one with STRING_TO_WSTRING.", node.span
             )
         if row.result == "INT":
-            return Intrinsic(row.intrinsic, INT, tuple(args))
+            return standard_fold.intrinsic(row.intrinsic, INT, tuple(args))
         if row.variadic:
             result = args[0]
             for arg in args[1:]:
-                result = Intrinsic(row.intrinsic, _capacity(result, arg), (result, arg))
+                result = standard_fold.intrinsic(row.intrinsic, _capacity(result, arg), (result, arg))
             return result
         kept = args[:1] if row.result == "first" else args
-        return Intrinsic(row.intrinsic, _capacity(*kept), tuple(args))
+        return standard_fold.intrinsic(row.intrinsic, _capacity(*kept), tuple(args))
 
     # ---- the rest ---------------------------------------------------------------------------------------
 
@@ -158,7 +159,7 @@ class StandardCallChecker(ChoiceFunctions):
             values = self.alike(values, node.span, name, None, typed)
         match base:
             case "TIME" | "LTIME":
-                return Intrinsic("CLOCK", LTIME if base == "LTIME" else TIME, ())
+                return standard_fold.intrinsic("CLOCK", LTIME if base == "LTIME" else TIME, ())
             case "MOVE":
                 return values[0]
             case "NOT":
@@ -167,7 +168,7 @@ class StandardCallChecker(ChoiceFunctions):
                 return self._is_valid(node, name, settle(values[0]))
             case "__CODE_AT":
                 position = self.integer(values[1], node.span, name)
-                return fold.convert(INT, Intrinsic("CHAR_AT", CHAR, (values[0], position)))
+                return fold.convert(INT, standard_fold.intrinsic("CHAR_AT", CHAR, (values[0], position)))
             case "MUL_TIME" | "DIV_TIME" | "MUL_LTIME" | "DIV_LTIME":
                 time = self.coerce(values[0], LTIME if "_L" in base else TIME, node.span, "`IN1`")
                 return self.operate(base[:3].lower(), time, values[1], node.span)
@@ -184,7 +185,7 @@ class StandardCallChecker(ChoiceFunctions):
     def _is_valid(self, node: tree.Call, name: str, value: Expr) -> Expr:
         if not isinstance(value.type, Elementary) or value.type.kind is not Kind.REAL:
             raise self.report.reject("T002", f"`{name}` needs a REAL or LREAL, not {value.type}.", node.span)
-        size = Intrinsic("ABS", value.type, (value,))
+        size = standard_fold.intrinsic("ABS", value.type, (value,))
         return Compare("le", BOOL, size, Const(value.type, LARGEST[value.type.size]))
 
     def _byte_order(self, node: tree.Call, name: str, value: Expr, wanted: Type | None) -> Expr:
@@ -198,7 +199,9 @@ class StandardCallChecker(ChoiceFunctions):
             if isinstance(type, Elementary) and type.kind is Kind.REAL:
                 hint = f" Take its bits with {type}_TO_{'DWORD' if type.size == 4 else 'LWORD'} first."
             raise self.report.reject("T002", f"`{name}` cannot work on {type}.{hint}", node.span)
-        return Intrinsic("SWAP", type, (value,)) if name.endswith("BIG_ENDIAN") and type.size > 1 else value
+        return (
+            standard_fold.intrinsic("SWAP", type, (value,)) if name.endswith("BIG_ENDIAN") and type.size > 1 else value
+        )
 
     # ---- conversions ------------------------------------------------------------------------------------
 
@@ -208,9 +211,21 @@ class StandardCallChecker(ChoiceFunctions):
         type = self.declarations.named(name, node.span)
         return type if isinstance(type, Elementary | StringType) else None
 
+    def _misspelt(self, node: tree.Call, name: str) -> None:
+        """Refuses `INT_TO_FOO` by the part of it that is no type."""
+        source, _, target = name.partition("_TO_")
+        known = [*ELEMENTARY, *conversions.SHORT, *conversions.STRINGS]
+        for part, other in ((target, source), (source, target)):
+            if other in known and part and part not in known:
+                hint = did_you_mean(part, known)
+                raise self.report.reject(
+                    "T001", f"There is no function `{name}`: `{part}` is no type to convert.{hint}", node.span
+                )
+
     def _conversion(self, node: tree.Call, name: str, wanted: Type | None) -> Expr | None:
         parsed = conversions.parse_name(name, lambda part: self._user_type(part, node))
         if parsed is None:
+            self._misspelt(node, name)
             return None
         value_tree = self.arguments(node, name, Special(("IN",), ""))[0]
         source, target = parsed.source, parsed.target

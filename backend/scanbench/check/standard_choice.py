@@ -1,12 +1,13 @@
 """Selection and comparison: SEL, MUX, MIN, MAX, LIMIT, GT and its like, on every type that they can have."""
 
+from collections.abc import Callable
 from itertools import pairwise
 
-from scanbench.check import fold
-from scanbench.check.program import Assign, Const, Expr, If, Intrinsic, Load, Place, Sequence, Stmt
+from scanbench.check import fold, standard_fold
+from scanbench.check.program import Assign, Const, Expr, If, Load, Place, Sequence, Stmt
 from scanbench.check.standard.functions import Chain, Row, Same
 from scanbench.check.standard_arguments import StandardArguments
-from scanbench.check.types import BOOL, Elementary, Kind, StringType, Type
+from scanbench.check.types import BOOL, LINT, Elementary, Kind, StringType, Type
 from scanbench.problems import Span
 from scanbench.syntax import tree
 
@@ -20,9 +21,9 @@ class ChoiceFunctions(StandardArguments):
         if isinstance(type, Elementary | StringType) and type.kind in row.kinds:
             result = values[0]
             if len(row.formals) == 1:
-                return Intrinsic(row.intrinsic, type, (result,))
+                return standard_fold.intrinsic(row.intrinsic, type, (result,))
             for value in values[1:]:
-                result = Intrinsic(row.intrinsic, type, (result, value))
+                result = standard_fold.intrinsic(row.intrinsic, type, (result, value))
             return result
         raise self.report.reject("T002", f"`{name}` cannot work on {type}.{_hint(type, row.kinds)}", node.span)
 
@@ -57,14 +58,19 @@ class ChoiceFunctions(StandardArguments):
         values = self.alike([self.expr(each, typed or wanted) for each in rest], node.span, name, wanted, typed)
         type = widest(values)
         if isinstance(type, Elementary | StringType):
-            return Intrinsic("SEL", type, (gate, *values))
-        assert type is not None
-        # a whole array or structure: all three are evaluated, then one is copied
+            return standard_fold.intrinsic("SEL", type, (gate, *values))
         held, chosen = self.held(gate, node.span)
-        first, second = self.temporary(type, node.span), self.temporary(type, node.span)
-        choose = If(((chosen, (Assign(first, Load(second), node.span),)),), (), node.span)
-        body = (*held, Assign(first, values[0], node.span), Assign(second, values[1], node.span), choose)
-        return Sequence(body, Load(first))
+        return self._copied(values, held, lambda index: chosen, node.span)
+
+    def _copied(self, values: list[Expr], first: tuple[Stmt, ...], test: Callable[[int], Expr], span: Span) -> Expr:
+        """Whole arrays or structures: all are evaluated, then the last one whose test holds is copied over the first."""
+        type = values[0].type
+        assert type is not None
+        places = [self.temporary(type, span) for _ in values]
+        body: list[Stmt] = [*first, *(Assign(*each, span) for each in zip(places, values, strict=True))]
+        for index, place in enumerate(places[1:], 1):
+            body.append(If(((test(index), (Assign(places[0], Load(place), span),)),), (), span))
+        return Sequence(tuple(body), Load(places[0]))
 
     def mux(self, node: tree.Call, name: str, row: Row, wanted: Type | None, typed: Type | None) -> Expr:
         selector_tree, *rest = self.arguments(node, name, row)
@@ -72,10 +78,9 @@ class ChoiceFunctions(StandardArguments):
         values = self.alike([self.expr(each, typed or wanted) for each in rest], node.span, name, wanted, typed)
         type = widest(values)
         if isinstance(type, Elementary | StringType):
-            return Intrinsic("MUX", type, (selector, *values))
-        raise self.report.reject(
-            "X001", f"`{name}` cannot choose between values of {type}; use CASE and assignments.", node.span
-        )
+            return standard_fold.intrinsic("MUX", type, (selector, *values))
+        held, chosen = self.held(selector, node.span)
+        return self._copied(values, held, lambda index: fold.compare("ge", BOOL, chosen, Const(LINT, index)), node.span)
 
     def limit(
         self, node: tree.Call, name: str, row: Row, wanted: Type | None, typed: Type | None, eno: Place | None
@@ -91,7 +96,7 @@ class ChoiceFunctions(StandardArguments):
             (first, low), (second, value), (third, high) = (self.held(each, node.span) for each in (low, value, high))
             above, below = fold.compare("ge", BOOL, value, low), fold.compare("le", BOOL, value, high)
             body = (*first, *second, *third, Assign(eno, fold.binary("and", BOOL, above, below), node.span))
-        limited = Intrinsic("MIN", type, (Intrinsic("MAX", type, (low, value)), high))
+        limited = standard_fold.intrinsic("MIN", type, (standard_fold.intrinsic("MAX", type, (low, value)), high))
         return Sequence(body, limited) if body else limited
 
 

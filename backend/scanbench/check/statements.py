@@ -48,11 +48,13 @@ class StatementChecker(AssignmentChecker):
     def body(self, body: tuple[tree.Statement, ...] | tree.IlBody) -> tuple[Stmt, ...]:
         """The body of a POU, in ST or IL."""
         self._counters, self._loops = [], 0
-        prologue = self._prologue()
+        prologue, checks = self._prologue(), len(self.report.checks)
         if self.pou is not None and self.pou.kind != "function":
             prologue += edges(self.pou.instance)
         made = InstructionList(self, body).statements() if isinstance(body, tree.IlBody) else self.block(body)
-        return (*prologue, *without_needless(self.report, tuple(made)))
+        if len(self.report.checks) > checks:
+            made = without_needless(self.report, tuple(made))
+        return (*prologue, *made)
 
     def _prologue(self) -> list[Stmt]:
         """Temporaries start afresh at every call."""

@@ -119,8 +119,8 @@ def complete(program: Program, text: str, limit: int) -> list[Symbol]:
                 found.append(symbol)
                 if len(found) >= limit:
                     break
-    except UnknownPath:
-        pass
+    except UnknownPath:  # the name of a resource, perhaps
+        found += [symbol for symbol in _roots(program) if symbol.path.upper().startswith(start)][:limit]
     if len(found) < limit and text:
         try:
             raw = _raw(program, text)

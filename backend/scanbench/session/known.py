@@ -1,15 +1,14 @@
 """Programs that were built before, from the disk: neither check nor emission, so that a restart takes no time."""
 
-import gc
 import hashlib
 import pickle
 import sys
 from collections.abc import Iterable, Iterator
-from contextlib import contextmanager
 from functools import cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 
+from scanbench.check.garbage import without_collection
 from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
 from scanbench.plcmodel.model import Model
@@ -55,7 +54,7 @@ def recall(cache: BlobCache, key: str) -> Program | None:
     data = cache.get(key)
     if data is None:
         return None
-    with _no_collection():
+    with without_collection():
         program = pickle.loads(data)  # the cache has checked that these are the bytes that we wrote
     return program if isinstance(program, Program) else None
 
@@ -82,15 +81,3 @@ def keep_code(cache: BlobCache, key: str, machine: str, objects: Iterable[str]) 
 
 def _code_key(key: str, machine: str) -> str:
     return hashlib.sha256(f"code {key} {machine}".encode()).hexdigest()
-
-
-@contextmanager
-def _no_collection() -> Iterator[None]:
-    """Without looking for garbage among a hundred thousand new objects, none of which is any."""
-    was = gc.isenabled()
-    gc.disable()
-    try:
-        yield
-    finally:
-        if was:
-            gc.enable()

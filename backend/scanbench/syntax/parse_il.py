@@ -51,9 +51,9 @@ class IlParser(StatementParser):
             return self.texts[behind] == "(" and self._mnemonic_after_call(behind)
         if text.startswith("RET"):
             return self.texts[behind] != ";" and (not self._same_line(at, behind) or self.kinds[behind] is Lex.END)
-        return self._same_line(at, behind) and (
-            self.kinds[behind] in OPERANDS or self.texts[behind] in ("TRUE", "FALSE", "-", "+")
-        )
+        operand = self.kinds[behind] in OPERANDS or self.texts[behind] in ("TRUE", "FALSE", "-", "+")
+        # `r REF= x;` and `s S= x;` begin with a variable
+        return operand and self._same_line(at, behind) and self.texts[behind + 1] not in (";", "=")
 
     def _mnemonic_after_call(self, opening: int) -> bool:
         """`LIMIT( ... )` with an instruction on the next line: the result of the call is the current result."""

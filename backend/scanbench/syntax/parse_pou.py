@@ -31,6 +31,7 @@ class PouParser(IlParser):
         methods: list[tree.PouDeclaration] = []
         body: Body = ()
         while True:
+            before = self.at
             if self.is_("VAR_GLOBAL") and not self._end_follows(ENDS[kind]):
                 break
             sections += self.sections()
@@ -41,7 +42,6 @@ class PouParser(IlParser):
             if self.word() in MEMBERS and self.kinds[self.at + 1] is NAME:
                 methods += self.member(kind)
                 continue
-            before = self.at
             body = _joined(body, self._whole_body())
             if self.at == before:
                 break

@@ -1,6 +1,7 @@
 """Structured Text and Instruction List -> tree: everything that one file declares."""
 
 import re
+from dataclasses import replace
 
 from scanbench.problems import Problem
 from scanbench.syntax import tree
@@ -90,11 +91,14 @@ class StParser(ConfigurationParser):
 
     def _namespace(self, result: tree.File) -> None:
         start = self.take()
-        if self.word() == "INTERNAL" and self.kinds[self.at + 1] is NAME:
+        internal = self.word() == "INTERNAL" and self.kinds[self.at + 1] is NAME
+        if internal:
             self.take()
         outer, visible = self.namespace, self.visible
         name = self.qualified("the name of the NAMESPACE")
         self.namespace = f"{outer}.{name}" if outer else name
+        if internal:
+            result.internal.append(self.namespace)
         self.enter()
         try:
             while not self.is_("END_NAMESPACE") and not self.ended():
@@ -109,15 +113,16 @@ class StParser(ConfigurationParser):
     def _types(self, result: tree.File) -> None:
         start = self.take()
         qualified_only = self._qualified_only(start)
-        access = self.word()
-        if access in ("PUBLIC", "INTERNAL") and self.kinds[self.at + 1] is NAME:
+        access = "PUBLIC"
+        if self.word() in ("PUBLIC", "INTERNAL") and self.kinds[self.at + 1] is NAME:
+            access = self.word()
             self.take()
         while not self.is_("END_TYPE") and not self.ended() and self.texts[self.at] not in TOPS:
             depth = self.depth
             if self.accept(";"):
                 continue
             try:
-                result.types.append(self._type(qualified_only))
+                result.types.append(replace(self._type(qualified_only), access=access))
             except Unexpected:
                 self.depth = depth
                 self._skip_type()

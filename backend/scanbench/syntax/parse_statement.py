@@ -142,10 +142,27 @@ class StatementParser(DeclarationParser):
         return tree.ExitStatement(span) if self.texts[start] == "EXIT" else tree.ReturnStatement(span)
 
     def _condition(self, keyword: str) -> tree.Expression:
-        condition = self.expression()
+        start, depth = self.at, self.depth
+        try:
+            condition = self.expression()
+        except Unexpected:
+            self.depth = depth
+            if not self._reach(keyword):
+                raise
+            return tree.Literal("bool", 0, None, self.span_of(start))
         if not self.accept(keyword):
             self.close(keyword, "behind the selector" if keyword == "OF" else "behind the condition")
         return condition
+
+    def _reach(self, keyword: str) -> bool:
+        """Goes behind the keyword, if it comes before the statement ends."""
+        at = self.at
+        while self.texts[at] not in STOPS and self.texts[at] not in (";", ":=", keyword):
+            at += 1
+        if self.texts[at] != keyword or keyword == "OF":
+            return False
+        self.at = at + 1
+        return True
 
     def _if(self) -> tree.Statement:
         start = self.take()

@@ -6,13 +6,19 @@ from scanbench.problems import Span
 
 
 class Source:
-    """One file's text under the name that problems show."""
+    """One file's text, or a stretch of it, under the name that problems show."""
 
-    __slots__ = ("_starts", "name", "text")
+    __slots__ = ("_starts", "above", "name", "text")
 
-    def __init__(self, name: str, text: str) -> None:
+    def __init__(self, name: str, text: str, above: int = 0) -> None:
         self.name, self.text = name, text
+        self.above = above
+        """Lines of the file before this text. It changes when text above is edited: spans then say their new places."""
         self._starts: list[int] | None = None
+
+    def edit(self, text: str) -> None:
+        """Takes another text; spans before the first difference stay what they are."""
+        self.text, self._starts = text, None
 
     def span(self, start: int, end: int) -> Span:
         """The span of text[start:end]."""
@@ -20,13 +26,13 @@ class Source:
 
     def line(self, at: int) -> int:
         """The line of the character at this position, from 1."""
-        return bisect_right(self._line_starts(), at)
+        return bisect_right(self._line_starts(), at) + self.above
 
     def place(self, at: int) -> tuple[int, int]:
         """Line and column of the character at this position, from 1."""
         starts = self._line_starts()
         line = bisect_right(starts, at)
-        return line, at - starts[line - 1] + 1
+        return line + self.above, at - starts[line - 1] + 1
 
     def _line_starts(self) -> list[int]:
         if self._starts is None:

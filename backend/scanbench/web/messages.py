@@ -76,7 +76,7 @@ class CheckRequest(Wire):
 
 class Pou(Wire):
     name: str
-    kind: Literal["program", "function_block", "function", "type", "global"]
+    kind: Literal["program", "function_block", "function", "class", "interface", "method", "property", "type", "global"]
     file: str
     line: int
 

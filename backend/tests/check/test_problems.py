@@ -37,7 +37,8 @@ BODIES = [
     ("T012", "x := a[4];", 3),
     ("W001", "x + 1;", 3),
     ("T009", "CONTINUE;", 3),
-    ("X001", "x := x.3;", 3),
+    ("T012", "b := x.20;", 3),
+    ("X001", "x := __NEW(INT);", 3),
 ]
 
 FILES = [
@@ -63,6 +64,8 @@ FILES = [
     ("D001", "TYPE DINT : INT; END_TYPE\nPROGRAM Main\nEND_PROGRAM", 1),
     ("D006", "PROGRAM Main\nVAR x : ARRAY[18446744073709551614..18446744073709551615] OF INT; END_VAR\nEND_PROGRAM", 2),
     ("D008", "PROGRAM Main\nVAR_TEMP t : ARRAY[0..1] OF TON; END_VAR\nEND_PROGRAM", 2),
+    ("D014", "CLASS A\nMETHOD PUBLIC OVERRIDE m\nEND_METHOD\nEND_CLASS\nPROGRAM Main\nEND_PROGRAM", 2),
+    ("T014", "CLASS A\nMETHOD PRIVATE m\nEND_METHOD\nEND_CLASS\nPROGRAM Main\nVAR a : A; END_VAR\na.m();\nEND_PROGRAM", 7),
     ("D013", "".join(f"FUNCTION F{n} : INT\nF{n} := " + (f"F{n + 1}() + F{n + 1}()" if n < 30 else "1") + ";\nEND_FUNCTION\n" for n in range(31)) + "PROGRAM Main\nEND_PROGRAM", 34),
     ("S004", "PROGRAM Main\nVAR x : ULINT; END_VAR\nx := 18446744073709551617;\nEND_PROGRAM", 3),
     ("S004", "PROGRAM Main\nVAR x : REAL; END_VAR\nx := " + "1" * 5000 + ";\nEND_PROGRAM", 3),
@@ -72,6 +75,17 @@ FILES = [
     ("T008", "PROGRAM Main\nVAR i, x : INT; END_VAR\nFOR i := 1 TO 2 DO\nFOR i := 1 TO 2 DO x := i; END_FOR; END_FOR;\nEND_PROGRAM", 4),
     ("T005", "FUNCTION_BLOCK B\nVAR_IN_OUT x : INT; END_VAR\nEND_FUNCTION_BLOCK\nPROGRAM Main\nVAR b : B; END_VAR\nb();\nEND_PROGRAM", 6),
     ("T005", "FUNCTION_BLOCK B\nVAR_IN_OUT x : INT; END_VAR\nEND_FUNCTION_BLOCK\nPROGRAM Main\nVAR b : B; END_VAR\nb(x := 5);\nEND_PROGRAM", 6),
+    ("T013", "FUNCTION F : INT\nVAR t : INT; p : REF_TO INT; END_VAR\np := REF(t);\nEND_FUNCTION\nPROGRAM Main\nEND_PROGRAM", 3),
+    ("S004", "PROGRAM Main\nVAR x : INT (0..9);\ny : INT (0..9) := 10; END_VAR\nEND_PROGRAM", 3),
+    ("S004", "TYPE C : (A, B := 300) SINT; END_TYPE\nPROGRAM Main\nEND_PROGRAM", 1),
+    ("T001", "TYPE C : (A, B); D : (B, E); END_TYPE\nPROGRAM Main\nVAR n : INT; END_VAR\nn := B;\nEND_PROGRAM", 4),
+    ("T002", "TYPE C : (A, B); D : (F, E); END_TYPE\nPROGRAM Main\nVAR c : C; b : BOOL; END_VAR\nb := c = E;\nEND_PROGRAM", 4),
+    ("T002", "TYPE C : (A, B); END_TYPE\nPROGRAM Main\nVAR c : C; END_VAR\nc := 1;\nEND_PROGRAM", 4),
+    ("D002", "PROGRAM Main\nVAR x : REAL (0..9); END_VAR\nEND_PROGRAM", 2),
+    ("D005", "TYPE S : STRUCT a AT %B0 : INT; b AT %B1 : INT; END_STRUCT; END_TYPE\nPROGRAM Main\nEND_PROGRAM", 1),
+    ("D006", "PROGRAM Main\nVAR x : INT (9..0); END_VAR\nEND_PROGRAM", 2),
+    ("D008", "PROGRAM Main\nVAR x : ARRAY[*] OF INT; END_VAR\nEND_PROGRAM", 2),
+    ("D008", "TYPE U : UNION t : TON; x : INT; END_UNION; END_TYPE\nPROGRAM Main\nEND_PROGRAM", 1),
     ("T011", "PROGRAM Main\nVAR f AT A402.12 : BOOL; END_VAR\nf := TRUE;\nEND_PROGRAM", 3),
 ]  # fmt: skip
 

@@ -31,3 +31,10 @@ def test_the_failing_example_fails_and_the_mended_one_does_not(code: str) -> Non
     failing, mended = (check_sources({"a.st": text}, model).problems for text in examples(code))
     assert code in {problem.code for problem in failing}, failing
     assert [problem for problem in mended if problem.severity is Severity.ERROR or problem.code == code] == []
+
+
+def test_the_index_lists_every_page() -> None:
+    index = (PAGES / "README.md").read_text("utf-8")
+    assert [line for line in index.splitlines() if line.startswith("| [")] == [
+        f"| [{code}]({code}.md) | {title} |" for code, title in TABLE.items()
+    ]

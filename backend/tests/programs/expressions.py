@@ -85,20 +85,26 @@ def _bool(draw: Draw, scope: Scope, sub: Sub) -> str:
     if choice < 5:
         return f"NOT {sub('BOOL')}"
     type = scope.known(draw, *INTEGERS, *BITS, *REALS, "TIME", TEXT)
+    if choice == 9:
+        return f"{draw.one('GT', 'GE', 'EQ', 'LE', 'LT')}({sub(type)}, {sub(type)}, {sub(type)})"
     return f"({sub(type)} {draw.one('=', '<>', '<', '<=', '>', '>=')} {sub(type)})"
 
 
 def _time(draw: Draw, sub: Sub) -> str:
-    match draw.randrange(4):
+    match draw.randrange(5):
         case 0 | 1:
             return f"({sub('TIME')} {draw.one('+', '-')} {sub('TIME')})"
+        case 3:
+            return _chosen(draw, sub, "TIME")
         case 2:
             return f"({sub('TIME')} * {sub('INT', 'DINT', 'REAL')})"
     return f"DINT_TO_TIME({sub('DINT')})"
 
 
 def _string(draw: Draw, sub: Sub) -> str:
-    match draw.randrange(8):
+    match draw.randrange(9):
+        case 7:
+            return _chosen(draw, sub, TEXT)
         case 0 | 1:
             return f"CONCAT({sub(TEXT)}, {sub(TEXT)})"
         case 2:
@@ -115,23 +121,29 @@ def _string(draw: Draw, sub: Sub) -> str:
 
 
 def _real(draw: Draw, scope: Scope, sub: Sub, type: str) -> str:
-    choice = draw.randrange(10)
+    choice = draw.randrange(12)
     if choice < 5:
         return f"({sub(type)} {draw.one(*'+-*/')} {sub(type)})"
+    if choice == 10:
+        return _chosen(draw, sub, type)
+    if choice == 11:
+        return f"{draw.one('EXPT', 'ATAN2')}({sub(type)}, {sub(type)})"
     if choice == 5:
         return f"(-{sub(type)})"
     if choice < 8:
         other = scope.known(draw, "LINT", "UDINT", "LREAL" if type == "REAL" else "REAL", "ULINT", "INT")
         return f"{other}_TO_{type}({sub(other)})"
     if choice == 8:
-        return f"{draw.one('ABS', 'SQRT', 'SIN', 'EXP', 'LN', 'ATAN')}({sub(type)})"
+        return f"{draw.one('ABS', 'SQRT', 'SIN', 'EXP', 'LN', 'ATAN', 'LOG', 'COS', 'ASIN')}({sub(type)})"
     return f"{draw.one('MIN', 'MAX')}({sub(type)}, {sub(type)})"
 
 
 def _bits(draw: Draw, scope: Scope, sub: Sub, type: str) -> str:
-    choice = draw.randrange(10)
+    choice = draw.randrange(11)
     if choice < 5:
         return f"({sub(type)} {draw.one('AND', 'OR', 'XOR')} {sub(type)})"
+    if choice == 10:
+        return _chosen(draw, sub, type)
     if choice == 5:
         return f"NOT {sub(type)}"
     if choice < 8:
@@ -141,7 +153,11 @@ def _bits(draw: Draw, scope: Scope, sub: Sub, type: str) -> str:
 
 
 def _integer(draw: Draw, scope: Scope, sub: Sub, type: str) -> str:
-    choice = draw.randrange(20)
+    choice = draw.randrange(23)
+    if choice == 20:
+        return f"TRUNC_{type}({sub(*REALS)})"
+    if choice > 20:
+        return _chosen(draw, sub, type)
     if choice < 10:
         return f"({sub(type)} {draw.one('+', '-', '*', 'MOD')} {sub(type)})"
     if choice < 12:
@@ -156,6 +172,16 @@ def _integer(draw: Draw, scope: Scope, sub: Sub, type: str) -> str:
     if type == "INT":
         return f"FIND({sub(TEXT)}, {sub(TEXT)})"
     return f"SEL({sub('BOOL')}, {sub(type)}, {sub(type)})"
+
+
+def _chosen(draw: Draw, sub: Sub, type: str) -> str:
+    """The functions of selection, which any elementary type has."""
+    return draw.one(
+        f"LIMIT({sub(type)}, {sub(type)}, {sub(type)})",
+        f"MUX({sub('INT', 'USINT')}, {sub(type)}, {sub(type)}, {sub(type)})",
+        f"{draw.one('MIN', 'MAX')}({sub(type)}, {sub(type)}, {sub(type)})",
+        f"SEL({sub('BOOL')}, {sub(type)}, {sub(type)})",
+    )
 
 
 def divisor(draw: Draw, type: str) -> str:

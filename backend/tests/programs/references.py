@@ -65,6 +65,41 @@ def _whole(draw: Draw, scope: Scope, depth: int) -> str:
     return draw.one("rn^ := nodes[1];", "nodes[2] := rm^;", "rm^ := rn^;", "rn^.next^ := nodes[3];")
 
 
+# ---- pointers -----------------------------------------------------------------------------------------------------
+
+POINTED = {"INT": "pi_", "BYTE": "py_", "DWORD": "pd_", "REAL": "pr_", "LINT": "pl_", "BOOL": "pb_"}
+"""Names of pointers, by what they point to."""
+
+
+def pointers(parts: Parts) -> None:
+    """The ingredient: pointers that are computed with, and so point into the middle of other variables."""
+    draw, scope = parts.draw, parts.main
+    parts.variables += [f"{name}, {name}2 : POINTER TO {type};" for type, name in POINTED.items()]
+    parts.variables.append("heap : ARRAY[0..31] OF BYTE; ")
+    for type, name in POINTED.items():
+        names = [each for each in scope.writable.get(type, []) if not {"%", "."} & set(each)]
+        parts.variables.append(f"x{name} : {type};")
+        targets = [*names, f"x{name}"]
+        parts.start.append(f"{name} := ADR({draw.of(targets)}); {name}2 := ADR(x{name});")
+        scope.add(type, f"{name}^", f"{name}2^")
+        scope.statements.append(_moved(name, targets))
+        scope.add_expression("BOOL", _same_pointer(name))
+
+
+def _moved(name: str, targets: list[str]) -> StatementMaker:
+    def make(draw: Draw, scope: Scope, depth: int) -> str:
+        if draw.likely(RARE):
+            return f"{name} := {name} {draw.one('+ 16#4000_0000', '- 16#7FFF_FFFF', '+ 16#1_0000_0000', '- 100_000')};"
+        start = draw.one(name, f"{name}2", f"ADR({draw.of(targets)})")
+        return f"{name} := {start} {draw.one('+', '-')} {draw.randint(0, 5)};"
+
+    return make
+
+
+def _same_pointer(name: str) -> ExpressionMaker:
+    return lambda draw, scope, depth: f"({name} {draw.one('=', '<>')} {draw.one('NULL', f'{name}2')})"
+
+
 # ---- arrays of any length -----------------------------------------------------------------------------------------
 
 OPEN = """\

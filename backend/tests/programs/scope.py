@@ -64,8 +64,8 @@ class Scope:
         self.expressions.setdefault(type, []).extend(makers)
 
 
-COUNTERS = "k0, k1, k2, w0, w1, w2 : INT;"
-"""Of loops, by depth: FOR, and WHILE or REPEAT."""
+COUNTERS = "k0, k1, k2, w0, w1, w2 : INT; ku0, ku1, ku2 : USINT; ks0, ks1, ks2 : SINT;"
+"""Of loops, by depth: FOR (k), and WHILE or REPEAT (w)."""
 
 
 @dataclass(slots=True)

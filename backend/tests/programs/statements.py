@@ -80,6 +80,12 @@ def _round(draw: Draw, scope: Scope, depth: int) -> str:
 
 
 def _for(draw: Draw, scope: Scope, depth: int) -> str:
+    if draw.likely(20):  # to the end of the type
+        head = draw.one(
+            f"ku{depth} := {draw.randint(249, 255)} TO 255", f"ku{depth} := {draw.randint(0, 9)} TO 255 BY 100",
+            f"ks{depth} := {draw.randint(120, 127)} TO 127", f"ks{depth} := -120 TO -128 BY -3",
+        )  # fmt: skip
+        return f"FOR {head} DO\n{_round(draw, scope, depth)}END_FOR;"
     low = draw.one(str(draw.randint(-3, 3)), f"({variable(draw, scope, 'INT')} MOD 3)")
     high = draw.one(str(draw.randint(-3, 6)), f"({variable(draw, scope, 'INT')} MOD 6)")
     step = draw.one("", "", " BY 2", " BY -1", " BY -2", f" BY ({variable(draw, scope, 'INT')} MOD 3)")

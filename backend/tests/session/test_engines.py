@@ -7,11 +7,12 @@ _WITHOUT_LLVM = """
 import sys
 sys.modules["llvmlite"] = None
 from scanbench.session.host.build import find_engines
-print(find_engines().make.name, "|", find_engines().message)
+engines = find_engines(None)
+print(engines.tiers, "|", engines.message)
 """
 
 
 def test_fallback_without_llvm() -> None:
     said = subprocess.run([sys.executable, "-c", _WITHOUT_LLVM], capture_output=True, text=True, check=True).stdout
-    assert said.startswith("reference |")
+    assert said.startswith("None |")
     assert "LLVM is missing" in said

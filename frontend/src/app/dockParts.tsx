@@ -63,6 +63,10 @@ const ICONS: Record<Pou["kind"], IconName> = {
   program: "program",
   function_block: "fb",
   function: "fn",
+  class: "fb",
+  interface: "struct",
+  method: "fn",
+  property: "fn",
   type: "struct",
   global: "globe",
 };

@@ -16,14 +16,13 @@ export interface FileNode {
   file: string;
 }
 
-export type PouKind = Pou["kind"];
-
 export interface PouGroup {
-  kind: PouKind | "file";
+  kind: (typeof ORDER)[number] | "file";
   nodes: (PouNode | FileNode)[];
 }
 
-const ORDER: PouKind[] = ["program", "function_block", "function", "type", "global"];
+// Methods and properties are found in the text of their block.
+const ORDER = ["program", "function_block", "class", "interface", "function", "type", "global"] as const;
 
 /** Groups in the order of the standard; files in which nothing is declared (new, or broken) come last, as files. */
 export function pouGroups(pous: readonly Pou[], files: readonly FileInfo[]): PouGroup[] {

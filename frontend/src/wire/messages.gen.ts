@@ -904,7 +904,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "program" | "function_block" | "function" | "type" | "global";
+            kind: "program" | "function_block" | "function" | "class" | "interface" | "method" | "property" | "type" | "global";
             /** Line */
             line: number;
             /** Name */

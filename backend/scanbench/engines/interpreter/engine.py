@@ -38,11 +38,12 @@ class ReferenceEngine(Engine):
     def _program(self, instance: ProgramInstance) -> Callable[[], None]:
         """One program instance of a task, with what is connected to it."""
         make = Statements(self, replace(instance.pou, first_trap=0, first_check=0))
-        steps = (make.block(instance.before), self._bodies[instance.pou], make.block(instance.after))
+        before, body, after = make.block(instance.before), self._bodies[instance.pou], make.block(instance.after)
 
         def run() -> None:
-            for step in steps:
-                step(instance.offset)
+            before(0)
+            body(instance.offset)
+            after(0)
 
         return run
 

@@ -18,6 +18,8 @@ const POU_ICONS: Record<PouGroup["kind"], IconName> = {
   program: "program",
   function_block: "fb",
   function: "fn",
+  class: "fb",
+  interface: "struct",
   type: "struct",
   global: "globe",
   file: "init",
@@ -32,7 +34,16 @@ interface Folding {
 
 /** The explorer's rows, top to bottom. */
 export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) => void): TreeRow[] {
-  const folding = useFolding(["program", "function_block", "function", "global", "file", "instances"]);
+  const folding = useFolding([
+    "program",
+    "function_block",
+    "class",
+    "interface",
+    "function",
+    "global",
+    "file",
+    "instances",
+  ]);
   const { pous, files, active, problems } = useDocuments();
   const { instance, model } = useBench();
   const members = useMembers((state) => state.of);

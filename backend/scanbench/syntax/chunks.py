@@ -1,0 +1,195 @@
+"""A file in chunks that are parsed by themselves: each POU, and what stands between. Edits of one leave the others alone."""
+
+from dataclasses import dataclass, field
+from os.path import commonprefix
+
+from scanbench.problems import Problem
+from scanbench.syntax import tree
+from scanbench.syntax.lexer import AHEAD, KEYWORDS, Lex, Tokens, tokenize
+from scanbench.syntax.parse_file import MAX_SIZE, XML_ENDINGS, parse_file
+from scanbench.syntax.parse_st import StParser
+from scanbench.syntax.source import Source
+
+ENDS = {"PROGRAM": "END_PROGRAM", "FUNCTION": "END_FUNCTION", "FUNCTION_BLOCK": "END_FUNCTION_BLOCK"}
+"""Where a POU begins and ends that makes a chunk."""
+MARKS = frozenset((*ENDS, *ENDS.values(), "CONFIGURATION", "END_CONFIGURATION"))
+TIES = frozenset(
+    "METHOD PROPERTY PROPERTY_GET PROPERTY_SET ACTION USING NAMESPACE CLASS INTERFACE ORGANIZATION_BLOCK DATA_BLOCK".split()
+)
+"""Words that tie what follows to what stands before, or hold POUs of their own: such a file is one chunk."""
+
+
+@dataclass(slots=True)
+class Chunk:
+    """A stretch of a file, and what is declared there. `pou` is set when it is one POU, and nothing else."""
+
+    start: int
+    source: Source
+    file: tree.File
+    problems: list[Problem]
+    single: bool = False
+
+    @property
+    def pou(self) -> tree.PouDeclaration | None:
+        """The one POU of the chunk."""
+        return self.file.pous[0] if self.single and len(self.file.pous) == 1 else None
+
+    @property
+    def end(self) -> int:
+        """Position behind it."""
+        return self.start + len(self.source.text)
+
+
+@dataclass(slots=True)
+class Chunked:
+    """A file: its text, and its chunks in order."""
+
+    name: str
+    text: str
+    chunks: list[Chunk] = field(default_factory=list)
+
+    @property
+    def file(self) -> tree.File:
+        """All that the file declares."""
+        whole = tree.File(self.name)
+        for chunk in self.chunks:
+            whole.types += chunk.file.types
+            whole.globals += chunk.file.globals
+            whole.pous += chunk.file.pous
+            whole.configurations += chunk.file.configurations
+        return whole
+
+    @property
+    def problems(self) -> list[Problem]:
+        """Why some of it could not be read."""
+        return [problem for chunk in self.chunks for problem in chunk.problems]
+
+    def edited(self, text: str) -> Chunk | None:
+        """Takes another text, when one POU holds all that is different: its chunk is parsed again, and given.
+
+        None when the text must be read anew; nothing is changed then.
+        """
+        first, last = _difference(self.text, text)
+        chunk = next((each for each in self.chunks if each.single and each.start < first and last < each.end), None)
+        if chunk is None:
+            return None
+        grown = len(text) - len(self.text)
+        source = Source(self.name, text[chunk.start : chunk.end + grown], chunk.source.above)
+        tokens, problems = tokenize(source)
+        if not _is_one_pou(tokens):
+            return None
+        more = source.text.count("\n") - chunk.source.text.count("\n")
+        for each in self.chunks:
+            if each.start > chunk.start:
+                each.start += grown
+                each.source.above += more
+        chunk.source.edit(source.text)
+        tokens, problems = tokenize(chunk.source)  # their spans are of the chunk's own source
+        chunk.file, chunk.problems = _parsed(chunk.source, tokens, problems)
+        self.text = text
+        return chunk
+
+
+def read(name: str, text: str) -> Chunked:
+    """Parses a file, chunk by chunk if it falls into chunks."""
+    if len(text) > MAX_SIZE or name.lower().endswith(XML_ENDINGS):
+        return _whole(name, text)
+    source = Source(name, text)
+    tokens, problems = tokenize(source)
+    stretches = None if problems else _stretches(tokens, len(text))
+    if stretches is None:
+        return _whole(name, text)
+    made = Chunked(name, text)
+    above = counted = at = 0
+    for start, end, single in stretches:
+        above += text.count("\n", counted, start)
+        counted = start
+        first = at
+        while tokens.kinds[at] is not Lex.END and tokens.starts[at] < end:
+            at += 1
+        part = Source(name, text[start:end], above)
+        file, found = _parsed(part, _slice(tokens, first, at, start, end), [])
+        made.chunks.append(Chunk(start, part, file, found, single))
+    return made
+
+
+def _whole(name: str, text: str) -> Chunked:
+    source = Source(name, text)
+    file, problems = parse_file(source)
+    return Chunked(name, text, [Chunk(0, source, file, problems)])
+
+
+def _parsed(source: Source, tokens: Tokens, problems: list[Problem]) -> tuple[tree.File, list[Problem]]:
+    parser = StParser(source, tokens)
+    parser.problems += problems
+    return parser.whole()
+
+
+def _slice(tokens: Tokens, first: int, last: int, start: int, end: int) -> Tokens:
+    """The tokens of a stretch, as if it were a text of its own."""
+    pragmas = [(at - start, text) for at, text in tokens.pragmas if start <= at < end]
+    return Tokens(
+        tokens.kinds[first:last] + [Lex.END] * AHEAD,
+        tokens.texts[first:last] + [""] * AHEAD,
+        [at - start for at in tokens.starts[first:last]] + [end - start] * AHEAD,
+        pragmas,
+    )
+
+
+def _stretches(tokens: Tokens, length: int) -> list[tuple[int, int, bool]] | None:
+    """Start and end of each chunk, and whether it is a POU; None for a file that does not fall into chunks."""
+    texts, made, at, index = tokens.texts, [], 0, 0
+    marks = [number for number, text in enumerate(texts) if text in MARKS and text in KEYWORDS]
+    while index < len(marks):
+        opening = texts[marks[index]]
+        closing = "END_CONFIGURATION" if opening == "CONFIGURATION" else ENDS.get(opening)
+        if closing is None:
+            return None
+        end = index + 1
+        while opening == "CONFIGURATION" and end < len(marks) and texts[marks[end]] == "PROGRAM":
+            end += 1
+        if end == len(marks) or texts[marks[end]] != closing:
+            return None
+        if opening != "CONFIGURATION":
+            start, behind = tokens.starts[marks[index]], tokens.starts[marks[end]] + len(closing)
+            made += [(at, start, False), (start, behind, True)]
+            at = behind
+        index = end + 1
+    made.append((at, length, False))
+    return made if _free(tokens, made) else None
+
+
+def _free(tokens: Tokens, stretches: list[tuple[int, int, bool]]) -> bool:
+    """Whether nothing between the POUs is tied to one."""
+    ties = [number for number, text in enumerate(tokens.texts) if text.upper() in TIES]
+    return not any(
+        start <= tokens.starts[number] < end for start, end, single in stretches if not single for number in ties
+    )
+
+
+def _is_one_pou(tokens: Tokens) -> bool:
+    marks = [text for text in tokens.texts if text in MARKS]
+    last = len(tokens.texts) - AHEAD - 1
+    return len(marks) == 2 and tokens.texts[0] == marks[0] and tokens.texts[last] == ENDS.get(marks[0]) == marks[1]
+
+
+def _difference(old: str, new: str) -> tuple[int, int]:
+    """The stretch of `old` outside of which the two are the same."""
+    first = _common(old, new)
+    rest = min(len(old), len(new)) - first
+    behind = _common(old[len(old) - rest :][::-1], new[len(new) - rest :][::-1]) if rest else 0
+    return first, len(old) - behind
+
+
+def _common(one: str, other: str) -> int:
+    """Length of what both begin with."""
+    low, high = 0, min(len(one), len(other))
+    if one[:high] == other[:high]:
+        return high
+    while high - low > 64:
+        middle = (low + high) // 2
+        if one[low:middle] == other[low:middle]:
+            low = middle
+        else:
+            high = middle
+    return low + len(commonprefix((one[low:high], other[low:high])))

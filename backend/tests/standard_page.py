@@ -1,0 +1,100 @@
+"""`python -m tests.standard_page` writes `docs/standard-library.md` from the tables of the library."""
+
+from pathlib import Path
+
+from scanbench.check import conversions
+from scanbench.check.standard.functions import FUNCTIONS, Chain, Operator, Row, Same, Shift, Special, StringFunction
+from scanbench.check.standard.library import library
+from scanbench.check.types import Kind
+from scanbench.syntax import tree
+
+PAGE = Path(__file__).parents[2] / "docs" / "standard-library.md"
+KINDS = {
+    Kind.INT: "integer", Kind.UINT: "", Kind.REAL: "real", Kind.BITS: "bit string", Kind.BOOL: "BOOL",
+    Kind.TIME: "duration", Kind.DATE: "date or time of day", Kind.CHAR: "character", Kind.STRING: "string",
+}  # fmt: skip
+LETTERS = {"s": "string", "n": "integer"}
+
+
+def page() -> str:
+    """The whole page."""
+    lines = [
+        "# The standard library",
+        "",
+        "Made by `python -m tests.standard_page` (in `backend/`); do not edit.",
+        "",
+        "Names may have a type behind them: `ADD_INT`, `MAX_LREAL`, `SHL_WORD`. Arguments are given in order or by name;",
+        "EN and ENO go with every function. Results wrap at the width of their type; a division of integers by zero traps.",
+        "",
+        "## Functions",
+        "",
+        "| function | takes and gives |",
+        "|---|---|",
+        *(f"| `{name}({', '.join(row.formals)}{', ...' if row.variadic else ''})` | {says(row)} |"
+          for name, row in FUNCTIONS.items()),
+        "",
+        "## Conversions",
+        "",
+        "`X_TO_Y`, `TO_Y`; `X_TRUNC_Y`, `TRUNC_Y`, `TRUNC`; `X_BCD_TO_Y`, `BCD_TO_Y`, `X_TO_BCD_Y`, `TO_BCD_Y`.",
+        "X and Y are elementary types, STRING, WSTRING or enumerations.",
+        "",
+        (conversions.__doc__ or "").partition("The rules, once:\n")[2].strip(),
+        "",
+    ]  # fmt: skip
+    functions: list[str] = []
+    blocks: list[str] = []
+    for file in library():
+        for pou in file.pous:
+            if not pou.name.startswith("__"):
+                (functions if pou.kind == "function" else blocks).append(f"| {signature(pou)} |")
+    lines += ["## Functions in ST", "", "| function |", "|---|", *functions, ""]
+    lines += ["## Function blocks", "", "| block |", "|---|", *blocks, ""]
+    return "\n".join(lines)
+
+
+def says(row: Row) -> str:
+    """What a function takes and gives, in words."""
+    match row:
+        case Special(says=text):
+            return text
+        case Same(kinds=kinds):
+            return f"{', '.join(filter(None, (KINDS[kind] for kind in kinds)))} -> the same"
+        case Shift():
+            return "bit string, integer -> that bit string"
+        case StringFunction(kinds=kinds, result=result):
+            return f"{', '.join(LETTERS[kind] for kind in kinds)} -> {'INT' if result == 'INT' else 'string'}"
+        case Chain():
+            return "any elementary type or string -> BOOL"
+        case Operator(op=op, types=types):
+            if types is not None:
+                difference = types[0] == types[1] and types[0].kind is Kind.DATE
+                return f"{types[0]}, {types[1]} -> {('LTIME' if types[0].name[0] == 'L' else 'TIME') if difference else types[0]}"
+            if op in ("add", "sub", "mul", "div"):
+                return "number -> the same; times where the names below allow it"
+            return "BOOL or bit string -> the same" if op in ("and", "or", "xor") else "number -> the same"
+
+
+def signature(pou: tree.PouDeclaration) -> str:
+    """`NAME(inputs => outputs) : result` of a library POU."""
+    parts: dict[str, list[str]] = {"VAR_INPUT": [], "VAR_OUTPUT": []}
+    for section in pou.sections:
+        for variable in section.variables:
+            if section.keyword in parts:
+                parts[section.keyword].append(f"{variable.name} : {spelled(variable.type)}")
+    outputs = f" => {', '.join(parts['VAR_OUTPUT'])}" if parts["VAR_OUTPUT"] else ""
+    result = f" : {spelled(pou.result)}" if pou.result is not None else ""
+    return f"`{pou.name}({', '.join(parts['VAR_INPUT'])}{outputs}){result}`"
+
+
+def spelled(type: tree.TypeSpec) -> str:
+    """A type as the library writes it."""
+    match type:
+        case tree.NamedType(name):
+            return name
+        case tree.StringSpec(length=tree.Literal(value=value)):
+            return f"STRING[{value!r}]"
+    raise AssertionError(type)
+
+
+if __name__ == "__main__":
+    PAGE.write_text(page(), "utf-8")

@@ -1,0 +1,102 @@
+"""Text -> tokens: comments, pragmas, places, encodings, words that are keywords only in places."""
+
+import pickle
+
+from scanbench.problems import Span
+from scanbench.syntax.lexer import Lex, tokenize
+from scanbench.syntax.source import Source, decode
+from tests.syntax.shown import complaints, show_body, well
+
+
+def words(text: str) -> list[str]:
+    return [word for word in tokenize(Source("a.st", text))[0].texts if word]
+
+
+def test_comments_nest() -> None:
+    assert words("a (* b (* c *) d *) e /* f /* g */ h */ i // j (* k\nl {m} n {o {p} q} r") == [
+        "a",
+        "e",
+        "i",
+        "l",
+        "n",
+        "r",
+    ]
+    assert words("(**)a(***)b(* ) * ( *)c/**/d//") == ["a", "b", "c", "d"]
+
+
+def test_marks_of_comments_inside_of_strings_are_text() -> None:
+    assert words("'(*' a \"/*\" b '{' c (* ' *) d") == ["'(*'", "a", '"/*"', "b", "'{'", "c", "d"]
+    assert words("(* (* *) *) '(*' a") == ["'(*'", "a"]
+
+
+def test_a_comment_without_end_is_one_problem() -> None:
+    for mark, what in (("(*", "comment"), ("/*", "comment"), ("{", "pragma")):
+        assert complaints(f"PROGRAM p\nEND_PROGRAM\n  {mark} x := 1;\n y") == [
+            f"S002 3:3 This {what} never ends; close it."
+        ]
+
+
+def test_keywords_in_any_case_and_names_as_written() -> None:
+    tokens = tokenize(Source("a.st", "If x THEN Ärger := true; end_if"))[0]
+    assert tokens.texts[:8] == ["IF", "x", "THEN", "Ärger", ":=", "TRUE", ";", "END_IF"]
+    assert tokens.kinds[3] is Lex.NAME
+
+
+def test_places_of_tokens() -> None:
+    source = Source("a.st", "a\n  bb (* \n *) := 'c'")
+    tokens = tokenize(source)[0]
+    spans = [source.span(at, at + len(text)) for at, text in zip(tokens.starts, tokens.texts, strict=True) if text]
+    assert [(each.line, each.column, each.end_line, each.end_column) for each in spans] == [
+        (1, 1, 1, 2),
+        (2, 3, 2, 5),
+        (3, 5, 3, 7),
+        (3, 8, 3, 11),
+    ]
+
+
+def test_a_lazy_span_is_a_span() -> None:
+    source = Source("a.st", "ab\ncd")
+    lazy, plain = source.span(1, 4), Span("a.st", 1, 2, 2, 2)
+    assert (lazy, hash(lazy), str(lazy), repr(lazy)) == (plain, hash(plain), str(plain), repr(plain))
+    assert plain == lazy
+    assert lazy != source.span(1, 3)
+    copy = pickle.loads(pickle.dumps(lazy))
+    assert (type(copy), copy) == (Span, plain)
+    assert lazy.to(Span("a.st", 9, 1, 9, 5)) == Span("a.st", 1, 2, 9, 5)
+    assert source.span(0, 1).to(lazy) == Span("a.st", 1, 1, 2, 2)
+
+
+def test_bytes_of_a_file() -> None:
+    assert decode(b"\xef\xbb\xbfa\r\nb\rc") == "a\nb\nc"
+    assert decode("ä€".encode()) == "ä€"
+    assert decode(b"x := '\xe4';") == "x := 'ä';"
+    assert decode(b"\xef\xbb\xbfx \xe4") == "x ä"
+
+
+def test_a_mark_of_byte_order_and_carriage_returns_are_blanks() -> None:
+    assert well("\ufeffPROGRAM p\r\nEND_PROGRAM\r\n").pous[0].name == "p"
+
+
+def test_characters_without_meaning() -> None:
+    assert "S001 2:8 `!` has no meaning here; remove it." in complaints("PROGRAM p\nx := 1 ! 2;\nEND_PROGRAM")
+    assert len(complaints("?" * 100_000)) <= 101
+
+
+def test_words_of_edition_3_are_names_of_older_programs() -> None:
+    names = """method class interface property namespace using final abstract override public private protected internal
+    extends implements this super union on by continue retain constant task resource with overlap ref pointer reference
+    LD ST S R LDN CAL JMP RET NOT_ AND_ GT get set action begin version region goto type_ read_write R_EDGE""".split()
+    declared = "\n".join(f"  {name} : INT;" for name in names)
+    used = "\n".join(f"{name} := {name} + 1; {name}.{name}[{name}](a := {name}, b => {name});" for name in names)
+    file = well(f"PROGRAM p\nVAR\n{declared}\nEND_VAR\n{used}\nEND_PROGRAM")
+    assert [each.name for each in file.pous[0].sections[0].variables] == names
+    assert len(file.pous[0].body) == 2 * len(names)  # type: ignore[arg-type]
+
+
+def test_latch_and_bind() -> None:
+    shown = show_body("a S= b; S S= S; c R= S = R; d REF= e; f ?= g;")
+    assert shown == (
+        "Assignment(target=a, value=b, operator=S=) Assignment(target=S, value=S, operator=S=) "
+        "Assignment(target=c, value=(S = R), operator=R=) Assignment(target=d, value=e, operator=REF=) "
+        "Assignment(target=f, value=g, operator=?=)"
+    )
