@@ -17,6 +17,7 @@ from scanbench.check.classes import Method, called_pou, collect, declare_methods
 from scanbench.check.collect import Collector, declare_globals, globals_of
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare import Declarations
+from scanbench.check.generic import is_generic
 from scanbench.check.names import Space, qualified
 from scanbench.check.order import Order
 from scanbench.check.program import Assign, Base, Const, Expr, Place, Pou, Program
@@ -164,6 +165,7 @@ class Checker:
     def finish(self, interval_ns: int) -> Program | None:
         """What all bodies together make."""
         self.report.undo(self.declared)
+        self._check_instances()
         self._check_library()
         order = self._order()
         self.report.join(order)
@@ -211,6 +213,9 @@ class Checker:
     def _declare_pou(self, key: str, declaration: tree.PouDeclaration) -> None:
         name = qualified(declaration.namespace, declaration.name)
         inline = declaration.span.file.startswith("standard/")
+        if is_generic(declaration):
+            self.pous.generic[key] = declaration
+            return
         if declaration.kind == "function":
             try:
                 frame = self.declarations.frame(declaration, Record(name, Kind.BLOCK))
@@ -280,6 +285,12 @@ class Checker:
     def _same_type(self, member: Member, declared: Type, span: Span) -> None:
         if declared != member.type:
             self.report.error("D007", f"The VAR_GLOBAL `{member.name}` is {member.type}, not {declared}.", span)
+
+    def _check_instances(self) -> None:
+        """Bodies of generic functions, for the types that they are called with; they may call others."""
+        while fresh := [each for each in self.pous.instances.values() if each.pou not in self.frames]:
+            for pou, declaration in [(each.pou, each.declaration) for each in fresh]:
+                self._check(pou, declaration, pou.instance, Space(declaration.namespace, declaration.using), None)
 
     def _check_library(self) -> None:
         """Bodies of the library POUs that are used, and of those that they use."""

@@ -7,8 +7,9 @@ from scanbench.check.arguments import Invocation, together
 from scanbench.check.classes import Class, Method
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.dispatch import Dispatcher
+from scanbench.check.generic import GenericChecker
 from scanbench.check.names import Names
-from scanbench.check.objects import ObjectChecker, Receiver, dotted, named_itself
+from scanbench.check.objects import Receiver, dotted, named_itself
 from scanbench.check.program import (
     Assign,
     Base,
@@ -53,7 +54,7 @@ def enabling(node: tree.Call) -> Enabling:
     return Enabling(replace(node, arguments=rest), en, eno)
 
 
-class CallChecker(ObjectChecker):
+class CallChecker(GenericChecker):
     # ---- calls for their value --------------------------------------------------------------------------
 
     def call(self, node: tree.Call, wanted: Type | None = None) -> Expr:
@@ -63,7 +64,7 @@ class CallChecker(ObjectChecker):
             if value is None:
                 raise self.report.reject("T010", "This has no result; call it as a statement.", node.span)
             return Sequence(tuple(statements), value)
-        callee = self._callee(node.callee)
+        callee = self._callee(node.callee, node)
         if callee is not None:
             return self.as_value(self._invoked(callee, node), node.span)
         return self._standard(node, wanted)
@@ -71,7 +72,7 @@ class CallChecker(ObjectChecker):
     def call_statement(self, node: tree.Call) -> Stmt | None:
         """A call as a statement: of an instance, or of a function or method whose result is dropped."""
         apart = enabling(node)
-        callee = self._callee(node.callee)
+        callee = self._callee(node.callee, apart.call)
         if callee is None and self._names_instance(node.callee):
             return self.call_block(node)
         if apart.en is not None or apart.eno is not None:
@@ -94,8 +95,11 @@ class CallChecker(ObjectChecker):
         found = self._callee(callee)
         return found if found is None or isinstance(found, Pou) else found[1].pou
 
-    def _callee(self, callee: tree.Expression) -> Pou | tuple[Receiver, Method] | None:
-        """The FUNCTION or method that is called; None for instances and standard functions."""
+    def _callee(self, callee: tree.Expression, node: tree.Call | None = None) -> Pou | tuple[Receiver, Method] | None:
+        """The FUNCTION or method that is called; None for instances and standard functions.
+
+        Of a generic FUNCTION it is the one for the arguments of `node`.
+        """
         method = self.method_called(callee)
         if method is not None:
             return method
@@ -103,7 +107,9 @@ class CallChecker(ObjectChecker):
         if name is None or self._hides(name):
             return None
         names: Names = self.declarations.names
-        key = names.find(name, callee.span, self.pous.functions) if self.pous.functions else None
+        key = names.find(name, callee.span, self.pous.functions, self.pous.generic)
+        if key in self.pous.generic:
+            return self.instantiated(self.pous.generic[key], node or tree.Call(callee, (), callee.span))
         return self.pous.functions[key] if key is not None else None
 
     def _hides(self, path: str) -> bool:
@@ -163,7 +169,7 @@ class CallChecker(ObjectChecker):
         node, span = apart.call, apart.call.span
         condition = self._condition_of(apart.en)
         ok = self.temporary(BOOL, span) if apart.eno is not None else None
-        callee = self._callee(node.callee)
+        callee = self._callee(node.callee, node)
         if callee is None:
             run, result, told = self._enabled_standard(node, wanted, ok)
         else:

@@ -72,8 +72,8 @@ class Report:
 
     def undo(self, mark: tuple[int, int, int]) -> None:
         """Forgets what was reported since, before the same is checked once more."""
-        for reported, length in zip((self.problems, self.traps, self.checks), mark, strict=True):
-            del reported[length:]
+        problems, traps, checks = mark
+        del self.problems[problems:], self.traps[traps:], self.checks[checks:]
 
     def needless(self, number: int, why: str) -> None:
         """What was to be checked there needs no check."""

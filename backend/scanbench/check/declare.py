@@ -305,9 +305,7 @@ class Declarations:
                     self.report.error("D008", "A temporary variable has no address.", variable.span)
                     continue
                 if variable.name.upper() in instance.members or (
-                    function
-                    and declaration.kind != "set"
-                    and variable.name.upper() == declaration.name.upper()
+                    function and declaration.kind != "set" and variable.name.upper() == declaration.name.upper()
                 ):
                     self.report.error("D001", f"`{variable.name}` is declared already; rename one.", variable.span)
                     continue
@@ -447,7 +445,9 @@ class Declarations:
     def place_of(self, address: str, type: Type, span: Span) -> tuple[int, int | None]:
         """Offset in the image, and bit, of an address of the model for a variable of this type."""
         if address.endswith("*"):
-            raise self.report.reject("D005", "A whole address is needed here; only VAR and VAR_GLOBAL wait for one.", span)
+            raise self.report.reject(
+                "D005", "A whole address is needed here; only VAR and VAR_GLOBAL wait for one.", span
+            )
         location = self.model.locate(address)
         if location is None:
             why = self.model.why_not(address)
@@ -514,9 +514,7 @@ class Declarations:
 
 def _with_arguments(variable: tree.Variable) -> tree.Variable:
     """`inst : FB(a := 1)` means `inst : FB := (a := 1)`."""
-    members = tuple(
-        (each.name or "", each.value, each.span) for each in variable.arguments if each.value is not None
-    )
+    members = tuple((each.name or "", each.value, each.span) for each in variable.arguments if each.value is not None)
     return replace(variable, initial=tree.StructInit(members, variable.span))
 
 

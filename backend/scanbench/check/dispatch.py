@@ -21,7 +21,7 @@ from scanbench.check.program import (
     TrapKind,
 )
 from scanbench.check.scopes import Pous, place_of
-from scanbench.check.types import NULL, UDINT, Kind, Member, Record, Section
+from scanbench.check.types import BOOL, NULL, UDINT, Kind, Member, Record, Section
 from scanbench.problems import Span
 
 
@@ -83,19 +83,30 @@ class Dispatcher:
             member = signature.frame.members[key]
             this = owner.record if key == "THIS" else None
             frame.place(replace(member, type=this or member.type, offset=0, home="", initial=b""))
+        parameters = signature.parameters
+        if "ENO" not in parameters and any("ENO" in callee.parameters for callee in found):
+            frame.place(Member("ENO", BOOL, Section.OUTPUT, signature.span))
+            parameters = (*parameters, "ENO")
         if signature.returned is not None:
             frame.place(replace(signature.returned, offset=0, home="", initial=b""))
         trap = self.report.trap(TrapKind.NULL, signature.span, name, "THIS refers to no instance")
         made = Pou(
-            name, "function", Record(name, Kind.BLOCK), frame, signature.parameters, signature.result, signature.span
+            name, "function", Record(name, Kind.BLOCK), frame, parameters, signature.result, signature.span
         )
         branches = [(_labels(numbers), (self._go_on(made, callee, trap),)) for callee, numbers in found.items()]
         slot = place_of(frame.members["THIS"], Base.FRAME, frame, trap).slot
         assert slot is not None
         otherwise = self._nothing(made)
         choice = Case(Load(behind(slot, 0, trap)), tuple(branches), (otherwise,), signature.span)
-        made.body = (choice if branches else otherwise,)
+        made.body = (*self._succeeds(made), choice if branches else otherwise)
         return made
+
+    def _succeeds(self, made: Pou) -> tuple[Stmt, ...]:
+        """ENO is TRUE where the method does not say otherwise."""
+        eno = made.frame.members.get("ENO")
+        if eno is None or eno.section is not Section.OUTPUT:
+            return ()
+        return (Assign(place_of(eno, Base.FRAME, made.frame, 0), Const(BOOL, 1), made.span),)
 
     def _go_on(self, made: Pou, callee: Pou, trap: int) -> Stmt:
         """Calls the method with the same arguments."""

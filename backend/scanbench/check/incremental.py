@@ -33,9 +33,8 @@ class Checks:
         """What `check_sources` finds."""
         project = next((each for each in self._known if each.is_about(sources, model, interval_ns)), None)
         if project is None:
-            with without_collection():
-                project = _Project(model, interval_ns, {name: read(name, text) for name, text in sources.items()})
-                project.start()
+            project = _Project(model, interval_ns)
+            project.start_anew(sources)
         else:
             self._known.remove(project)
             project.change(sources)
@@ -60,7 +59,7 @@ class _Edit:
 class _Project:
     model: Model
     interval_ns: int
-    files: dict[str, Chunked]
+    files: dict[str, Chunked] = field(init=False)
     checker: Checker = field(init=False)
     checked: Checked = field(init=False)
 
@@ -70,42 +69,55 @@ class _Project:
         return same and (self.model is model or self.model == model)
 
     def start(self) -> None:
-        """Checks everything."""
+        """Checks everything that was read."""
         files = list(self.files.values())
         self.checker = checker_of(files, self.model)
         self.checked = concluded(files, self.checker.report, self.checker.run(self.interval_ns))
 
     def change(self, sources: Mapping[str, str]) -> None:
         """Checks what changed."""
-        edits: list[_Edit | None] = [
-            self._edit(name, text) for name, text in sources.items() if text != self.files[name].text
-        ]
-        if not edits:
+        edited = {name: text for name, text in sources.items() if text != self.files[name].text}
+        if not edited:
             return
-        bodies = [self._changed_body(edit) for edit in edits if edit is not None]
-        known = [body for body in bodies if body is not None]
-        moved = any(edit is None or edit.moved for edit in edits)
-        if None in edits or (moved and self._tells_places()):
-            # spans of kept trees moved, but messages that tell a place did not
-            self.files = {name: read(name, text) for name, text in sources.items()}
-            self.start()
+        edits: list[_Edit] = []
+        for name, text in edited.items():
+            found = self._edits(name, text)
+            if found is None:
+                self.start_anew(sources)
+                return
+            edits += found
+        if any(edit.moved for edit in edits) and self._tells_places():
+            self.start_anew(sources)  # spans of kept trees moved, but messages that tell a place did not
             return
-        if len(known) < len(edits):
-            self.start()
+        bodies = [self._changed_body(edit) for edit in edits]
+        if None in bodies:
+            with without_collection():
+                self.start()
             return
-        for pou, declaration in known:
-            self.checker.recheck(pou, declaration)
+        for body in bodies:
+            assert body is not None
+            self.checker.recheck(*body)
         program = self.checker.finish(self.interval_ns)
         self.checked = concluded(list(self.files.values()), self.checker.report, program)
 
-    def _edit(self, name: str, text: str) -> _Edit | None:
-        """Takes the file's new text; None when it was not one POU that changed."""
+    def start_anew(self, sources: Mapping[str, str]) -> None:
+        """Reads and checks everything."""
+        with without_collection():
+            self.files = {name: read(name, text) for name, text in sources.items()}
+            self.start()
+
+    def _edits(self, name: str, text: str) -> list[_Edit] | None:
+        """Takes the file's new text; None when more than POUs changed."""
         file = self.files[name]
-        before, lines = {id(chunk): chunk.pou for chunk in file.chunks}, file.text.count("\n")
-        chunk = file.edited(text)
-        if chunk is None:
+        before = {id(chunk): (chunk.pou, chunk.source.text.count("\n")) for chunk in file.chunks}
+        chunks = file.edited(text)
+        if chunks is None:
             return None
-        return _Edit(name, chunk, before[id(chunk)], text.count("\n") != lines)
+        made = []
+        for chunk in chunks:
+            pou, lines = before[id(chunk)]
+            made.append(_Edit(name, chunk, pou, chunk.source.text.count("\n") != lines))
+        return made
 
     def _changed_body(self, edit: _Edit) -> tuple[Pou, tree.PouDeclaration] | None:
         """The POU to be checked again, if nothing but its body changed."""

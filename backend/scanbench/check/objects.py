@@ -18,11 +18,25 @@ from scanbench.check.program import (
     Place,
     Pou,
     RefOf,
+    Sequence,
     Stmt,
     TrapKind,
+    TrapSite,
 )
 from scanbench.check.references import reference_type
-from scanbench.check.types import BOOL, NULL, Kind, Member, Record, Reference, Section, Type, is_derived
+from scanbench.check.types import (
+    BOOL,
+    NULL,
+    ArrayType,
+    Kind,
+    Member,
+    Record,
+    Reference,
+    Section,
+    Type,
+    has_instance,
+    is_derived,
+)
 from scanbench.problems import Span
 from scanbench.syntax import tree
 
@@ -79,9 +93,10 @@ class ObjectChecker(ArgumentChecker):
     def _this_trap(self) -> int:
         pou = self.pou
         assert pou is not None
-        known = self.pous.this_traps.get(pou.name)
-        if known is None:
-            known = self.trap(TrapKind.NULL, pou.span, "THIS refers to no instance")
+        site = TrapSite(TrapKind.NULL, pou.span, self.scope.pou, "THIS refers to no instance")
+        known = self.pous.this_traps.get(pou.name, 0)
+        if not known or self.report.traps[known - 1 : known] != [site]:  # new, or undone meanwhile
+            known = self.trap(site.kind, site.span, site.message)
             self.pous.this_traps[pou.name] = known
         return known
 
@@ -320,7 +335,34 @@ class ObjectChecker(ArgumentChecker):
         if isinstance(node, tree.Name) and node.name.upper() == "THIS":  # vendors: a pointer to the instance
             place = self.self_place("THIS", node.span)
             return RefOf(place, reference_type(place.type, pointer=True))
+        if isinstance(node, tree.MemberOf) and node.name.upper() not in self.pous.classes.properties:
+            return self._part_of_value(node) or super()._read(node)
         return super()._read(node)
+
+    def _element(self, node: tree.IndexOf) -> Expr:
+        return self._part_of_value(node) or super()._element(node)
+
+    def _part_of_value(self, node: tree.MemberOf | tree.IndexOf) -> Expr | None:
+        """A member or element of what a property or call gives: of a copy, as the value itself has no place."""
+        inner: tree.Expression = node
+        while isinstance(inner, tree.MemberOf | tree.IndexOf):
+            inner = inner.owner if isinstance(inner, tree.MemberOf) else inner.array
+            value = self._whole_value(inner)
+            if value is not None:
+                break
+        else:
+            return None
+        if not isinstance(value.type, Record | ArrayType) or has_instance(value.type):
+            return None
+        kept = self.temporary(value.type, node.span)
+        name = kept.variable.rpartition(".")[2]
+        part = self.expr(_replaced(node, inner, tree.Name(name, inner.span)))
+        return Sequence((Assign(kept, value, node.span),), part)
+
+    def _whole_value(self, node: tree.Expression) -> Expr | None:
+        if isinstance(node, tree.Call):
+            return self.call(node)
+        return self.property_value(node) if self.pous.classes.properties else None
 
     def is_variable(self, node: tree.Expression) -> bool:
         return self._property(node, ".GET") is None if self.pous.classes.properties else True
@@ -376,6 +418,16 @@ class ObjectChecker(ArgumentChecker):
                 return RefOf(place, reference_type(place.type))
             return Load(place)
         return self.value(node)
+
+
+def _replaced(node: tree.Expression, old: tree.Expression, new: tree.Expression) -> tree.Expression:
+    """The same expression with another owner at its root."""
+    if node is old:
+        return new
+    if isinstance(node, tree.MemberOf):
+        return replace(node, owner=_replaced(node.owner, old, new))
+    assert isinstance(node, tree.IndexOf)
+    return replace(node, array=_replaced(node.array, old, new))
 
 
 def dotted(node: tree.Expression) -> str | None:

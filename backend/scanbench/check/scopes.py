@@ -2,6 +2,7 @@
 
 import struct
 from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
 
 from scanbench.check.classes import Classes
 from scanbench.check.layout import Layout
@@ -23,6 +24,10 @@ from scanbench.check.types import (
     base_of,
 )
 from scanbench.problems import Span
+from scanbench.syntax import tree
+
+if TYPE_CHECKING:
+    from scanbench.check.generic import Instance
 
 _NOWHERE = Span("", 1, 1, 1, 1)
 SYSTEM = Record("$SYSTEM", Kind.STRUCT)
@@ -107,6 +112,10 @@ class Pous:
     blocks: dict[str, Pou] = field(default_factory=dict)
     functions: dict[str, Pou] = field(default_factory=dict)
     classes: Classes = field(default_factory=Classes)
+    generic: dict[str, tree.PouDeclaration] = field(default_factory=dict)
+    """FUNCTIONs with parameters of ANY_NUM and its like."""
+    instances: dict[str, "Instance"] = field(default_factory=dict)
+    """Those that are called, for each combination of types."""
     dispatchers: dict[str, Pou] = field(default_factory=dict)
     """Generated POUs that go on to the method or body of an instance's class, by name."""
     ambiguous: dict[str, list[str]] = field(default_factory=dict)

@@ -41,7 +41,9 @@ def _lasting(declarations: Declarations, expr: object, span: Span) -> Place:
         if place.slot is None and place.reference is None and not place.indices:
             return place
     raise declarations.report.reject(
-        "D004", "A reference starts with NULL or REF(variable) of a variable that is found without running anything.", span
+        "D004",
+        "A reference starts with NULL or REF(variable) of a variable that is found without running anything.",
+        span,
     )
 
 

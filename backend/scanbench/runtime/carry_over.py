@@ -48,6 +48,11 @@ def carry_over(old: Program, old_memory: bytearray, new: Program, new_memory: by
     carrier = _Carrier(old_memory, new_memory, report)
     if new.layout.globals is not None and old.layout.globals is not None:
         carrier.record(old.layout.globals, 0, new.layout.globals, 0)
+    flags = {task.name.upper(): task.previous for task in old.tasks if task.previous}
+    for task in new.tasks:
+        was_event = flags.get(task.name.upper())
+        if task.previous is not None and was_event is not None:
+            new_memory[task.previous.offset] = old_memory[was_event.offset]  # an event that holds on is no new one
     before = {instance.name.upper(): instance for task in old.tasks for instance in task.programs}
     for task in new.tasks:
         for instance in task.programs:

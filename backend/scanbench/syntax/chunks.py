@@ -1,7 +1,6 @@
 """A file in chunks that are parsed by themselves: each POU, and what stands between. Edits of one leave the others alone."""
 
 from dataclasses import dataclass, field
-from os.path import commonprefix
 
 from scanbench.problems import Problem
 from scanbench.syntax import tree
@@ -57,6 +56,7 @@ class Chunked:
             whole.globals += chunk.file.globals
             whole.pous += chunk.file.pous
             whole.configurations += chunk.file.configurations
+            whole.internal += chunk.file.internal
         return whole
 
     @property
@@ -64,30 +64,55 @@ class Chunked:
         """Why some of it could not be read."""
         return [problem for chunk in self.chunks for problem in chunk.problems]
 
-    def edited(self, text: str) -> Chunk | None:
-        """Takes another text, when one POU holds all that is different: its chunk is parsed again, and given.
+    def edited(self, text: str) -> list[Chunk] | None:
+        """Takes another text, when POUs hold all that is different: their chunks are parsed again, and given.
 
         None when the text must be read anew; nothing is changed then.
         """
+        changed = self._inside_one(text) or self._inside_several(text)
+        if changed is None:
+            return None
+        start = above = 0
+        for chunk in self.chunks:
+            part = changed.get(chunk.start)
+            lines = chunk.source.text.count("\n") if part is None else part.count("\n")
+            if part is not None:
+                chunk.source.edit(part)
+                tokens, problems = tokenize(chunk.source)
+                chunk.file, chunk.problems = _parsed(chunk.source, tokens, problems)
+            chunk.source.above = above
+            above += lines
+        parsed = [chunk for chunk in self.chunks if chunk.start in changed]
+        for chunk in self.chunks:
+            chunk.start = start
+            start = chunk.end
+        self.text = text
+        return parsed
+
+    def _inside_one(self, text: str) -> dict[int, str] | None:
+        """The new text of the POU that holds all that is different, by its start."""
         first, last = _difference(self.text, text)
         chunk = next((each for each in self.chunks if each.single and each.start < first and last < each.end), None)
         if chunk is None:
             return None
-        grown = len(text) - len(self.text)
-        source = Source(self.name, text[chunk.start : chunk.end + grown], chunk.source.above)
-        tokens, problems = tokenize(source)
-        if not _is_one_pou(tokens):
+        part = text[chunk.start : chunk.end + len(text) - len(self.text)]
+        tokens, _ = tokenize(Source(self.name, part))
+        return {chunk.start: part} if _is_one_pou(tokens) else None
+
+    def _inside_several(self, text: str) -> dict[int, str] | None:
+        """The same for any number of POUs."""
+        tokens, problems = tokenize(Source(self.name, text))
+        stretches = None if problems else _stretches(tokens, len(text))
+        if stretches is None or [single for _, _, single in stretches] != [each.single for each in self.chunks]:
             return None
-        more = source.text.count("\n") - chunk.source.text.count("\n")
-        for each in self.chunks:
-            if each.start > chunk.start:
-                each.start += grown
-                each.source.above += more
-        chunk.source.edit(source.text)
-        tokens, problems = tokenize(chunk.source)  # their spans are of the chunk's own source
-        chunk.file, chunk.problems = _parsed(chunk.source, tokens, problems)
-        self.text = text
-        return chunk
+        changed = {}
+        for (start, end, single), chunk in zip(stretches, self.chunks, strict=True):
+            part = text[start:end]
+            if part != chunk.source.text:
+                if not single:
+                    return None
+                changed[chunk.start] = part
+        return changed
 
 
 def read(name: str, text: str) -> Chunked:
@@ -186,10 +211,10 @@ def _common(one: str, other: str) -> int:
     low, high = 0, min(len(one), len(other))
     if one[:high] == other[:high]:
         return high
-    while high - low > 64:
+    while high - low > 1:
         middle = (low + high) // 2
         if one[low:middle] == other[low:middle]:
             low = middle
         else:
             high = middle
-    return low + len(commonprefix((one[low:high], other[low:high])))
+    return low

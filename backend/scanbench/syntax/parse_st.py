@@ -1,7 +1,6 @@
 """Structured Text and Instruction List -> tree: everything that one file declares."""
 
 import re
-from dataclasses import replace
 
 from scanbench.problems import Problem
 from scanbench.syntax import tree
@@ -122,7 +121,7 @@ class StParser(ConfigurationParser):
             if self.accept(";"):
                 continue
             try:
-                result.types.append(replace(self._type(qualified_only), access=access))
+                result.types.append(self._type(qualified_only, access))
             except Unexpected:
                 self.depth = depth
                 self._skip_type()
@@ -134,7 +133,7 @@ class StParser(ConfigurationParser):
             if self.texts[self.take()] == ";" or self.is_("END_VAR"):
                 return
 
-    def _type(self, qualified_only: bool) -> tree.TypeDeclaration:
+    def _type(self, qualified_only: bool, access: str) -> tree.TypeDeclaration:
         name = self.name("the name of a type")
         qualified_only = qualified_only or self._qualified_only(name)
         extends = None
@@ -147,7 +146,7 @@ class StParser(ConfigurationParser):
         if not isinstance(spec, tree.StructSpec) or self.is_(";"):
             self.close(";", f"behind the declaration of `{self.texts[name]}`")
         return tree.TypeDeclaration(
-            self.texts[name], spec, initial, self.span_of(name), self.namespace, self.visible, qualified_only
+            self.texts[name], spec, initial, self.span_of(name), self.namespace, self.visible, access, qualified_only
         )
 
     def _qualified_only(self, token: int) -> bool:

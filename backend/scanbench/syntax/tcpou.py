@@ -121,6 +121,9 @@ def parse_tc(source: Source) -> tuple[tree.File, list[Problem]]:
     if found is None:
         message = f"A file of TwinCAT has one of the elements {', '.join(OBJECTS)} in it, but this has none."
         return tree.File(source.name), [Problem("S003", message, source.span(root.start, root.start + 1))]
+    if found.child("Declaration") is None:
+        message = f"This {found.tag} has no Declaration, so nothing is known of it. Export the file again."
+        return tree.File(source.name), [Problem("S003", message, source.span(found.start, found.start + 1))]
     writer = _Writer(Source(source.name, text), source.text)
     writer.object(found)
     list_name = writer.name(found)[0] if found.tag == "GVL" else ""

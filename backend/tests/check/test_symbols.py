@@ -105,3 +105,45 @@ def test_values_as_text(program: Program, path: str, text: str, shown: str) -> N
 def test_wrong_values_say_what_fits(program: Program, path: str, text: str, why: str) -> None:
     with pytest.raises(ValueError, match=why):
         parse_value(resolve(program, path).type, text)
+
+
+POINTERS = """
+TYPE Node : STRUCT v : INT; next : REF_TO Node; END_STRUCT; END_TYPE
+PROGRAM Main
+VAR a : Node := (v := 1); b : Node := (v := 2); p : REF_TO Node := REF(a); r : REFERENCE TO INT; f : BOOL; x : INT (0..9); END_VAR
+f := p <> NULL AND_THEN p^.v = 1; a.next := REF(b); x := a.v;
+END_PROGRAM
+"""
+
+
+def test_paths_through_references() -> None:
+    program = check_sources({"a.st": POINTERS}, MODELS["GENERIC-IEC"]).program
+    assert program is not None
+    memory = bytearray(program.initial_image)
+
+    def shown(path: str) -> str | None:
+        symbol = resolve(program, path)
+        place = symbol.locate(memory)
+        return (
+            None if place is None else format_value(symbol.type, bytes(memory[place[0] : place[0] + symbol.type.size]))
+        )
+
+    assert shown("Main.p^.v") == "1"
+    assert shown("Main.p^.next^.v") is None
+    at, b = resolve(program, "Main.a.next").offset, resolve(program, "Main.b").offset
+    memory[at : at + 8] = b.to_bytes(8, "little")
+    assert shown("Main.p^.next^.v") == "2"
+    memory[at : at + 8] = (len(memory) - 1).to_bytes(8, "little")
+    assert shown("Main.p^.next^.v") is None
+    with pytest.raises(UnknownPath, match=r"write `Main.p\^.v`"):
+        resolve(program, "Main.p.v")
+    with pytest.raises(UnknownPath, match="not a reference"):
+        resolve(program, "Main.a^")
+
+
+def test_what_the_compiler_made_is_not_shown() -> None:
+    program = check_sources({"a.st": POINTERS}, MODELS["GENERIC-IEC"]).program
+    assert program is not None
+    assert not [each.path for each in members(program, "Main") if "$" in each.path]
+    assert resolve(program, "_SubrangeErrorCount").constant
+    assert resolve(program, "_SubrangeError").writable

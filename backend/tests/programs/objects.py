@@ -2,7 +2,7 @@
 
 from tests.programs.expressions import expression
 from tests.programs.scope import COUNTERS, TEXT, Draw, ExpressionMaker, Parts, Scope
-from tests.programs.statements import body
+from tests.programs.statements import body, element, statement
 
 
 def _method(draw: Draw, name: str, own: dict[str, list[str]], calls: list[str], words: str = "PUBLIC") -> str:
@@ -46,6 +46,7 @@ def objects(parts: Parts) -> None:
         "FUNCTION_BLOCK Base IMPLEMENTS Ups\nVAR_INPUT on : BOOL; END_VAR\nVAR_OUTPUT y : INT; END_VAR\nVAR PROTECTED n : INT := 3; s : STRING[12]; END_VAR\n"
         + _method(draw, "Up", base, [])
         + _method(draw, "Twice", base, ["THIS.Up"])
+        + f"PROPERTY PUBLIC Kept : INT\nGET\nKept := n + 1;\nEND_GET\nSET\n{_setter(draw)}END_SET\nEND_PROPERTY\n"
         + "n := n + 1; y := n * 2;\nEND_FUNCTION_BLOCK\n",
         "FUNCTION_BLOCK Derived EXTENDS Base\nVAR m : INT; d : DINT; END_VAR\n"
         f"VAR {COUNTERS} END_VAR\n"
@@ -57,13 +58,26 @@ def objects(parts: Parts) -> None:
         "FUNCTION Through : INT\nVAR_IN_OUT who : Base; END_VAR\nVAR_INPUT x : INT; END_VAR\nVAR_IN_OUT io : INT; END_VAR\n"
         "Through := who.Twice(x := x, io := io) + who.y;\nEND_FUNCTION\n",
     ]
-    parts.variables.append("base : Base; derived, derived2 : Derived; plain : Plain; ups : Ups;")
-    parts.start.append(f"ups := {draw.one('base', 'derived', 'plain')};")
+    parts.variables.append(
+        "base : Base; derived, derived2 : Derived; plain : Plain; ups, ups2 : Ups; many : ARRAY[1..5] OF Derived;\n"
+        "rb : REF_TO Base; rd : REF_TO Derived;"
+    )
+    parts.start.append(f"ups := {draw.one('base', 'derived', 'plain')}; rb := REF(base);")
     scope.add("INT", "base.y", "derived.y", writable=False)
-    for each in ("base.Up", "derived.Up", "derived.Twice", "derived2.Twice", "plain.Up", "ups.Up", "ups.Up"):
+    scope.add("INT", "base.Kept", "derived.Kept", "many[2].Kept", writable=False)
+    for each in (
+        "many[1 + ABS(v_int0 MOD 5)].Up",
+        "base.Up",
+        "derived.Up",
+        "derived.Twice",
+        "derived2.Twice",
+        "plain.Up",
+        "ups.Up",
+        "ups.Up",
+    ):
         scope.add_expression("INT", _call_of(each))
     scope.add_expression("INT", _through)
-    scope.statements += [_block, _turned]
+    scope.statements += [_block, _turned, _kept, _attempt]
 
 
 def _through(draw: Draw, scope: Scope, depth: int) -> str:
@@ -71,7 +85,28 @@ def _through(draw: Draw, scope: Scope, depth: int) -> str:
 
 
 def _block(draw: Draw, scope: Scope, depth: int) -> str:
-    return f"{draw.one('base', 'derived', 'derived2')}(on := {expression(draw, scope, 'BOOL', 1)});"
+    return f"{draw.one('base', 'derived', 'derived2', element(draw, scope, 'many'))}(on := {expression(draw, scope, 'BOOL', 1)});"
+
+
+def _setter(draw: Draw) -> str:
+    scope = Scope()
+    scope.add("INT", "n", "y", "Kept")
+    scope.add_expression("INT", _call_of("THIS.Twice"))
+    return f"{statement(draw, scope, 0)}\nn := Kept;\n"
+
+
+def _kept(draw: Draw, scope: Scope, depth: int) -> str:
+    return f"{draw.one('base', 'derived', element(draw, scope, 'many'))}.Kept := {expression(draw, scope, 'INT', 1)};"
+
+
+def _attempt(draw: Draw, scope: Scope, depth: int) -> str:
+    """Assignment attempts: whether they succeed is known at run time only."""
+    if draw.likely(50):
+        return (
+            f"rb := REF({draw.one('base', 'derived', 'many[3]')}); rd ?= rb;\n"
+            f"IF rd <> NULL THEN v_int0 := {_called(draw, scope, 'rd^.Up', 1)}; END_IF;"
+        )
+    return f"ups2 ?= {draw.one('ups', 'rb^')};\nIF ups2 <> NULL THEN v_int0 := {_called(draw, scope, 'ups2.Up', 1)}; END_IF;"
 
 
 def _turned(draw: Draw, scope: Scope, depth: int) -> str:

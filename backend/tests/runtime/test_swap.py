@@ -76,3 +76,41 @@ def test_after_a_trap_the_new_program_starts_cold() -> None:
     assert "cold" in resource.swap(new, ENGINES[0](new, memory), memory, "Ada", 2)
     resource.run(2)
     assert value(resource, "Main.n") == 2
+
+
+EVENT = """
+VAR_GLOBAL go : BOOL; END_VAR
+FUNCTION_BLOCK Lamp
+VAR coil AT %Q* : BOOL; END_VAR
+coil := TRUE;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR n : INT; lamp : Lamp; END_VAR
+n := n + 1; lamp();
+END_PROGRAM
+CONFIGURATION C
+RESOURCE R ON P
+TASK once (SINGLE := go);
+PROGRAM Main WITH once : Main;
+END_RESOURCE
+VAR_CONFIG R.Main.lamp.coil AT %QX0.0 : BOOL; END_VAR
+END_CONFIGURATION
+"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_an_event_that_holds_on_is_no_new_one_after_the_swap(engine: EngineFactory) -> None:
+    resource = plc(EVENT, engine)
+    resource.submit(Write("Ada", "go", "TRUE"))
+    resource.run(3)
+    new = program(EVENT.replace("n := n + 1", "n := n + 10").replace("%QX0.0", "%QX0.1"))
+    memory = bytearray(new.layout.size)
+    resource.swap(new, engine(new, memory), memory, "Ada", 2)
+    resource.run(2)
+    assert value(resource, "Main.n") == 1
+    resource.submit(Write("Ada", "go", "FALSE"))
+    resource.run(1)
+    resource.submit(Write("Ada", "go", "TRUE"))
+    resource.run(1)
+    assert value(resource, "Main.n") == 11
+    assert value(resource, "%QX0.1") is True

@@ -28,7 +28,7 @@ def made() -> HandMade:
 
 
 def refer(hand: HandMade, to: Place) -> Assign:
-    return Assign(hand.at("r"), RefOf(to, reference_to(to.type)), SPAN)  # type: ignore[arg-type]
+    return Assign(hand.at("r"), RefOf(to, reference_to(to.type)), SPAN)
 
 
 def test_a_reference_reads_and_writes_what_it_refers_to() -> None:
