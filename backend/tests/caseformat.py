@@ -18,7 +18,9 @@ from scanbench.syntax.literals import duration
 
 HEAD = re.compile(r"^\[(case|source|scans|trap|model|interval|budget|feature|violations)\b\s*(.*?)\]\s*$")
 LINE = re.compile(r"^\s*(\d+)\s*:(.*?)(?:\|(.*))?$")
-PAIR = re.compile(r"\s*([^\s:=,]+(?:\[[^\]]*\][^\s:=,]*)*)\s*:?=\s*('(?:\$.|[^'])*'|\"(?:\$.|[^\"])*\"|[^,]+)\s*(?:,|$)")
+PAIR = re.compile(
+    r"\s*([^\s:=,]+(?:\[[^\]]*\][^\s:=,]*)*)\s*:?=\s*('(?:\$.|[^'])*'|\"(?:\$.|[^\"])*\"|[^,]+)\s*(?:,|$)"
+)
 
 MODELS: dict[str, Model] = {model.name: model for model in load_all(model_directory())[0]}
 

@@ -70,8 +70,9 @@ class Planner:
         """Without a CONFIGURATION every PROGRAM runs, in order of declaration, in one task."""
         task = PlannedTask("Main", self._interval_ns)
         for pou in self._pous.blocks.values():
-            if pou.kind == "program" and self._is_free(pou.name, pou.span):
-                task.runs.append(PlannedInstance(pou.name, pou))
+            name = pou.name.rpartition(".")[2]  # of a namespace: the dot is for resources
+            if pou.kind == "program" and self._is_free(name, pou.span):
+                task.runs.append(PlannedInstance(name, pou))
         return [task]
 
     def configured(self, configuration: tree.Configuration) -> list[PlannedTask]:

@@ -90,9 +90,7 @@ class Dispatcher:
         if signature.returned is not None:
             frame.place(replace(signature.returned, offset=0, home="", initial=b""))
         trap = self.report.trap(TrapKind.NULL, signature.span, name, "THIS refers to no instance")
-        made = Pou(
-            name, "function", Record(name, Kind.BLOCK), frame, parameters, signature.result, signature.span
-        )
+        made = Pou(name, "function", Record(name, Kind.BLOCK), frame, parameters, signature.result, signature.span)
         branches = [(_labels(numbers), (self._go_on(made, callee, trap),)) for callee, numbers in found.items()]
         slot = place_of(frame.members["THIS"], Base.FRAME, frame, trap).slot
         assert slot is not None

@@ -7,7 +7,7 @@ from scanbench.check.context import Rejected
 from scanbench.check.names import Space, qualified
 from scanbench.check.objects import ObjectChecker
 from scanbench.check.program import Expr, Pou
-from scanbench.check.types import Elementary, Enumeration, Kind, Record, StringType, Subrange, base_of
+from scanbench.check.types import Elementary, Kind, Record, StringType, Subrange, base_of
 from scanbench.check.untyped import common, is_untyped, settle
 from scanbench.problems import Span
 from scanbench.syntax import tree
@@ -44,9 +44,12 @@ class Instance:
 
 def is_generic(declaration: tree.PouDeclaration) -> bool:
     """Whether a FUNCTION has parameters of a generic type."""
-    return declaration.kind == "function" and any(
-        _generic_name(variable.type) for section in declaration.sections for variable in section.variables
-    )
+    return declaration.kind == "function" and bool(_generics(declaration))
+
+
+def _generics(declaration: tree.PouDeclaration) -> list[str]:
+    specs = [variable.type for section in declaration.sections for variable in section.variables]
+    return [name for spec in (*specs, declaration.result) if (name := _generic_name(spec))]
 
 
 def _generic_name(spec: tree.TypeSpec | None) -> str:
@@ -58,15 +61,18 @@ class GenericChecker(ObjectChecker):
     def instantiated(self, declaration: tree.PouDeclaration, node: tree.Call) -> Pou:
         """The POU for the types of these arguments; those of one generic type have a common type."""
         types: dict[str, Elementary | StringType] = {}
-        for variable, value in self._generic_arguments(declaration, node):
-            self._take(types, _generic_name(variable.type), variable.name, value)
-        for section in declaration.sections:
-            for variable in section.variables:
-                missing = _generic_name(variable.type)
-                if missing and missing not in types:
-                    raise self.report.reject(
-                        "T004", f"`{declaration.name}` needs an argument to find out what {missing} is.", node.span
-                    )
+        arguments = [
+            (_generic_name(variable.type), variable.name, value, self._tried(value))
+            for variable, value in self._generic_arguments(declaration, node)
+        ]
+        for generic, name, value, expr in sorted(arguments, key=lambda each: is_untyped(each[3])):
+            if not is_untyped(expr) or generic not in types:  # a literal takes the type of the others
+                self._take(types, generic, name, value, expr)
+        for missing in _generics(declaration):
+            if missing not in types:
+                raise self.report.reject(
+                    "T004", f"`{declaration.name}` needs an argument to find out what {missing} is.", node.span
+                )
         suffix = ".".join(str(types[name]) for name in sorted(types))
         key = f"{qualified(declaration.namespace, declaration.name)}<{suffix}>"
         known = self.pous.instances.get(key)
@@ -90,9 +96,11 @@ class GenericChecker(ObjectChecker):
         return found
 
     def _take(
-        self, types: dict[str, Elementary | StringType], generic: str, name: str, value: tree.Expression
+        self, types: dict[str, Elementary | StringType], generic: str, name: str, value: tree.Expression, expr: Expr
     ) -> None:
-        type = self._argument_type(value, types.get(generic))
+        type = settle(expr).type
+        if isinstance(type, Subrange):
+            type = base_of(type)
         if not isinstance(type, Elementary | StringType) or type.kind not in KINDS[generic]:
             raise self.report.reject("T002", f"`{name}` is {generic}; this is {type}.", value.span)
         known = types.get(generic, type)
@@ -104,21 +112,18 @@ class GenericChecker(ObjectChecker):
             raise self.report.reject("T002", f"{known} and {type} have no common type of {generic}.", value.span)
         types[generic] = both
 
-    def _argument_type(self, value: tree.Expression, known: Elementary | StringType | None) -> object:
-        """The type of an argument, which is checked once more when it is bound; a literal takes a type met before."""
+    def _tried(self, value: tree.Expression) -> Expr:
+        """The argument, only to see its type: it is checked once more when it is bound."""
         mark = self.report.mark()
-        expr: Expr = self.expr(value, known)
+        expr = self.expr(value)
         self.report.undo(mark)
-        if is_untyped(expr) and known is not None:
-            return known
-        type = settle(expr).type
-        return base_of(type) if isinstance(type, Subrange) and not isinstance(type, Enumeration) else type
+        return expr
 
-    def _make(
-        self, key: str, declaration: tree.PouDeclaration, types: dict[str, Elementary | StringType]
-    ) -> Instance:
+    def _make(self, key: str, declaration: tree.PouDeclaration, types: dict[str, Elementary | StringType]) -> Instance:
         sections = tuple(
-            replace(section, variables=tuple(replace(each, type=_settled(each.type, types)) for each in section.variables))
+            replace(
+                section, variables=tuple(replace(each, type=_settled(each.type, types)) for each in section.variables)
+            )
             for section in declaration.sections
         )
         result = None if declaration.result is None else _settled(declaration.result, types)

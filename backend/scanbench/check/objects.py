@@ -345,14 +345,11 @@ class ObjectChecker(ArgumentChecker):
     def _part_of_value(self, node: tree.MemberOf | tree.IndexOf) -> Expr | None:
         """A member or element of what a property or call gives: of a copy, as the value itself has no place."""
         inner: tree.Expression = node
-        while isinstance(inner, tree.MemberOf | tree.IndexOf):
+        value = None
+        while value is None and isinstance(inner, tree.MemberOf | tree.IndexOf):
             inner = inner.owner if isinstance(inner, tree.MemberOf) else inner.array
             value = self._whole_value(inner)
-            if value is not None:
-                break
-        else:
-            return None
-        if not isinstance(value.type, Record | ArrayType) or has_instance(value.type):
+        if value is None or not isinstance(value.type, Record | ArrayType) or has_instance(value.type):
             return None
         kept = self.temporary(value.type, node.span)
         name = kept.variable.rpartition(".")[2]

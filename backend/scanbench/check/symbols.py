@@ -318,16 +318,19 @@ def _descend(program: Program, symbol: Symbol, offset: int) -> str:
 
 def instance_at(program: Program, offset: int, pou: str) -> str:
     """The path of the instance of this POU (or of a block derived from it) that begins at a byte of the image."""
-    found = ""
+    blocks = [each for each in starting_at(program, offset) if each.type.kind is Kind.BLOCK]
+    exact = (each.path for each in blocks if each.type.name.upper() == pou.upper())
+    return next(exact, blocks[0].path if blocks else f"image+{offset}")
+
+
+def starting_at(program: Program, offset: int) -> Iterator[Symbol]:
+    """Everything that begins at a byte of the image: an instance, its first member, that member's first element, ..."""
     open_ = [symbol for symbol in _roots(program) if _holds(symbol, offset)]
     while open_:
-        symbol = open_.pop()
-        if symbol.offset == offset and isinstance(symbol.type, Record) and symbol.type.kind is Kind.BLOCK:
-            if symbol.type.name.upper() == pou.upper():
-                return symbol.path
-            found = found or symbol.path
+        symbol = open_.pop(0)
+        if symbol.offset == offset:
+            yield symbol
         open_ += [each for each in _around(symbol, offset) if _holds(each, offset)]
-    return found or f"image+{offset}"
 
 
 def _holds(symbol: Symbol, offset: int) -> bool:

@@ -62,9 +62,8 @@ def widens(source: Type, target: Type) -> bool:
     if isinstance(source, StringType) and isinstance(target, StringType):
         return source.width == target.width
     if isinstance(source, Elementary) and base_of(source) is not source:
-        return widens(
-            base_of(source), target
-        )  # a subrange or enumeration as a number, never back to another enumeration
+        # as a number, never back to another enumeration
+        return widens(base_of(source), target)
     if isinstance(target, Subrange):
         return widens(source, base_of(target))
     if isinstance(target, Enumeration) or not isinstance(source, Elementary) or not isinstance(target, Elementary):

@@ -73,31 +73,27 @@ class Chunked:
         if changed is None:
             return None
         start = above = 0
-        for chunk in self.chunks:
-            part = changed.get(chunk.start)
+        for number, chunk in enumerate(self.chunks):
+            part = changed.get(number)
             lines = chunk.source.text.count("\n") if part is None else part.count("\n")
             if part is not None:
                 chunk.source.edit(part)
                 tokens, problems = tokenize(chunk.source)
                 chunk.file, chunk.problems = _parsed(chunk.source, tokens, problems)
-            chunk.source.above = above
-            above += lines
-        parsed = [chunk for chunk in self.chunks if chunk.start in changed]
-        for chunk in self.chunks:
-            chunk.start = start
-            start = chunk.end
+            chunk.source.above, chunk.start = above, start
+            above, start = above + lines, chunk.end
         self.text = text
-        return parsed
+        return [self.chunks[number] for number in changed]
 
     def _inside_one(self, text: str) -> dict[int, str] | None:
-        """The new text of the POU that holds all that is different, by its start."""
+        """The new text of the POU that holds all that is different, by its number."""
         first, last = _difference(self.text, text)
-        chunk = next((each for each in self.chunks if each.single and each.start < first and last < each.end), None)
-        if chunk is None:
-            return None
-        part = text[chunk.start : chunk.end + len(text) - len(self.text)]
-        tokens, _ = tokenize(Source(self.name, part))
-        return {chunk.start: part} if _is_one_pou(tokens) else None
+        for number, chunk in enumerate(self.chunks):
+            if chunk.single and chunk.start < first and last < chunk.end:
+                part = text[chunk.start : chunk.end + len(text) - len(self.text)]
+                tokens, _ = tokenize(Source(self.name, part))
+                return {number: part} if _is_one_pou(tokens) else None
+        return None
 
     def _inside_several(self, text: str) -> dict[int, str] | None:
         """The same for any number of POUs."""
@@ -106,12 +102,12 @@ class Chunked:
         if stretches is None or [single for _, _, single in stretches] != [each.single for each in self.chunks]:
             return None
         changed = {}
-        for (start, end, single), chunk in zip(stretches, self.chunks, strict=True):
+        for number, (start, end, single) in enumerate(stretches):
             part = text[start:end]
-            if part != chunk.source.text:
+            if part != self.chunks[number].source.text:
                 if not single:
                     return None
-                changed[chunk.start] = part
+                changed[number] = part
         return changed
 
 

@@ -1,11 +1,16 @@
 """A place in the tokens of one file, and the problems met on the way."""
 
+import sys
+
 from scanbench.problems import Problem, Span
 from scanbench.syntax.lexer import Lex, Tokens, tokenize
 from scanbench.syntax.source import Source, Stretch
 
 MAX_DEPTH = 200
 """Nesting of statements and parentheses; deeper text is refused, as no one can read it and recursion must end."""
+FRAMES_A_LEVEL = 20
+"""Python frames between one parenthesis and the next: an operand of each strength, and the rules between."""
+sys.setrecursionlimit(max(sys.getrecursionlimit(), MAX_DEPTH * FRAMES_A_LEVEL + 1000))
 MAX_PROBLEMS = 1000
 """Of one file; a text with more is not a program, and nobody reads so many."""
 

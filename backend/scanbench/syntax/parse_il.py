@@ -58,7 +58,7 @@ class IlParser(StatementParser):
     def _mnemonic_after_call(self, opening: int) -> bool:
         """`LIMIT( ... )` with an instruction on the next line: the result of the call is the current result."""
         depth, at = 0, opening
-        while self.kinds[at] is not Lex.END and self.texts[at] != ";":
+        while self.texts[at] not in STOPS and self.texts[at] != ";":
             depth += {"(": 1, ")": -1}.get(self.texts[at], 0)
             at += 1
             if depth == 0:
@@ -73,17 +73,25 @@ class IlParser(StatementParser):
     def _il_body(self) -> tree.IlBody:
         start = self.at
         found: list[tree.IlInstruction] = []
+        opened = self.depth
         while not self._il_ended():
             if self.accept(";"):
                 continue
             depth, line = self.depth, self.at
             try:
-                found.append(self._instruction())
+                instruction = self._instruction()
+                found.append(instruction)
+                if instruction.deferred:
+                    self.enter()
+                    depth = self.depth
+                elif instruction.operator == ")":
+                    depth = self.depth = max(opened, self.depth - 1)
                 if not self.ended() and self._same_line(self.at - 1, self.at) and not self.is_(")", ";"):
                     raise self.fail("the end of the line expected behind the instruction")
             except Unexpected:
                 self.depth = depth
                 self._skip_line(line)
+        self.depth = opened
         return tree.IlBody(tuple(found), self.span_from(start))
 
     def _il_ended(self) -> bool:

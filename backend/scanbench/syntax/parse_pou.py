@@ -128,7 +128,8 @@ class PouParser(IlParser):
 
     def _end_follows(self, end: str) -> bool:
         """Whether this POU's end comes before the next POU begins."""
-        for text in self.texts[self.at :]:
+        for at in range(self.at, len(self.texts)):
+            text = self.texts[at]
             if text == end or text in POU_STARTS:
                 return text == end
         return False

@@ -157,7 +157,9 @@ class StatementParser(DeclarationParser):
     def _reach(self, keyword: str) -> bool:
         """Goes behind the keyword, if it comes before the statement ends."""
         at = self.at
-        while self.texts[at] not in STOPS and self.texts[at] not in (";", ":=", keyword):
+        while (
+            self.texts[at] not in STOPS and self.texts[at] not in STARTS and self.texts[at] not in (";", ":=", keyword)
+        ):
             at += 1
         if self.texts[at] != keyword or keyword == "OF":
             return False

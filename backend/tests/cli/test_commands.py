@@ -49,6 +49,20 @@ def test_check_json(tmp_path: Path) -> None:
     assert [(each["line"], each["column"], each["code"]) for each in found["problems"]] == [(2, 1, "T001")]
 
 
+def test_a_folder_gives_every_program_file_in_it(tmp_path: Path) -> None:
+    (tmp_path / "Fast.TcPOU").write_text(
+        '<TcPlcObject>\n<POU Name="Fast"><Declaration><![CDATA[PROGRAM Fast\nVAR x : INT; END_VAR]]></Declaration>'
+        "<Implementation><ST><![CDATA[\nx := y;]]></ST></Implementation></POU></TcPlcObject>",
+        "utf-8",
+    )
+    (tmp_path / "sub").mkdir()
+    (tmp_path / "sub" / "old.EXP").write_text("VAR_GLOBAL x : INT; END_VAR", "utf-8")
+    (tmp_path / "notes.txt").write_text("no program", "utf-8")
+    result = scanbench("check", str(tmp_path))
+    assert result.stdout.startswith(f"{tmp_path}/Fast.TcPOU:4:6: T001 ")
+    assert result.returncode == 1
+
+
 @pytest.mark.parametrize(
     "text",
     [

@@ -10,6 +10,7 @@ from tests.programs.calls import calls
 from tests.programs.derived import enumerations, parts_of_bits, subranges, unions
 from tests.programs.expressions import literal
 from tests.programs.frames import frames
+from tests.programs.library import library
 from tests.programs.lists import instruction_lists, tasks
 from tests.programs.objects import enabled, objects
 from tests.programs.references import open_arrays, pointers, references
@@ -18,7 +19,7 @@ from tests.programs.statements import body
 from tests.programs.texts import dates, wide_strings
 
 INGREDIENTS: tuple[Ingredient, ...] = (
-    calls, frames, enumerations, subranges, parts_of_bits, unions, open_arrays, wide_strings, dates, objects, enabled,
+    calls, frames, library, enumerations, subranges, parts_of_bits, unions, open_arrays, wide_strings, dates, objects, enabled,
     instruction_lists, tasks, references, pointers,
 )  # fmt: skip
 """In the order in which they are added: the later ones refer to what the earlier ones declare."""

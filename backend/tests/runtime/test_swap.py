@@ -114,3 +114,50 @@ def test_an_event_that_holds_on_is_no_new_one_after_the_swap(engine: EngineFacto
     resource.run(1)
     assert value(resource, "Main.n") == 11
     assert value(resource, "%QX0.1") is True
+
+
+REFERENCES = """
+INTERFACE IPump
+METHOD Run
+END_METHOD
+END_INTERFACE
+FUNCTION_BLOCK Pump IMPLEMENTS IPump
+VAR runs : INT; END_VAR
+METHOD PUBLIC Run
+  runs := runs + 1;
+END_METHOD
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR a, b : Pump; p : IPump; n : INT; list : ARRAY[0..3] OF INT; r : REF_TO INT; many : ARRAY[0..1] OF REF_TO INT; END_VAR
+  IF p = NULL THEN p := b; r := REF(list[2]); many[1] := REF(n); END_IF;
+  p.Run();
+  r^ := r^ + 1;
+  many[1]^ := many[1]^ + 1;
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_references_are_led_to_the_same_variables(engine: EngineFactory) -> None:
+    resource = plc(REFERENCES, engine)
+    resource.run(3)
+    new = program(REFERENCES.replace("VAR a, b", "VAR first : LINT; more : Pump; a, b"))
+    memory = bytearray(new.layout.size)
+    resource.swap(new, engine(new, memory), memory, "Ada", 2)
+    assert resource.run(2).reason == "done"
+    found = [value(resource, path) for path in ("Main.a.runs", "Main.b.runs", "Main.list[2]", "Main.n")]
+    assert found == [0, 5, 5, 5]
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_reference_to_what_is_gone_is_null(engine: EngineFactory) -> None:
+    resource = plc(REFERENCES, engine)
+    resource.run(3)
+    new = program(
+        REFERENCES.replace("list : ARRAY[0..3] OF INT", "list : ARRAY[0..2] OF DINT").replace("REF(list[2])", "REF(n)")
+    )
+    memory = bytearray(new.layout.size)
+    resource.swap(new, engine(new, memory), memory, "Ada", 2)
+    resource.run(1)
+    assert resource.trap is not None
+    assert resource.trap.kind == "null"

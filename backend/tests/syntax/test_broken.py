@@ -134,7 +134,7 @@ def test_bombs_are_refused_soon() -> None:
 
 def test_depth_is_refused_with_a_message() -> None:
     found = complaints("PROGRAM p\nx := " + "(" * 1000 + "1" + ")" * 1000 + ";\ny := ;\nEND_PROGRAM")
-    assert [each.split()[:2] for each in found] == [["S003", f"2:{5 + MAX_DEPTH + 1}"], ["S003", "3:6"]]
+    assert [each.split()[:2] for each in found] == [["S003", f"2:{6 + MAX_DEPTH + 1}"], ["S003", "3:6"]]
     assert "nested more than" in found[0]
     assert not complaints("PROGRAM p\nx := " + "(" * 150 + "1" + ")" * 150 + ";\nEND_PROGRAM")
 
