@@ -31,3 +31,9 @@ def test_reasons_are_for_features_without_a_case() -> None:
 
 def test_the_page_is_up_to_date() -> None:
     assert PAGE.read_text("utf-8") == page(), "docs/features.md is out of date: make features"
+
+
+def test_every_feature_is_accounted_for() -> None:
+    """Shown by a case, refused with a reason, or not applicable."""
+    accounted = {*shown_by(all_cases()), *read_reasons("refused"), *read_reasons("not_applicable")}
+    assert not [number for table in read_tables() for number in table.features if number not in accounted]

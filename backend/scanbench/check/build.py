@@ -20,7 +20,7 @@ from scanbench.check.declare import Declarations
 from scanbench.check.generic import is_generic
 from scanbench.check.names import Space, qualified
 from scanbench.check.order import Order
-from scanbench.check.program import Assign, Base, Const, Expr, Place, Pou, Program
+from scanbench.check.program import Assign, Base, CheckSite, Const, Expr, Place, Pou, Program
 from scanbench.check.scopes import Pous, Scope, place_of
 from scanbench.check.standard.library import library
 from scanbench.check.statements import StatementChecker
@@ -55,6 +55,8 @@ class Checked:
     program: Program | None
     problems: tuple[Problem, ...]
     pous: tuple[PouInfo, ...]
+    checks: tuple[CheckSite, ...] = ()
+    """Subrange checks; none while there are errors."""
 
 
 def check_sources(sources: Mapping[str, str], model: Model, interval_ns: int = 10_000_000) -> Checked:
@@ -75,13 +77,14 @@ def concluded(files: Sequence[Chunked], report: Report, program: Program | None)
     found = [*(problem for file in files for problem in file.problems), *report.problems]
     problems = list(dict.fromkeys(replace(problem, span=problem.span.plain()) for problem in found))
     problems.sort(key=lambda each: (each.span.file, each.span.line, each.span.column))
+    infos = tuple(_infos([file.file for file in files]))
     if any(problem.severity is Severity.ERROR for problem in problems):
-        program = None
+        return Checked(None, tuple(problems), infos)
+    checks = tuple(replace(site, span=site.span.plain()) for site in report.checks)
     if program is not None:
         traps = tuple(replace(site, span=site.span.plain()) for site in program.traps)
-        checks = tuple(replace(site, span=site.span.plain()) for site in program.checks)
         program = replace(program, traps=traps, checks=checks)
-    return Checked(program, tuple(problems), tuple(_infos([file.file for file in files])))
+    return Checked(program, tuple(problems), infos, checks)
 
 
 def _infos(parsed: list[tree.File]) -> list[PouInfo]:
@@ -131,7 +134,7 @@ class Checker:
         """All passes."""
         self.declare()
         for declaration in self.names.user:
-            self._check_body(declaration)
+            self.check_body(declaration)
         for method in self.pous.classes.methods():
             if method.pou is not None and not method.abstract:
                 self._check_method(method, method.pou)
@@ -151,6 +154,13 @@ class Checker:
         self.declarations.declare_types()
         self.declared = self.report.mark()
 
+    def reuse(self, pou: Pou, part: Report, uses: dict[Pou, int]) -> None:
+        """Takes what was found in the body before, instead of checking it; it has no body then, and cannot run."""
+        self.frames[pou] = dict(pou.frame.members), pou.frame.size, pou.frame.align
+        self.report.parts[pou] = part
+        if uses:
+            self.pous.uses[pou] = uses
+
     def recheck(self, pou: Pou, declaration: tree.PouDeclaration) -> None:
         """Checks another body of a POU whose declarations are the same; `finish` has to follow."""
         self.report.undo(self.declared)
@@ -160,7 +170,7 @@ class Checker:
         pou.frame.size, pou.frame.align = size, align
         self.pous.uses.pop(pou, None)
         self.pous.this_traps.pop(pou.name, None)
-        self._check_body(declaration)
+        self.check_body(declaration)
 
     def finish(self, interval_ns: int) -> Program | None:
         """What all bodies together make."""
@@ -234,7 +244,8 @@ class Checker:
 
     # ---- bodies -----------------------------------------------------------------------------------------
 
-    def _check_body(self, declaration: tree.PouDeclaration) -> None:
+    def check_body(self, declaration: tree.PouDeclaration) -> None:
+        """Checks the body of a program, block or function."""
         key = qualified(declaration.namespace, declaration.name).upper()
         pou = (self.pous.functions if declaration.kind == "function" else self.pous.blocks).get(key)
         if pou is None:
@@ -304,7 +315,7 @@ class Checker:
             for pou in fresh:
                 done.add(pou)
                 if not pou.body:
-                    self._check_body(trees[pou.name.upper()])
+                    self.check_body(trees[pou.name.upper()])
 
     def _order(self) -> list[Pou]:
         methods = [each.pou for each in self.pous.classes.methods() if each.pou is not None]

@@ -8,8 +8,9 @@ from scanbench.check.classes import Class, Method
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.dispatch import Dispatcher
 from scanbench.check.generic import GenericChecker
+from scanbench.check.methods import Receiver
 from scanbench.check.names import Names
-from scanbench.check.objects import Receiver, dotted, named_itself
+from scanbench.check.objects import dotted, named_itself
 from scanbench.check.program import (
     Assign,
     Base,

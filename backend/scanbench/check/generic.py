@@ -4,8 +4,8 @@ from dataclasses import dataclass, replace
 
 from scanbench.check.classes import called_pou
 from scanbench.check.context import Rejected
+from scanbench.check.interfaces import InterfaceChecker
 from scanbench.check.names import Space, qualified
-from scanbench.check.objects import ObjectChecker
 from scanbench.check.program import Expr, Pou
 from scanbench.check.types import Elementary, Kind, Record, StringType, Subrange, base_of
 from scanbench.check.untyped import common, is_untyped, settle
@@ -57,7 +57,7 @@ def _generic_name(spec: tree.TypeSpec | None) -> str:
     return name if name in KINDS else ""
 
 
-class GenericChecker(ObjectChecker):
+class GenericChecker(InterfaceChecker):
     def instantiated(self, declaration: tree.PouDeclaration, node: tree.Call) -> Pou:
         """The POU for the types of these arguments; those of one generic type have a common type."""
         types: dict[str, Elementary | StringType] = {}

@@ -2,15 +2,17 @@
 
 What is kept: the tree of each chunk of text, all declarations, and the checked body of each POU. A body holds as long as its
 own text and all declarations are the same; spans move by themselves (`Source.above`). Where anything else changes, all is
-checked anew. So the programs of one `Checks` share POUs: only the newest is to be run, and the one before it may run on
-natively.
+checked anew; but where only problems are asked for, what was found in bodies that cannot see the change is found again. So the
+programs of one `Checks` share POUs: only the newest is to be run, and the one before it may run on natively.
 """
 
 import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 
+from scanbench.check.affected import Words, tainted, tells_enumerators
 from scanbench.check.build import ENABLING, Checked, Checker, checker_of, concluded
+from scanbench.check.context import Report
 from scanbench.check.garbage import without_collection
 from scanbench.check.names import qualified
 from scanbench.check.program import Pou
@@ -31,16 +33,23 @@ class Checks:
 
     def check(self, sources: Mapping[str, str], model: Model, interval_ns: int) -> Checked:
         """What `check_sources` finds."""
+        return self._changed(sources, model, interval_ns, whole=True).checked
+
+    def diagnose(self, sources: Mapping[str, str], model: Model, interval_ns: int) -> Checked:
+        """The same, but the program may be missing though nothing is wrong."""
+        return self._changed(sources, model, interval_ns, whole=False).checked
+
+    def _changed(self, sources: Mapping[str, str], model: Model, interval_ns: int, whole: bool) -> "_Project":
         project = next((each for each in self._known if each.is_about(sources, model, interval_ns)), None)
         if project is None:
             project = _Project(model, interval_ns)
             project.start_anew(sources)
         else:
             self._known.remove(project)
-            project.change(sources)
+            project.change(sources, whole)
         self._known.insert(0, project)
         del self._known[self._limit :]
-        return project.checked
+        return project
 
 
 @dataclass(slots=True)
@@ -62,6 +71,9 @@ class _Project:
     files: dict[str, Chunked] = field(init=False)
     checker: Checker = field(init=False)
     checked: Checked = field(init=False)
+    whole: bool = False
+    """Whether all bodies are there, and not only what was found in them."""
+    words: Words = field(default_factory=Words)
 
     def is_about(self, sources: Mapping[str, str], model: Model, interval_ns: int) -> bool:
         """Whether these are likely an edit of the same files."""
@@ -72,12 +84,14 @@ class _Project:
         """Checks everything that was read."""
         files = list(self.files.values())
         self.checker = checker_of(files, self.model)
-        self.checked = concluded(files, self.checker.report, self.checker.run(self.interval_ns))
+        with without_collection():
+            self.checked = concluded(files, self.checker.report, self.checker.run(self.interval_ns))
+        self.whole = True
 
-    def change(self, sources: Mapping[str, str]) -> None:
-        """Checks what changed."""
+    def change(self, sources: Mapping[str, str], whole: bool) -> None:
+        """Checks what changed; a program comes out only if it is to be `whole`."""
         edited = {name: text for name, text in sources.items() if text != self.files[name].text}
-        if not edited:
+        if not edited and (self.whole or not whole):
             return
         edits: list[_Edit] = []
         for name, text in edited.items():
@@ -89,22 +103,56 @@ class _Project:
         if any(edit.moved for edit in edits) and self._tells_places():
             self.start_anew(sources)  # spans of kept trees moved, but messages that tell a place did not
             return
-        bodies = [self._changed_body(edit) for edit in edits]
-        if None in bodies:
-            with without_collection():
-                self.start()
+        if whole and not self.whole:
+            self.start()
             return
-        for body in bodies:
-            assert body is not None
-            self.checker.recheck(*body)
+        bodies = [self._changed_body(edit) for edit in edits]
+        if None not in bodies:
+            for body in bodies:
+                assert body is not None
+                self.checker.recheck(*body)
+            self._finish()
+        elif whole or not self._redeclare(edits):
+            self.start()
+
+    def _finish(self) -> None:
         program = self.checker.finish(self.interval_ns)
-        self.checked = concluded(list(self.files.values()), self.checker.report, program)
+        files = list(self.files.values())
+        self.checked = concluded(files, self.checker.report, program if self.whole else None)
+
+    def _redeclare(self, edits: list[_Edit]) -> bool:
+        """Declares everything anew, and checks only bodies that may see what changed; false when that cannot be told."""
+        files = [file.file for file in self.files.values()]
+        if not all(_is_plain(edit.before) and _is_plain(edit.chunk.pou) for edit in edits):
+            return False
+        if any(each.block_tasks for file in files for conf in file.configurations for each in _programs(conf)):
+            return False  # the last pass looks into bodies then
+        names = [pou.name for edit in edits for pou in (edit.before, edit.chunk.pou) if pou is not None]
+        changed = tainted(names, files)
+        sees = {
+            id(chunk.pou.span): not changed.isdisjoint(self.words.of(chunk))
+            for file in self.files.values() for chunk in file.chunks if chunk.pou is not None
+        }  # fmt: skip
+        before, self.checker = self.checker, checker_of(list(self.files.values()), self.model)
+        self.checker.declare()
+        if next(iter(self.checker.pous.classes.methods()), None) is not None or before.pous.dispatchers:
+            return False
+        self.whole = False
+        again = _Successors(before, self.checker)
+        for declaration in self.checker.names.user:
+            found = None if sees.get(id(declaration.span), True) else again.of(declaration)
+            if found is None:
+                self.checker.check_body(declaration)
+            else:
+                self.checker.reuse(*found)
+        self._finish()
+        return True
 
     def start_anew(self, sources: Mapping[str, str]) -> None:
         """Reads and checks everything."""
         with without_collection():
             self.files = {name: read(name, text) for name, text in sources.items()}
-            self.start()
+        self.start()
 
     def _edits(self, name: str, text: str) -> list[_Edit] | None:
         """Takes the file's new text; None when more than POUs changed."""
@@ -147,3 +195,35 @@ class _Project:
 def _same_declarations(old: tree.PouDeclaration, new: tree.PouDeclaration) -> bool:
     """Whether two POUs of one place differ in their bodies only; that one of them names ENO is part of its declarations."""
     return all(getattr(old, each.name) == getattr(new, each.name) for each in fields(old) if each.name != "body")
+
+
+def _programs(configuration: tree.Configuration) -> tuple[tree.ProgramDeclaration, ...]:
+    resources = configuration.resources
+    return (*configuration.programs, *(program for each in resources for program in each.programs))
+
+
+def _is_plain(pou: tree.PouDeclaration | None) -> bool:
+    """Whether others see nothing of its declarations but by its name."""
+    return pou is not None and not pou.methods and not pou.namespace and not tells_enumerators(pou)
+
+
+class _Successors:
+    """The POUs of a checker, for those of the checker before it."""
+
+    def __init__(self, before: Checker, now: Checker) -> None:
+        self._before, self._now = before, now
+        tables = ((before.pous.functions, now.pous.functions), (before.pous.blocks, now.pous.blocks))
+        self._pous = {old: new[key] for olds, new in tables for key, old in olds.items() if key in new}
+
+    def of(self, declaration: tree.PouDeclaration) -> tuple[Pou, Report, dict[Pou, int]] | None:
+        """The POU that is declared here, what was found in its body before, and whom that calls."""
+        key = qualified(declaration.namespace, declaration.name).upper()
+        function = declaration.kind == "function"
+        old = (self._before.pous.functions if function else self._before.pous.blocks).get(key)
+        part = None if old is None else self._before.report.parts.get(old)
+        if old is None or part is None or old not in self._pous:
+            return None
+        uses = self._before.pous.uses.get(old, {})
+        if any(callee not in self._pous for callee in uses):
+            return None
+        return self._pous[old], part, {self._pous[callee]: places for callee, places in uses.items()}

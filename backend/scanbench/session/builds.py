@@ -23,7 +23,7 @@ from scanbench.store.records import ProjectRow
 INTERVAL_NS = 10_000_000
 """A scan where no CONFIGURATION says another."""
 _NICENESS = 10
-_checks = Checks()
+_checks = Checks(limit=4)
 """In the child process: what it checked last."""
 
 
@@ -80,8 +80,8 @@ class Checker:
 
 
 def _check(sources: dict[str, str], model: Model) -> CheckOutcome:
-    checked = _checks.check(sources, model, INTERVAL_NS)
-    return CheckOutcome(checked.problems, checked.pous, checked.program.checks if checked.program else ())
+    checked = _checks.diagnose(sources, model, INTERVAL_NS)
+    return CheckOutcome(checked.problems, checked.pous, checked.checks)
 
 
 def _keep(sources: Sources, model: Model, cache: BlobCache) -> None:

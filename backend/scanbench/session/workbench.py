@@ -3,6 +3,7 @@
 import asyncio
 import logging
 from collections.abc import Mapping
+from contextlib import suppress
 from pathlib import Path
 
 from scanbench.plcmodel.load import load_all, model_directory
@@ -47,8 +48,14 @@ class Workbench:
             except Refused as error:  # its model is gone, say: the others must not suffer
                 log.error("%s", error)
         if self.models:
-            warming = self._checker.warm(next(iter(self.models.values())))
-            self._warming = asyncio.get_running_loop().create_task(warming)
+            self._warming = asyncio.get_running_loop().create_task(self._warm())
+
+    async def _warm(self) -> None:
+        """Has the checker ready before somebody edits what runs."""
+        await self._checker.warm(next(iter(self.models.values())))
+        for project in {session.project_id for session in self.sessions}:
+            with suppress(NotFound, Refused):
+                await self.projects.check(project, {})
 
     async def close(self) -> None:
         """Ends every PLC, and writes what is still to be written."""

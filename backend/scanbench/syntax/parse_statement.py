@@ -16,6 +16,7 @@ DECLARATIONS = frozenset(
 )
 """Words that begin a declaration when a name follows; no statement begins with two names."""
 OPERATORS_WITH_NAME = ("S", "R", "REF")
+CHART = "write the steps of the chart (SFC) as a CASE"
 REFUSED = {
     "JMP": "use IF and loops",
     "GOTO": "use IF and loops",
@@ -26,6 +27,8 @@ REFUSED = {
     "__ENDTRY": "check before you compute; a trap stops the PLC",
     "REGION": "remove it, and its END_REGION",
     "END_REGION": "remove it, and its REGION",
+    **dict.fromkeys(("INITIAL_STEP", "STEP", "END_STEP", "TRANSITION", "END_TRANSITION"), CHART),
+    **dict.fromkeys(("_LD_BODY", "_FBD_BODY", "_CFC_BODY", "_SFC_BODY"), "convert the drawing to Structured Text"),
 }
 LABEL_KINDS = frozenset((NAME, Lex.INTEGER, Lex.TYPED, Lex.STRING, Lex.TIME))
 LABEL_TEXTS = frozenset((",", "..", ".", "-", "+", "TRUE", "FALSE"))
@@ -126,7 +129,10 @@ class StatementParser(DeclarationParser):
         return tree.Assignment(target, value, span, operator)
 
     def _refused(self, word: str) -> None:
-        if word in REFUSED and (word[:2] == "__" or self.texts[self.at + 1] not in (";", "?=", "=", "^")):
+        latched = self.word(1) in OPERATORS_WITH_NAME and self.texts[self.at + 2] == "="
+        if word in REFUSED and (
+            word[0] == "_" or (self.texts[self.at + 1] not in (";", "?=", "=", "^") and not latched)
+        ):
             self.report("X001", f"{word} is not supported; {REFUSED[word]}.", self.here())
             raise Unexpected
         if self.texts[self.at + 1] == ":":

@@ -11,6 +11,7 @@ from scanbench.check.build import Checked, Checker, check_sources
 from scanbench.check.incremental import Checks
 from scanbench.check.program import Program
 from scanbench.engines.native.emit_program import emit_program
+from scanbench.syntax import tree
 from tests.caseformat import MODELS
 
 MODEL = MODELS["GENERIC-IEC"]
@@ -130,6 +131,53 @@ def test_anything_else(old: str, new: str) -> None:
     edited = {name: text.replace(old, new, 1) for name, text in FILES.items()}
     agree(checks.check(edited, MODEL, INTERVAL_NS), edited)
     agree(checks.check(FILES, MODEL, INTERVAL_NS), FILES)
+
+
+SEEN = """\
+TYPE Pair : STRUCT a, b : Ramp; END_STRUCT; END_TYPE
+TYPE Pairs : ARRAY[1..2] OF Pair; END_TYPE
+VAR_GLOBAL both : Pairs; END_VAR
+FUNCTION_BLOCK Far
+VAR_OUTPUT n : INT; END_VAR
+  n := both[1].a.v;
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK Near
+VAR_INPUT n : INT; END_VAR
+VAR f : Far; k : INT; END_VAR
+  f(); k := f.n + unknown;
+END_FUNCTION_BLOCK
+"""
+
+
+@pytest.mark.parametrize(("old", "new"), DECLARATIONS + BODIES)
+def test_problems_alone(old: str, new: str) -> None:
+    checks = Checks()
+    files = FILES | {"seen.st": SEEN}
+    for more in (files, files | {"seen.st": SEEN.replace(" + unknown", "")}):
+        edited = {name: text.replace(old, new, 1) for name, text in more.items()}
+        for texts in (more, edited, more):
+            found, expected = checks.diagnose(texts, MODEL, INTERVAL_NS), check_sources(texts, MODEL, INTERVAL_NS)
+            assert (found.problems, found.pous, found.checks) == (expected.problems, expected.pous, expected.checks)
+        agree(checks.check(edited, MODEL, INTERVAL_NS), edited)
+
+
+def test_only_bodies_that_see_a_declaration_are_checked_for_problems(monkeypatch: pytest.MonkeyPatch) -> None:
+    names: list[str] = []
+    check_body = Checker.check_body
+
+    def watched(self: Checker, declaration: tree.PouDeclaration) -> None:
+        names.append(declaration.name)
+        check_body(self, declaration)
+
+    monkeypatch.setattr(Checker, "check_body", watched)
+    checks = Checks()
+    files = FILES | {"seen.st": SEEN}
+    checks.diagnose(files, MODEL, INTERVAL_NS)
+    names.clear()
+    edited = files | {"blocks.st": BLOCKS.replace("VAR_OUTPUT v : INT;", "VAR_OUTPUT v : STRING;")}
+    found = checks.diagnose(edited, MODEL, INTERVAL_NS)
+    assert [name for name in names if name not in ("TON", "CONCAT", "LEN")] == ["Ramp", "Main", "Far"]
+    assert any(problem.span.file == "seen.st" and problem.span.line == 6 for problem in found.problems)
 
 
 def test_files_that_come_go_and_change_places() -> None:

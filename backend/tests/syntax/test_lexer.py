@@ -85,7 +85,7 @@ def test_characters_without_meaning() -> None:
 def test_words_of_edition_3_are_names_of_older_programs() -> None:
     names = """method class interface property namespace using final abstract override public private protected internal
     extends implements this super union on by continue retain constant task resource with overlap ref pointer reference
-    LD ST S R LDN CAL JMP RET NOT_ AND_ GT get set action begin version region goto type_ read_write R_EDGE""".split()
+    LD ST S R LDN CAL JMP RET NOT_ AND_ GT get set action begin version region step transition goto type_ read_write R_EDGE""".split()
     declared = "\n".join(f"  {name} : INT;" for name in names)
     used = "\n".join(f"{name} := {name} + 1; {name}.{name}[{name}](a := {name}, b => {name});" for name in names)
     file = well(f"PROGRAM p\nVAR\n{declared}\nEND_VAR\n{used}\nEND_PROGRAM")
@@ -94,9 +94,10 @@ def test_words_of_edition_3_are_names_of_older_programs() -> None:
 
 
 def test_latch_and_bind() -> None:
-    shown = show_body("a S= b; S S= S; c R= S = R; d REF= e; f ?= g;")
+    shown = show_body("a S= b; S S= S; c R= S = R; d REF= e; step S= a; goto R= b; f ?= g;")
     assert shown == (
         "Assignment(target=a, value=b, operator=S=) Assignment(target=S, value=S, operator=S=) "
         "Assignment(target=c, value=(S = R), operator=R=) Assignment(target=d, value=e, operator=REF=) "
+        "Assignment(target=step, value=a, operator=S=) Assignment(target=goto, value=b, operator=R=) "
         "Assignment(target=f, value=g, operator=?=)"
     )

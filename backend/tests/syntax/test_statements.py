@@ -39,6 +39,11 @@ REFUSED = [
     ("GOTO there;", "X001 2:1 GOTO is not supported; use IF and loops."),
     ("a := b := c;", "X001 2:1 Several assignments in one (`a := b := c`) are not supported; write one for each."),
     ("REGION Some name\n", "X001 2:1 REGION is not supported; remove it, and its END_REGION."),
+    (
+        "INITIAL_STEP start:\nEND_STEP",
+        "X001 2:1 INITIAL_STEP is not supported; write the steps of the chart (SFC) as a CASE.",
+    ),
+    ("_LD_BODY\n_NETWORKS : 1\n", "X001 2:1 _LD_BODY is not supported; convert the drawing to Structured Text."),
     ("__DELETE(p);", "X001 2:1 `__DELETE` is not supported: memory that is allocated while the program runs."),
     ("x = 1;", "S003 2:1 An assignment is written `:=`; `=` compares."),
     ("x := 1 y := 2;", "S003 2:6 `;` expected at the end of the assignment, found `y`."),

@@ -146,3 +146,18 @@ def test_models(server: Server) -> None:
     areas = [(each["name"], each["first"], each["tool"]) for each in model["areas"]]
     assert ("A", "A0", "read") in areas
     assert ("A", "A448", "write") in areas
+
+
+def test_files_of_vendors_are_program_files(server: Server) -> None:
+    project = server.project(
+        "vendor", "GENERIC-IEC", main="PROGRAM Main\nVAR x : INT; END_VAR\nx := IO.cnt + z;\nEND_PROGRAM"
+    )
+    address = f"/api/projects/{project}/files"
+    text = '<TcPlcObject><GVL Name="IO"><Declaration><![CDATA[VAR_GLOBAL\ncnt : INT; END_VAR]]></Declaration></GVL></TcPlcObject>'
+    assert server.http.put(f"{address}/IO.TcGVL", json={"text": text, "version": 0}).status_code == 200
+    refused = server.http.put(f"{address}/notes.txt", json={"text": "", "version": 0})
+    assert refused.status_code >= 400
+    assert "name it like motor.st, or .iecst, .exp, .tcpou" in refused.text
+    result = server.http.post(f"/api/projects/{project}/check", json={"files": {}}).json()
+    assert [(each["file"], each["line"], each["code"]) for each in result["problems"]] == [("main.st", 3, "T001")]
+    assert ("IO.TcGVL", "cnt") in [(each["file"], each["name"]) for each in result["pous"]]

@@ -72,6 +72,10 @@ class Compiler:
         found = [code for code in codes if code is not None]
         return found if len(found) == len(codes) else None
 
+    def prepare(self, program: Program) -> None:
+        """Gets ready for programs that share POUs with this one, which was recalled."""
+        self._parts.of(program)
+
     def learn(self, build: Build, part: Part, code: bytes) -> None:
         """Takes the optimised code of a part that somebody else compiled."""
         build.fast[part] = code
@@ -89,7 +93,10 @@ class Compiler:
         code = self._known(key)
         if code is None:
             code = jit.compile_object(part.text, opt_level, timings)
-            self._keep(key, code)
+            if opt_level == FAST:
+                self._keep(key, code)
+            else:  # it is made as soon as it is read
+                self._remember(key, code)
         return code
 
     def _known(self, key: str) -> bytes | None:

@@ -26,13 +26,20 @@ class Effects:
 
     def written(self, statements: Iterable[Stmt]) -> frozenset[str]:
         """Names of the variables that these statements may write."""
-        names: set[str] = set()
-        for seen in walk.of_statements(statements):
-            if isinstance(seen, Pou):
-                names |= self.written_by(seen)
-            elif seen[1] in (walk.Use.WRITE, walk.Use.REFERENCE):
-                names.add(_name(seen[0]))
-        return frozenset(names)
+        names, callees = touched(statements)
+        return frozenset(names.union(*(self.written_by(callee) for callee in callees)))
+
+
+def touched(statements: Iterable[Stmt]) -> tuple[set[str], list[Pou]]:
+    """Names of the variables that these statements write themselves, and whom they call."""
+    names: set[str] = set()
+    callees: dict[Pou, None] = {}
+    for seen in walk.of_statements(statements):
+        if isinstance(seen, Pou):
+            callees[seen] = None
+        elif seen[1] in (walk.Use.WRITE, walk.Use.REFERENCE):
+            names.add(_name(seen[0]))
+    return names, list(callees)
 
 
 def _name(place: Place) -> str:

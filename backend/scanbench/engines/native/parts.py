@@ -2,9 +2,10 @@
 
 from dataclasses import dataclass, field
 
+from scanbench.check.garbage import without_collection
 from scanbench.check.program import Pou, Program, Stmt
-from scanbench.engines.native import inlining, jit, walk
-from scanbench.engines.native.effects import Effects
+from scanbench.engines.native import inlining, jit
+from scanbench.engines.native.effects import Effects, touched
 from scanbench.engines.native.emit_body import SCRATCH_LIMIT, TooLarge
 from scanbench.engines.native.emit_program import Emitter
 from scanbench.engines.native.registers import Signature, signature
@@ -68,6 +69,10 @@ class Parts:
 
     def of(self, program: Program) -> list[Part]:
         """One part for each POU, the scan, and the numbers that the others refer to."""
+        with without_collection():
+            return self._of(program)
+
+    def _of(self, program: Program) -> list[Part]:
         bodies: dict[Pou, _Body] = {}
         emitted: dict[Pou, _Emitted] = {}
         faces: dict[Pou, object] = {}
@@ -97,10 +102,9 @@ class Parts:
         known = self._bodies.get(pou)
         if known is not None and known.same.body is pou.body:
             return known
-        callees = dict.fromkeys(seen for seen in walk.of_statements(pou.body) if isinstance(seen, Pou))
-        writes = Effects(dict.fromkeys(callees, frozenset())).written(pou.body)
+        writes, callees = touched(pou.body)
         how = signature(pou) if pou.kind == "function" else None
-        return _Body(_Same(pou.body), writes, tuple(callees), inlining.shared(pou), how)
+        return _Body(_Same(pou.body), frozenset(writes), tuple(callees), inlining.shared(pou), how)
 
 
 def _face(name: str, pou: Pou, body: _Body, writes: frozenset[str], called: object) -> object:

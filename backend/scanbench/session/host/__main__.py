@@ -63,6 +63,7 @@ class Host:
             self._loop = loop
             for message in self._waiting:
                 self._on_message(message)
+        threading.Thread(target=self._prepare, args=(self._start.sources,), name="prepare", daemon=True).start()
         loop.run()
         self._link.close()
         thread.join()
@@ -123,6 +124,10 @@ class Host:
                 return
             loop.give(Swap(build.ref, built.program, engine, memory, build.sources.version, build.author))
             self._optimise(loop)
+
+    def _prepare(self, sources: protocol.Sources) -> None:
+        with self._building:
+            self._builder.prepare(sources)
 
     def _optimise(self, loop: Loop) -> None:
         if self._builder.tiers is not None:

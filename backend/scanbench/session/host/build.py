@@ -1,5 +1,6 @@
 """Sources -> program and engine, inside the host."""
 
+from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
 from pathlib import Path
@@ -58,6 +59,7 @@ class Builder:
         self._cache = BlobCache(cache) if cache is not None else None
         self._engines = find_engines(self._cache)
         self._checks = Checks()
+        self._ready = False  # what was checked before makes the next check a short one
 
     @property
     def message(self) -> str:
@@ -73,14 +75,25 @@ class Builder:
         """The checked program: from the disk if it is known there."""
         model = find_model(sources.model)
         key = key_of(sources, model)
-        program = recall(self._cache, key) if self._cache is not None else None
+        program = recall(self._cache, key) if self._cache is not None and not self._ready else None
         if program is None:
-            checked = self._checks.check(sources.files, model, sources.interval_ns)
-            if checked.program is None:
-                errors = [problem for problem in checked.problems if problem.severity is Severity.ERROR]
-                raise BuildFailed(f"{len(errors)} errors, the first: {errors[0]}" if errors else "nothing to run")
-            program = checked.program
+            program = self._checked(sources, model)
         return Built(program, key, self._engines.tiers)
+
+    def prepare(self, sources: Sources) -> None:
+        """Gets ready for an edit of what was recalled: checks it after all, when nobody waits for it."""
+        if self._ready or self._engines.tiers is None:
+            return
+        with suppress(BuildFailed):
+            self._engines.tiers.prepare(self._checked(sources, find_model(sources.model)))
+
+    def _checked(self, sources: Sources, model: Model) -> Program:
+        checked = self._checks.check(sources.files, model, sources.interval_ns)
+        self._ready = True
+        if checked.program is None:
+            errors = [problem for problem in checked.problems if problem.severity is Severity.ERROR]
+            raise BuildFailed(f"{len(errors)} errors, the first: {errors[0]}" if errors else "nothing to run")
+        return checked.program
 
 
 @dataclass(frozen=True, slots=True)

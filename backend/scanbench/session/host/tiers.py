@@ -55,6 +55,11 @@ class Tiers:
                     self._keep(key, build)
         return NativeEngine(program, memory, objects=objects)
 
+    def prepare(self, program: Program) -> None:
+        """Gets ready for programs that share POUs with this one, which runs code that was kept."""
+        with self._lock:
+            self._compiler.prepare(program)
+
     @property
     def optimising(self) -> bool:
         """Whether optimised code is still to come."""

@@ -1,0 +1,152 @@
+"""What building and editing a large program costs, as the host of a PLC does it.
+
+Each life of the host is a process of its own, and time counts from when it has its modules loaded and the text in hand: the
+first finds an empty cache directory, the second finds what the first has left there, and is then edited.
+`python -m scanbench.bench.building PROGRAM CACHE` is one life, and prints one JSON object.
+"""
+
+import json
+import resource
+import subprocess
+import sys
+import tempfile
+import threading
+from collections.abc import Callable
+from pathlib import Path
+from statistics import median
+from time import perf_counter_ns
+
+from scanbench.check.incremental import Checks
+from scanbench.engines.cache import BlobCache
+from scanbench.runtime.resource import Resource
+from scanbench.session.host.build import Builder, find_model
+from scanbench.session.host.swaps import Recode
+from scanbench.session.known import keep, key_of
+from scanbench.session.protocol import Sources
+
+LARGE = ("big10k", "big10kflat")
+"""Programs of 10,000 lines."""
+MODEL = "GENERIC-IEC"
+INTERVAL_NS = 1_000_000
+OPTIMISED_S = 120
+SAMPLES = 9
+
+STATEMENT = "integ := integ + err * 0.01;"
+BODIES = ("integ := integ + err * 0.0{};", "integ := integ + err * 0.0{};\n      state := 1;", "integ := integ + {};")
+"""What people make of the statement, in one block after the other: another number, a line more."""
+BROKEN = ("integ := integ + err * ;", "integ := integ + er{} * 0.01;", *BODIES)
+DECLARATION = "  b2 : BOOL;"
+DECLARATIONS = ("  b2 : BOOL; more{} : INT;", "  b2 : BOOL;\n  another{} : REAL;", "  b2 : BOO{};")
+
+Figures = dict[str, float]
+
+
+def measure_building(program: str) -> Figures:
+    """ms of each step, and MB of the processes that took them."""
+    with tempfile.TemporaryDirectory() as cache:
+        first = _life(program, cache)
+        second = _life(program, cache)
+    return {
+        "cold": first["start"],
+        "cached": second["start"],
+        "optimised_behind": first["optimised"],
+        "pou_changed": second["pou_changed"],
+        "keystroke_in_body": second["keystroke_in_body"],
+        "keystroke_in_declaration": second["keystroke_in_declaration"],
+        "memory_mb": max(first["memory_mb"], second["memory_mb"]),
+    }
+
+
+def _life(program: str, cache: str) -> Figures:
+    command = [sys.executable, "-m", "scanbench.bench.building", program, cache]
+    done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
+    figures: Figures = json.loads(done.stdout)
+    return figures
+
+
+def _live(program: str, cache: Path) -> Figures:
+    """One life of a host."""
+    text = (Path(__file__).parent / "st" / f"{program}.st").read_text("utf-8")
+    sources = _sources(program, text)
+    start = perf_counter_ns()
+    builder = Builder(cache)
+    built = builder.build(sources)
+    plc = Resource(built.program, built.engine)
+    plc.run(1)
+    figures = {"start": _ms(start)}
+    figures["optimised"] = _optimise(builder, plc)
+    keep(BlobCache(cache), key_of(sources, find_model(MODEL)), built.program)
+    builder.prepare(sources)
+    changes = _edits(text, STATEMENT, BODIES)
+    figures["pou_changed"] = _median(lambda edited: _change(builder, plc, _sources(program, edited)), changes)
+    for name, part, others in (("body", STATEMENT, BROKEN), ("declaration", DECLARATION, DECLARATIONS)):
+        figures[f"keystroke_in_{name}"] = _keystrokes(program, text, _edits(text, part, others))
+    usage = (resource.getrusage(who).ru_maxrss for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
+    figures["memory_mb"] = round(sum(usage) / 1024, 1)
+    return figures
+
+
+def _sources(program: str, text: str) -> Sources:
+    return Sources(MODEL, {f"{program}.st": text}, INTERVAL_NS, 1)
+
+
+def _ms(start: int) -> float:
+    return round((perf_counter_ns() - start) / 1e6, 1)
+
+
+def _edits(text: str, part: str, others: tuple[str, ...]) -> list[str]:
+    """The text after each of so many edits, one after the other, each in another block."""
+    made = []
+    pieces = text.split(part)
+    between = [part] * (len(pieces) - 1)
+    for number in range(SAMPLES):
+        place = number * len(between) // SAMPLES
+        between[place] = others[number % len(others)].format(number)
+        made.append(pieces[0] + "".join(left + right for left, right in zip(between, pieces[1:], strict=True)))
+    return made
+
+
+def _median(measure: Callable[[str], float], texts: list[str]) -> float:
+    return round(median(measure(text) for text in texts), 1)
+
+
+def _optimise(builder: Builder, plc: Resource) -> float:
+    """Waits for the optimised code, as long as it takes."""
+    if builder.tiers is None or not builder.tiers.optimising:
+        return 0.0
+    start, done = perf_counter_ns(), threading.Event()
+
+    def take(recode: Recode) -> None:
+        if recode.engine is not None:
+            plc.engine = recode.engine
+        done.set()
+
+    builder.tiers.optimise(take)
+    done.wait(OPTIMISED_S)
+    return _ms(start)
+
+
+def _change(builder: Builder, plc: Resource, sources: Sources) -> float:
+    """From the text of a build to the first scan of the new program, variables carried over."""
+    start = perf_counter_ns()
+    built = builder.build(sources)
+    memory = bytearray(built.program.layout.size)
+    plc.swap(built.program, built.engine(built.program, memory), memory, "bench", 2)
+    plc.run(1)
+    return _ms(start)
+
+
+def _keystrokes(program: str, text: str, texts: list[str]) -> float:
+    checks, model = Checks(), find_model(MODEL)
+    checks.diagnose(_sources(program, text).files, model, INTERVAL_NS)
+
+    def measure(edited: str) -> float:
+        start = perf_counter_ns()
+        checks.diagnose(_sources(program, edited).files, model, INTERVAL_NS)
+        return _ms(start)
+
+    return _median(measure, texts)
+
+
+if __name__ == "__main__":
+    sys.stdout.write(json.dumps(_live(sys.argv[1], Path(sys.argv[2]))))

@@ -1,0 +1,86 @@
+"""What an edit of a POU's declarations may change elsewhere: all that mentions it, or that is declared by what mentions it.
+
+Names are the only way from one body to declarations of another, so a body in whose text none of these names stands is as right
+or wrong as before.
+"""
+
+import re
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import fields, is_dataclass
+
+from scanbench.check.collect import globals_of
+from scanbench.problems import Span
+from scanbench.syntax import tree
+from scanbench.syntax.chunks import Chunk
+
+_WORD = re.compile(r"[^\W\d]\w*")
+
+
+class Words:
+    """The words of each chunk, in upper case, found once for each text."""
+
+    def __init__(self) -> None:
+        self._known: dict[int, tuple[str, frozenset[str]]] = {}
+
+    def of(self, chunk: Chunk) -> frozenset[str]:
+        """All words of the chunk, comments and strings included."""
+        text, known = chunk.source.text, self._known.get(id(chunk))
+        if known is None or known[0] != text:
+            known = self._known[id(chunk)] = text, frozenset(_WORD.findall(text.upper()))
+        return known[1]
+
+
+def tainted(changed: Iterable[str], files: Iterable[tree.File]) -> set[str]:
+    """The changed POUs, and every type, POU and global variable whose declaration leads to one; names in upper case."""
+    declared = dict(_declared(files))
+    found = {name.upper() for name in changed}
+    grown = True
+    while grown:
+        more = {name for name, mentions in declared.items() if name not in found and not found.isdisjoint(mentions)}
+        grown = bool(more)
+        found |= more
+    return found
+
+
+def tells_enumerators(pou: tree.PouDeclaration) -> bool:
+    """Whether its variables bring names of values along, which may be seen from anywhere."""
+    return any(isinstance(node, tree.EnumSpec) for node in _nodes(pou.sections))
+
+
+def _declared(files: Iterable[tree.File]) -> Iterator[tuple[str, frozenset[str]]]:
+    made: dict[str, frozenset[str]] = {}
+    for name, node in _declarations(files):
+        key = name.upper()
+        made[key] = made.get(key, frozenset()) | frozenset(_mentioned(node))
+    yield from made.items()
+
+
+def _declarations(files: Iterable[tree.File]) -> Iterator[tuple[str, object]]:
+    for file in files:
+        for declaration in file.types:
+            yield declaration.name, declaration
+        for pou in file.pous:
+            yield pou.name, (pou.sections, pou.result, pou.extends, pou.implements)
+        for section in (*file.globals, *(each for conf in file.configurations for each in globals_of(conf))):
+            for variable in section.variables:
+                yield variable.name, variable
+
+
+def _mentioned(node: object) -> Iterator[str]:
+    """Every text in a tree that may be a name."""
+    for each in _nodes(node):
+        if isinstance(each, str):
+            yield from _WORD.findall(each.upper())
+
+
+def _nodes(node: object) -> Iterator[object]:
+    yield node
+    if isinstance(node, tuple | list):
+        for each in node:
+            yield from _nodes(each)
+    elif isinstance(node, Mapping):
+        for each in node.values():
+            yield from _nodes(each)
+    elif is_dataclass(node) and not isinstance(node, Span | type):
+        for field in fields(node):
+            yield from _nodes(getattr(node, field.name))
