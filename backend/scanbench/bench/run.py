@@ -12,7 +12,11 @@ from dataclasses import dataclass
 from pathlib import Path
 from statistics import median
 from time import perf_counter_ns, thread_time_ns
+from typing import TypedDict
 
+from scanbench.bench.building import LARGE, measure_building
+from scanbench.bench.interpreter import statements_per_second
+from scanbench.bench.peers import peer_ratios
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
 from scanbench.check.symbols import resolve
@@ -28,7 +32,17 @@ WARM_UP = 2000
 SAMPLES = 5
 SAMPLE_S = 0.05
 
-Result = dict[str, dict[str, dict[str, float | None]]]
+Row = dict[str, float | None]
+
+
+class Result(TypedDict):
+    """By program: what a scan takes, what peers take as ratios to C, what its build takes; and what stands for all."""
+
+    programs: dict[str, Row]
+    peers: dict[str, dict[str, float]]
+    compile: dict[str, Row]
+    building: dict[str, dict[str, float]]
+    interpreter_per_second: float | None
 
 
 class BenchError(Exception):
@@ -54,12 +68,15 @@ class _Native:
 
 
 def run_bench(programs: list[str] | None = None) -> Result:
-    """ns per scan of each program, natively and in C (None where it has no twin or there is no gcc); build times in ms."""
+    """ns per scan of each program, natively and in C (None where it has no twin or there is no gcc); build times in ms.
+
+    The interpreter is measured when all programs are.
+    """
     names = programs or list(PROGRAMS)
     unknown = [name for name in names if name not in PROGRAMS]
     if unknown:
         raise BenchError(f"there is no bench program {', '.join(unknown)}; there are: {', '.join(PROGRAMS)}")
-    result: Result = {"programs": {}, "compile": {}}
+    result: Result = {"programs": {}, "peers": {}, "compile": {}, "building": {}, "interpreter_per_second": None}
     with tempfile.TemporaryDirectory() as directory:
         for name in names:
             program, check_ms = _check(name)
@@ -67,6 +84,12 @@ def run_bench(programs: list[str] | None = None) -> Result:
             twin = _compile_c(name, Path(directory))
             result["compile"][name] = {"check": check_ms, **compile_ms}
             result["programs"][name] = _measure(name, native, twin)
+            if ratios := peer_ratios(name):
+                result["peers"][name] = ratios
+            if name in LARGE:
+                result["building"][name] = measure_building(name)
+    if not programs:
+        result["interpreter_per_second"] = round(statements_per_second())
     return result
 
 
@@ -81,11 +104,11 @@ def _check(name: str) -> tuple[Program, float]:
     return checked.program, round(spent, 1)
 
 
-def _build(program: Program) -> tuple[_Native, dict[str, float | None]]:
+def _build(program: Program) -> tuple[_Native, Row]:
     memory = bytearray(program.initial_image)
     engine = NativeEngine(program, memory)
     steps = ("emit", "parse", "optimise", "codegen", "link")
-    compile_ms: dict[str, float | None] = {step: round(getattr(engine.timings, step), 1) for step in steps}
+    compile_ms: Row = {step: round(getattr(engine.timings, step), 1) for step in steps}
     engine.run(WARM_UP)
     place = resolve(program, "bench.chk").locate(memory)
     assert place is not None
@@ -112,7 +135,7 @@ def _compile_c(name: str, directory: Path) -> Path | None:
     return target
 
 
-def _measure(name: str, native: _Native, twin: Path | None) -> dict[str, float | None]:
+def _measure(name: str, native: _Native, twin: Path | None) -> Row:
     ours, theirs = [], []
     for _ in range(SAMPLES):
         ours.append(native.sample())

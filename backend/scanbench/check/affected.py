@@ -17,22 +17,33 @@ _WORD = re.compile(r"[^\W\d]\w*")
 
 
 class Words:
-    """The words of each chunk, in upper case, found once for each text."""
+    """The words of each chunk, all and by declaration, in upper case; found once for each text."""
 
     def __init__(self) -> None:
-        self._known: dict[int, tuple[str, frozenset[str]]] = {}
+        self._all: dict[int, tuple[str, frozenset[str]]] = {}
+        self._declared: dict[int, tuple[tree.File, dict[str, frozenset[str]]]] = {}
 
     def of(self, chunk: Chunk) -> frozenset[str]:
         """All words of the chunk, comments and strings included."""
-        text, known = chunk.source.text, self._known.get(id(chunk))
+        text, known = chunk.source.text, self._all.get(id(chunk))
         if known is None or known[0] != text:
-            known = self._known[id(chunk)] = text, frozenset(_WORD.findall(text.upper()))
+            known = self._all[id(chunk)] = text, frozenset(_WORD.findall(text.upper()))
+        return known[1]
+
+    def declared(self, chunk: Chunk) -> dict[str, frozenset[str]]:
+        """What each declaration of the chunk mentions."""
+        known = self._declared.get(id(chunk))
+        if known is None or known[0] is not chunk.file:
+            known = self._declared[id(chunk)] = chunk.file, _declared(chunk.file)
         return known[1]
 
 
-def tainted(changed: Iterable[str], files: Iterable[tree.File]) -> set[str]:
+def tainted(changed: Iterable[str], chunks: Iterable[Chunk], words: Words) -> set[str]:
     """The changed POUs, and every type, POU and global variable whose declaration leads to one; names in upper case."""
-    declared = dict(_declared(files))
+    declared: dict[str, frozenset[str]] = {}
+    for chunk in chunks:
+        for name, mentions in words.declared(chunk).items():
+            declared[name] = declared.get(name, frozenset()) | mentions
     found = {name.upper() for name in changed}
     grown = True
     while grown:
@@ -47,23 +58,22 @@ def tells_enumerators(pou: tree.PouDeclaration) -> bool:
     return any(isinstance(node, tree.EnumSpec) for node in _nodes(pou.sections))
 
 
-def _declared(files: Iterable[tree.File]) -> Iterator[tuple[str, frozenset[str]]]:
+def _declared(file: tree.File) -> dict[str, frozenset[str]]:
     made: dict[str, frozenset[str]] = {}
-    for name, node in _declarations(files):
+    for name, node in _declarations(file):
         key = name.upper()
         made[key] = made.get(key, frozenset()) | frozenset(_mentioned(node))
-    yield from made.items()
+    return made
 
 
-def _declarations(files: Iterable[tree.File]) -> Iterator[tuple[str, object]]:
-    for file in files:
-        for declaration in file.types:
-            yield declaration.name, declaration
-        for pou in file.pous:
-            yield pou.name, (pou.sections, pou.result, pou.extends, pou.implements)
-        for section in (*file.globals, *(each for conf in file.configurations for each in globals_of(conf))):
-            for variable in section.variables:
-                yield variable.name, variable
+def _declarations(file: tree.File) -> Iterator[tuple[str, object]]:
+    for declaration in file.types:
+        yield declaration.name, declaration
+    for pou in file.pous:
+        yield pou.name, (pou.sections, pou.result, pou.extends, pou.implements)
+    for section in (*file.globals, *(each for conf in file.configurations for each in globals_of(conf))):
+        for variable in section.variables:
+            yield variable.name, variable
 
 
 def _mentioned(node: object) -> Iterator[str]:

@@ -46,28 +46,28 @@ class PouChecker(ABC):
     def call(self, node: tree.Call, wanted: Type | None = None) -> Expr:
         """A call for its value; see `CallChecker`."""
 
-    # ---- what objects add; see `check/objects.py` -------------------------------------------------------
+    # ---- what later layers add, and earlier ones ask for ---------------------------------------------------
 
+    @abstractmethod
     def self_place(self, name: str, span: Span) -> Place:
-        """Where the instance that THIS or SUPER means lives."""
-        raise self.report.reject("T001", f"{name.upper()} is only known in a method or a FUNCTION_BLOCK.", span)
+        """Where the instance that THIS or SUPER means lives; see `ObjectChecker`."""
 
+    @abstractmethod
     def qualified_place(self, node: tree.MemberOf) -> tuple[Place, Member | None] | None:
-        """A variable behind the name of a namespace or of a list of globals, if it is one."""
-        return None
+        """A variable behind THIS, SUPER, or the name of a namespace or of a list of globals, if it is one."""
 
+    @abstractmethod
     def accessor(self, node: tree.Expression) -> Expr | None:
-        """The value of a property, if it is one."""
-        return None
+        """The value of a property, if it is one; see `MethodChecker`."""
 
+    @abstractmethod
     def as_interface(self, expr: Expr, type: Reference, span: Span) -> Expr | None:
         """A reference to an instance, where a variable of an interface that it implements wants one."""
-        return None
 
+    @abstractmethod
     def is_derived(self, record: Record, base: Record) -> bool:
         """Whether a block is `base`, or extends it in any number of steps."""
-        return record is base
 
+    @abstractmethod
     def may_use(self, record: Record, member: Member) -> bool:
         """Whether this POU may use the member of a block, which is not an input or output."""
-        return member.access == "PUBLIC" or self.scope.instance is record

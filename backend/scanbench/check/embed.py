@@ -88,9 +88,9 @@ class SubrangeChecker(PouChecker):
         type = place.type
         return Violates(BOOL, Load(place), type.low, type.high, 0)
 
+    @abstractmethod
     def raw_value(self, node: tree.Expression) -> Place:
-        """The variable itself, not its checked value."""
-        raise NotImplementedError
+        """The variable itself, not its checked value; see `PlaceChecker`."""
 
 
 def _proof(expr: Expr, type: Subrange) -> str:

@@ -75,7 +75,7 @@ def _real(op: str, a: float, b: float) -> float | None:
         case "div":
             if b != 0:
                 return a / b
-            return math.nan if a == 0 else math.copysign(math.inf, a) * math.copysign(1, b)
+            return math.nan if a == 0 or math.isnan(a) else math.copysign(math.inf, a) * math.copysign(1, b)
     return None
 
 

@@ -125,10 +125,12 @@ class _Project:
         files = [file.file for file in self.files.values()]
         if not all(_is_plain(edit.before) and _is_plain(edit.chunk.pou) for edit in edits):
             return False
+        if self.checker.pous.generic:
+            return False
         if any(each.block_tasks for file in files for conf in file.configurations for each in _programs(conf)):
             return False  # the last pass looks into bodies then
         names = [pou.name for edit in edits for pou in (edit.before, edit.chunk.pou) if pou is not None]
-        changed = tainted(names, files)
+        changed = tainted(names, [chunk for file in self.files.values() for chunk in file.chunks], self.words)
         sees = {
             id(chunk.pou.span): not changed.isdisjoint(self.words.of(chunk))
             for file in self.files.values() for chunk in file.chunks if chunk.pou is not None
@@ -170,8 +172,8 @@ class _Project:
     def _changed_body(self, edit: _Edit) -> tuple[Pou, tree.PouDeclaration] | None:
         """The POU to be checked again, if nothing but its body changed."""
         old, new, names = edit.before, edit.chunk.pou, self.checker.names
-        if old is None or new is None:
-            return None
+        if old is None or new is None or self.checker.pous.generic:
+            return None  # generic functions are made for those who call them
         if edit.file in self.checker.enabling:
             old, new = names.with_enable("", old), names.with_enable("", new)
         elif ENABLING.search(edit.chunk.source.text):

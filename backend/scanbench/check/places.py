@@ -199,9 +199,9 @@ class PlaceChecker(SubrangeChecker):
             type, indices = type.element, indices[count:]
         return replace(place, type=type), member
 
+    @abstractmethod
     def moved(self, op: str, pointer: Expr, by: Expr, span: Span, of_target: bool = False) -> Expr:
         """A pointer further on; see `ReferenceChecker`."""
-        raise NotImplementedError
 
     def index_value(self, node: tree.Expression) -> Expr:
         index = settle(self.expr(node))

@@ -1,17 +1,31 @@
-"""`scanbench bench`: how fast the native engine is, as a ratio to C compiled in the same run."""
+"""`scanbench bench`: how fast the native engine is, as a ratio to C compiled in the same run, and what builds take."""
 
 import json
+from typing import TYPE_CHECKING
 
 import typer
 
 from scanbench.cli.inputs import usage
+
+if TYPE_CHECKING:
+    from scanbench.bench.run import Result
+
+BUILDING = (
+    ("cold", "text to first scan, cold", "ms"),
+    ("cached", "text to first scan, from the disk cache", "ms"),
+    ("optimised_behind", "until optimised code has taken over", "ms"),
+    ("pou_changed", "one POU changed, to running again", "ms"),
+    ("keystroke_in_body", "problems after a keystroke in a body", "ms"),
+    ("keystroke_in_declaration", "problems after a keystroke in a declaration", "ms"),
+    ("memory_mb", "peak memory, worker included", "MB"),
+)
 
 
 def bench(
     programs: list[str] | None = typer.Argument(None, metavar="[PROGRAM]...", help="Names; all when none is given."),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
 ) -> None:
-    """Measure the bench programs: ns per scan, ratio to hand-written C (gcc -O3), compile times."""
+    """Measure the bench programs: ns per scan, ratio to hand-written C (gcc -O3), what peers reach, what builds take."""
     from scanbench.bench.run import BenchError, run_bench
 
     try:
@@ -21,10 +35,31 @@ def bench(
     if as_json:
         typer.echo(json.dumps(result))
         return
-    typer.echo(f"{'program':16}{'ns/scan':>12}{'C':>12}{'ratio':>8}   compile ms")
+    _programs(result)
+    _building(result)
+    if result["interpreter_per_second"] is not None:
+        typer.echo(f"\nreference interpreter: {result['interpreter_per_second']:,.0f} simple statements a second")
+
+
+def _programs(result: "Result") -> None:
+    names = list(dict.fromkeys(peer for ratios in result["peers"].values() for peer in ratios))
+    heads = "".join(f"{name:>10}" for name in names)
+    typer.echo(f"{'program':16}{'ns/scan':>12}{'C':>12}{'ratio':>8}{heads}   compile ms")
     for name, row in result["programs"].items():
         c_ns, ratio = row["c_ns"], row["ratio"]
         c_text = "-" if c_ns is None else f"{c_ns:.1f}"
         ratio_text = "-" if ratio is None else f"{ratio:.2f}"
+        peers = result["peers"].get(name, {})
+        others = "".join(f"{peers[peer]:>10,.2f}" if peer in peers else f"{'-':>10}" for peer in names)
         parts = "  ".join(f"{part} {ms:.0f}" for part, ms in result["compile"][name].items())
-        typer.echo(f"{name:16}{row['ns']:>12.1f}{c_text:>12}{ratio_text:>8}   {parts}")
+        typer.echo(f"{name:16}{row['ns']:>12.1f}{c_text:>12}{ratio_text:>8}{others}   {parts}")
+    if names:
+        typer.echo("ratio: to the C of this run. Peers: their ratio to the same C, measured on another machine before.")
+
+
+def _building(result: "Result") -> None:
+    if not result["building"]:
+        return
+    typer.echo("\n" + f"{'10,000 lines':46}" + "".join(f"{name:>14}" for name in result["building"]))
+    for key, what, unit in BUILDING:
+        typer.echo(f"{what:46}" + "".join(f"{row[key]:>11.1f} {unit}" for row in result["building"].values()))

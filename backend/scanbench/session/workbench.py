@@ -18,8 +18,6 @@ from scanbench.store.store import Store
 
 log = logging.getLogger("scanbench")
 
-FIRST_INSTANCE = "line-1"
-
 
 class Workbench:
     """Starts and ends with the server."""
@@ -116,9 +114,8 @@ class Workbench:
         return [session for session in self.sessions if session.project_id == project_id]
 
     async def _first_start(self) -> None:
-        """The samples; the first one runs on an instance of its own."""
-        first = True
-        for sample in samples():
+        """The samples, each on an instance of its own."""
+        for number, sample in enumerate(samples(), 1):
             if sample.model not in self.models:
                 log.error("sample %s needs model %s, which could not be loaded", sample.name, sample.model)
                 continue
@@ -128,6 +125,5 @@ class Workbench:
             outcome = await self.projects.build(project.id, "sample")
             if not outcome.ok:
                 log.error("sample %s: %s", sample.name, outcome.message)
-            elif first:
-                await asyncio.to_thread(self._store.create_instance, project.id, FIRST_INSTANCE)
-                first = False
+            else:
+                await asyncio.to_thread(self._store.create_instance, project.id, f"line-{number}")

@@ -40,7 +40,7 @@ def test_a_restarted_server_has_projects_history_and_log(tmp_path: Path, kill: s
             browser.wait_for("errors")
         time.sleep(0.3)  # history is written behind the live path
         pids = [each["state"]["pid"] for each in server.http.get("/api/instances").json()]
-        assert len(pids) == 2
+        assert len(pids) == 3  # the samples and this one
         assert all(map(alive, pids))
         os.kill(server.process.pid, kill)
         server.process.wait(10)

@@ -10,6 +10,9 @@ from scanbench.engines.native.emit_body import SCRATCH_LIMIT, TooLarge
 from scanbench.engines.native.emit_program import Emitter
 from scanbench.engines.native.registers import Signature, signature
 
+SMALL = 120
+"""Statements up to which a program is one module: compiling it whole takes less than compiling its parts."""
+
 
 @dataclass(eq=False, slots=True)
 class Part:
@@ -68,8 +71,11 @@ class Parts:
         self._emitted: dict[Pou, _Emitted] = {}
 
     def of(self, program: Program) -> list[Part]:
-        """One part for each POU, the scan, and the numbers that the others refer to."""
+        """One part for each POU, the scan, and the numbers that the others refer to; one part for a small program."""
         with without_collection():
+            if sum(inlining.size(pou.body) for pou in program.pous) <= SMALL:
+                unit = Emitter(program).whole()
+                return _fitting([Part(unit.module.text(), unit.scratch)])
             return self._of(program)
 
     def _of(self, program: Program) -> list[Part]:

@@ -2,12 +2,16 @@
 
 import pytest
 
+from scanbench.bench.building import measure_building
 from scanbench.bench.run import PROGRAMS, BenchError, run_bench
+from scanbench.cli.bench import BUILDING
 
 
 def test_a_program_beside_its_twin() -> None:
     result = run_bench(["noop", "mavg"])
-    assert set(result) == {"programs", "compile"}
+    assert result["building"] == {}
+    assert result["interpreter_per_second"] is None
+    assert result["peers"]["mavg"]["matiec"] == pytest.approx(228 / 32, abs=0.001)
     for name in ("noop", "mavg"):
         measured = result["programs"][name]
         assert measured["ns"] is not None
@@ -26,3 +30,11 @@ def test_an_unknown_program_is_named() -> None:
     with pytest.raises(BenchError, match=r"no bench program nope; there are: noop"):
         run_bench(["nope"])
     assert "noop" in PROGRAMS
+
+
+def test_what_building_takes() -> None:
+    figures = measure_building("state")
+    assert set(figures) == {key for key, _, _ in BUILDING}
+    assert figures["cached"] < figures["cold"]
+    assert 0 < figures["pou_changed"] < 1000
+    assert 20 < figures["memory_mb"] < 1000

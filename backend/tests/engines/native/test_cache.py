@@ -11,6 +11,7 @@ from scanbench.engines.engine import Reason
 from scanbench.engines.native import jit
 from scanbench.engines.native.compiler import AT_ONCE, FAST, QUICK, Build, Compiler
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.engines.native.parts import Part
 from scanbench.engines.native.worker import optimised
 from tests.engines.native.plc import MODEL, check
 
@@ -35,7 +36,8 @@ VAR c : Counter; sum : DINT; i : DINT; d : ARRAY[0..9] OF DINT; END_VAR
 {extra}
 END_PROGRAM
 """
-FILLER = "\n".join("  IF sum > 5 THEN d[1] := d[2]; ELSE d[3] := d[4] / 2; END_IF;" for _ in range(12))
+# enough for a program to be compiled in parts
+FILLER = "\n".join("  IF sum > 5 THEN d[1] := d[2]; ELSE d[3] := d[4] / 2; END_IF;" for _ in range(40))
 
 
 def program(more: str = "", extra: str = FILLER) -> Program:
@@ -118,7 +120,7 @@ def test_a_broken_file_is_built_again(tmp_path: Path) -> None:
 
 
 def test_quick_code_first_and_optimised_code_behind(tmp_path: Path) -> None:
-    made = program(extra=FILLER * (AT_ONCE // 8000))
+    made = program(extra=FILLER * (AT_ONCE // 16_000))
     compiler = Compiler(BlobCache(tmp_path))
     soon = compiler.build_soon(made)
     assert soon.pending
@@ -135,8 +137,8 @@ def test_a_little_is_optimised_at_once() -> None:
 
 
 def test_what_is_not_wanted_is_not_optimised() -> None:
-    soon = Compiler().build_soon(program(extra=FILLER * (AT_ONCE // 8000)))
-    done = []
+    soon = Compiler().build_soon(program(extra=FILLER * (AT_ONCE // 16_000)))
+    done: list[Part] = []
     for part, _ in optimised(soon.pending, lambda: not done):
         done.append(part)
     assert len(done) == 1 < len(soon.pending)
