@@ -4,6 +4,7 @@ A value outside of its subrange is brought back to the nearer bound and recorded
 with what it may count on. What can be proven needless is listed, but not run; `needless.py` finds more of it.
 """
 
+from abc import abstractmethod
 from dataclasses import replace
 
 from scanbench.check.checker import PouChecker

@@ -113,9 +113,10 @@ class _Needless:
         return replace(node, value=value, target=target)
 
     def call_block(self, node: CallBlock) -> CallBlock:
+        instance = self.place(node.instance)
         inputs = tuple((place, self.expr(value)) for place, value in node.inputs)
         self.facts = {}
-        return replace(node, instance=self.place(node.instance), inputs=inputs)
+        return replace(node, instance=instance, inputs=inputs)
 
     def choose(self, node: If) -> If:
         ends: list[Facts] = []

@@ -1,5 +1,6 @@
 """Variables -> places: names, members, elements, what a reference refers to, and parts of integers."""
 
+from abc import abstractmethod
 from dataclasses import replace
 
 from scanbench.check import fold

@@ -17,7 +17,8 @@ BUILDING = (
     ("pou_changed", "one POU changed, to running again", "ms"),
     ("keystroke_in_body", "problems after a keystroke in a body", "ms"),
     ("keystroke_in_declaration", "problems after a keystroke in a declaration", "ms"),
-    ("memory_mb", "peak memory, worker included", "MB"),
+    ("host_mb", "peak memory of the host and its worker", "MB"),
+    ("checker_mb", "peak memory of the checker", "MB"),
 )
 
 

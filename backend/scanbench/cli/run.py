@@ -35,7 +35,7 @@ ENGINES: dict[EngineChoice, Callable[[Program, bytearray], Engine]] = {
 
 
 def run(
-    path: Path = typer.Argument(metavar="FILE|DIR", help="An ST file, or a folder with .st files."),
+    path: Path = typer.Argument(metavar="FILE|DIR", help="A program file (.st, .TcPOU, ...), or a folder with some."),
     scans: int = typer.Option(..., min=0, help="How many scans to run."),
     model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else project.json's, else GENERIC-IEC."),
     interval: str = typer.Option("10ms", help="Task interval where no CONFIGURATION says another."),

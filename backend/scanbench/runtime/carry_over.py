@@ -1,12 +1,13 @@
 """A new program on a running PLC: what the old image hands over to the new one.
 
 Areas stay as they are; a variable is kept when the new program has one of the same path and type. Constants take the
-new value. References count bytes in the old layout, so each is led to the variable of the same path, or to nothing;
-in-out slots start unconnected, as the next call binds them.
+new value, and so does the number of an instance's class. References count bytes in the old layout, so each is led to
+the variable of the same path, or to nothing; in-out slots start unconnected, as the next call binds them.
 """
 
 from dataclasses import dataclass
 
+from scanbench.check.classes import TYPE_NUMBER
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
 from scanbench.check.symbols import UnknownPath, resolve, starting_at
@@ -79,7 +80,7 @@ class _Carrier:
 
     def record(self, old: Record, old_offset: int, new: Record, new_offset: int) -> None:
         for name, member in new.members.items():
-            if member.located or member.constant or member.hidden or member.incomplete:
+            if member.located or member.constant or member.incomplete or member.name == TYPE_NUMBER:
                 continue
             if member.section in (Section.IN_OUT, Section.EXTERNAL):
                 continue

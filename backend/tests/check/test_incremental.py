@@ -226,13 +226,18 @@ def test_errors_of_other_pous_stay_and_move() -> None:
 
 def test_a_large_file_edited_here_and_there(rechecked: list[str]) -> None:
     text = "\n".join((HERE / "st" / "big10k.st").read_text("utf-8").splitlines()[: 82 * 6])
-    text = text[: text.rindex("END_FUNCTION_BLOCK")] + "END_FUNCTION_BLOCK\nPROGRAM Main\nVAR u : Unit3; END_VAR\nu();\nEND_PROGRAM\n"
+    text = (
+        text[: text.rindex("END_FUNCTION_BLOCK")]
+        + "END_FUNCTION_BLOCK\nPROGRAM Main\nVAR u : Unit3; END_VAR\nu();\nEND_PROGRAM\n"
+    )
     checks, chance = Checks(), random.Random(7)
     checks.check({"big.st": text}, MODEL, INTERVAL_NS)
     statements = [match.start() for match in re.finditer(r"\n  (?=[a-z]\w* := )", text)]
     for _ in range(12):
         at = chance.choice(statements)
-        added = chance.choice(["\n  b0 := b1;", "\n\n", "\n  integ := 1.5", "\n  b1 := alarm OR b2; (* so *)\n", "\n  i := j;"])
+        added = chance.choice(
+            ["\n  b0 := b1;", "\n\n", "\n  integ := 1.5", "\n  b1 := alarm OR b2; (* so *)\n", "\n  i := j;"]
+        )
         edited = {"big.st": text[:at] + added + text[at:]}
         agree(checks.check(edited, MODEL, INTERVAL_NS), edited)
     assert len(rechecked) > 8

@@ -161,3 +161,38 @@ def test_a_reference_to_what_is_gone_is_null(engine: EngineFactory) -> None:
     resource.run(1)
     assert resource.trap is not None
     assert resource.trap.kind == "null"
+
+
+EDGES = """
+INTERFACE IShow
+METHOD Shown : INT END_METHOD
+END_INTERFACE
+FUNCTION_BLOCK Count IMPLEMENTS IShow
+VAR_INPUT up : BOOL R_EDGE; END_VAR
+VAR n : INT; END_VAR
+METHOD PUBLIC Shown : INT Shown := 2; END_METHOD
+IF up THEN n := n + 1; END_IF;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR c : Count; clock : BOOL := TRUE; shown : INT; any : IShow; END_VAR
+c(up := clock);
+any := c;
+shown := any.Shown();
+END_PROGRAM
+"""
+FIRST = """
+FUNCTION_BLOCK Another IMPLEMENTS IShow
+METHOD PUBLIC Shown : INT Shown := 1; END_METHOD
+END_FUNCTION_BLOCK
+"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_an_edge_that_was_seen_is_not_seen_again_and_classes_take_their_new_numbers(engine: EngineFactory) -> None:
+    resource = plc(EDGES, engine)
+    resource.run(2)
+    new = program(FIRST + EDGES.replace("VAR c : Count", "VAR a : Another; c : Count"))
+    memory = bytearray(new.layout.size)
+    resource.swap(new, engine(new, memory), memory, "Ada", 2)
+    resource.run(2)
+    assert (value(resource, "Main.c.n"), value(resource, "Main.shown")) == (1, 2)

@@ -17,16 +17,20 @@ from scanbench.session.host.build import Builder, Built, find_model
 from scanbench.session.host.swaps import Recode
 from scanbench.session.protocol import Sources
 
-BLOCK = """\
+BLOCK = (
+    """\
 FUNCTION_BLOCK Unit{0}
 VAR_INPUT step : DINT; END_VAR
 VAR_OUTPUT n : DINT; END_VAR
 VAR r : REAL; list : ARRAY[0..7] OF DINT; t : TON; END_VAR
   t(IN := n MOD 3 = 0, PT := T#20ms);
-""" + "".join(
-    f"  IF list[n MOD 8] > {k} THEN r := r * 0.5 + {k}.25; list[{k % 8}] := REAL_TO_DINT(r); ELSE n := n + step; END_IF;\n"
-    for k in range(40)
-) + "END_FUNCTION_BLOCK\n"
+"""
+    + "".join(
+        f"  IF list[n MOD 8] > {k} THEN r := r * 0.5 + {k}.25; list[{k % 8}] := REAL_TO_DINT(r); ELSE n := n + step; END_IF;\n"
+        for k in range(40)
+    )
+    + "END_FUNCTION_BLOCK\n"
+)
 UNITS = 6
 MAIN = """\
 PROGRAM Main
@@ -58,6 +62,10 @@ def optimised(builder: Builder) -> Recode:
     return found[0]
 
 
+def is_optimising(builder: Builder) -> bool:
+    return builder.tiers is not None and builder.tiers.optimising
+
+
 def state_after(built: Built, scans: int) -> bytes:
     plc = Resource(built.program, built.engine)
     plc.run(scans)
@@ -68,14 +76,13 @@ def test_the_seam_does_not_show(tmp_path: Path) -> None:
     builder = Builder(tmp_path)
     built = builder.build(sources())
     plc = Resource(built.program, built.engine)
-    assert builder.tiers is not None
-    assert builder.tiers.optimising
+    assert is_optimising(builder)
     plc.run(50)
     plc.submit(Write("Ada", "Main.extra", "4"))
     recode = optimised(builder)
     assert recode.engine is not None
     assert recode.program is plc.program
-    assert not builder.tiers.optimising
+    assert not is_optimising(builder)
     entries = list(plc.journal)
     plc.engine = recode.engine
     plc.run(50)
@@ -120,8 +127,7 @@ def test_a_known_program_starts_optimised(tmp_path: Path, monkeypatch: pytest.Mo
     again = Builder(tmp_path)
     recalled = again.build(sources())
     assert state_after(recalled, 30) == expected
-    assert again.tiers is not None
-    assert not again.tiers.optimising
+    assert not is_optimising(again)
 
 
 def test_an_edit_of_a_recalled_program(tmp_path: Path) -> None:
@@ -143,7 +149,9 @@ def broken(directory: Path, change: Callable[[bytes], bytes]) -> None:
         path.write_bytes(change(path.read_bytes()))
 
 
-@pytest.mark.parametrize("change", [lambda data: data[:-7], lambda data: b"", lambda data: data[:99] + b"\0\0" + data[101:]])
+@pytest.mark.parametrize(
+    "change", [lambda data: data[:-7], lambda data: b"", lambda data: data[:99] + b"\0\0" + data[101:]]
+)
 def test_a_broken_cache_is_no_cache(tmp_path: Path, change: Callable[[bytes], bytes]) -> None:
     builder = Builder(tmp_path)
     built = builder.build(sources())
@@ -172,15 +180,13 @@ def test_what_a_program_depends_on_is_in_its_key(monkeypatch: pytest.MonkeyPatch
 def test_where_the_worker_dies_quick_code_runs_on(monkeypatch: pytest.MonkeyPatch) -> None:
     def dies(*_: object) -> Iterator[object]:
         raise WorkerDied
-        yield
 
     monkeypatch.setattr(tiers_module, "optimised", dies)
     builder = Builder(None)
     built = builder.build(sources())
     plc = Resource(built.program, built.engine)
     assert optimised(builder).engine is None
-    assert builder.tiers is not None
-    assert not builder.tiers.optimising
+    assert not is_optimising(builder)
     plc.run(10)
 
 

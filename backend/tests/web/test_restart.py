@@ -48,7 +48,7 @@ def test_a_restarted_server_has_projects_history_and_log(tmp_path: Path, kill: s
 
     with Server(tmp_path) as again:
         names = [each["name"] for each in again.http.get("/api/instances").json()]
-        assert names == ["line-1", "kept"]
+        assert names == ["line-1", "line-2", "kept"]
         rows = {row["id"]: row for row in again.http.get(f"/api/instances/{instance}/errors").json()}
         row = rows["basic-io-error"]
         # A started PLC is a cold one: what was generated in the old life is over, and was tested.

@@ -37,4 +37,4 @@ def test_what_building_takes() -> None:
     assert set(figures) == {key for key, _, _ in BUILDING}
     assert figures["cached"] < figures["cold"]
     assert 0 < figures["pou_changed"] < 1000
-    assert 20 < figures["memory_mb"] < 1000
+    assert 20 < figures["host_mb"] < 1000
