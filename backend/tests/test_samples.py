@@ -4,7 +4,7 @@ import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.engines.pair import PairEngine
-from scanbench.runtime.headless import run_headless
+from scanbench.runtime.headless import HeadlessRun, run_headless
 from scanbench.session.samples import Sample, samples
 from tests.caseformat import MODELS
 
@@ -16,6 +16,6 @@ def test_a_sample_runs_alike_on_both_engines(sample: Sample) -> None:
     checked = check_sources(sample.files, MODELS[sample.model])
     assert checked.problems == ()
     assert checked.program is not None
-    result = run_headless(checked.program, 600, PairEngine)
+    result: HeadlessRun[None] = run_headless(checked.program, 600, PairEngine)
     assert result.scans == 600
     assert result.resource.trap is None

@@ -6,7 +6,7 @@ an empty cache directory; the second finds what the first has left there, and is
 """
 
 import json
-import resource
+import os
 import subprocess
 import sys
 import tempfile
@@ -29,6 +29,7 @@ LARGE = ("big10k", "big10kflat")
 MODEL = "GENERIC-IEC"
 INTERVAL_NS = 1_000_000
 OPTIMISED_S = 120
+LOOK_S = 0.05
 SAMPLES = 9
 
 STATEMENT = "integ := integ + err * 0.01;"
@@ -97,15 +98,28 @@ def _host(program: str, cache: Path) -> tuple[Figures, Builder, Resource]:
     plc = Resource(built.program, built.engine)
     plc.run(1)
     figures = {"start": _ms(start)}
-    figures["optimised"] = _optimise(builder, plc)
+    figures["optimised"], worker_kb = _optimise(builder, plc)
     keep(BlobCache(cache), key_of(sources, find_model(MODEL)), built.program)
-    return figures | _memory(), builder, plc
+    return figures | _memory(worker_kb), builder, plc
 
 
-def _memory() -> Figures:
+def _memory(worker_kb: int = 0) -> Figures:
     """Peak of this process and of its worker together."""
-    usage = (resource.getrusage(who).ru_maxrss for who in (resource.RUSAGE_SELF, resource.RUSAGE_CHILDREN))
-    return {"memory_mb": round(sum(usage) / 1024, 1)}
+    return {"memory_mb": round((_peak_kb(os.getpid()) + worker_kb) / 1024, 1)}
+
+
+def _peak_kb(pid: int) -> int:
+    """Most memory that was resident. Not `getrusage`: that counts what the parent had when it started the process."""
+    try:
+        status = Path(f"/proc/{pid}/status").read_text()
+    except OSError:  # it has just ended
+        return 0
+    return next((int(line.split()[1]) for line in status.splitlines() if line.startswith("VmHWM:")), 0)
+
+
+def _children() -> list[int]:
+    lists = (path.read_text() for path in Path("/proc/self/task").glob("*/children"))
+    return [int(pid) for text in lists for pid in text.split()]
 
 
 def _text(program: str) -> str:
@@ -136,10 +150,10 @@ def _median(measure: Callable[[str], float], texts: list[str]) -> float:
     return round(median(measure(text) for text in texts), 1)
 
 
-def _optimise(builder: Builder, plc: Resource) -> float:
-    """Waits for the optimised code, as long as it takes."""
+def _optimise(builder: Builder, plc: Resource) -> tuple[float, int]:
+    """Waits for the optimised code; ms, and the peak of the worker in KiB."""
     if builder.tiers is None or not builder.tiers.optimising:
-        return 0.0
+        return 0.0, 0
     start, done = perf_counter_ns(), threading.Event()
 
     def take(recode: Recode) -> None:
@@ -148,8 +162,10 @@ def _optimise(builder: Builder, plc: Resource) -> float:
         done.set()
 
     builder.tiers.optimise(take)
-    done.wait(OPTIMISED_S)
-    return _ms(start)
+    peak = 0
+    while not done.wait(LOOK_S) and _ms(start) < OPTIMISED_S * 1000:
+        peak = max([peak, *map(_peak_kb, _children())])
+    return _ms(start), peak
 
 
 def _change(builder: Builder, plc: Resource, sources: Sources) -> float:

@@ -6,13 +6,17 @@ or wrong as before.
 
 import re
 from collections.abc import Iterable, Iterator, Mapping
-from dataclasses import fields, is_dataclass
+from dataclasses import fields, is_dataclass, replace
 
 from scanbench.check.collect import globals_of
 from scanbench.problems import Span
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunk
 
+INNER = ("VAR", "VAR_TEMP")
+"""Sections of a block that its callers have nothing to do with."""
+SIZES = frozenset(("SIZEOF",))
+"""What sees a type without naming its members."""
 _WORD = re.compile(r"[^\W\d]\w*")
 
 
@@ -51,6 +55,31 @@ def tainted(changed: Iterable[str], chunks: Iterable[Chunk], words: Words) -> se
         grown = bool(more)
         found |= more
     return found
+
+
+def inner_changes(old: tree.PouDeclaration, new: tree.PouDeclaration) -> frozenset[str] | None:
+    """Names of the variables that differ, when only variables do that others reach by their names alone; else None."""
+    around = [
+        [replace(pou, body=(), sections=())] + [each for each in pou.sections if each.keyword not in INNER]
+        for pou in (old, new)
+    ]  # fmt: skip
+    if around[0] != around[1]:
+        return None
+    mine, theirs = ({each.name.upper(): (section.qualifiers, section.access, _shape(each))
+                     for section in pou.sections if section.keyword in INNER for each in section.variables}
+                    for pou in (old, new))  # fmt: skip
+    return frozenset(name for name in mine.keys() | theirs.keys() if mine.get(name) != theirs.get(name))
+
+
+def _shape(node: object) -> object:
+    """The same for two trees that differ in places only."""
+    if isinstance(node, Span):
+        return None
+    if isinstance(node, tuple | list):
+        return tuple(_shape(each) for each in node)
+    if is_dataclass(node) and not isinstance(node, type):
+        return type(node), tuple(_shape(getattr(node, field.name)) for field in fields(node))
+    return node
 
 
 def tells_enumerators(pou: tree.PouDeclaration) -> bool:

@@ -20,6 +20,7 @@ from scanbench.check.program import (
 )
 from scanbench.check.scopes import decode
 from scanbench.check.shown import shown
+from scanbench.check.standard.library import in_library
 from scanbench.check.standard_calls import StandardCallChecker
 from scanbench.check.types import (
     BOOL,
@@ -232,7 +233,7 @@ class ArgumentChecker(StandardCallChecker):
 def _generic(output: Member, value: Expr, target: Type) -> Expr:
     """An integer output of a standard function (SPLIT_DATE) is of ANY_INT: it becomes what it is stored in."""
     whole = isinstance(target, Elementary) and target.kind in (Kind.INT, Kind.UINT)
-    if whole and isinstance(target, Elementary) and output.type == INT and output.span.file.startswith("standard/"):
+    if whole and isinstance(target, Elementary) and output.type == INT and in_library(output.span):
         return fold.convert(target, value)
     return value
 

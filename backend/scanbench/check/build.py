@@ -22,7 +22,7 @@ from scanbench.check.names import Space, qualified
 from scanbench.check.order import Order
 from scanbench.check.program import Assign, Base, CheckSite, Const, Expr, Place, Pou, Program
 from scanbench.check.scopes import Pous, Scope, place_of
-from scanbench.check.standard.library import library
+from scanbench.check.standard.library import in_library
 from scanbench.check.statements import StatementChecker
 from scanbench.check.types import BOOL, Kind, Member, Record, Reference, Section, Type
 from scanbench.plcmodel.model import Model
@@ -206,7 +206,7 @@ class Checker:
     def _declare_pous(self) -> None:
         blocks_of_library = []
         for key, declaration in (*self.declarations.block_trees.items(), *self.names.functions.items()):
-            if declaration.kind == "function_block" and declaration.span.file.startswith("standard/"):
+            if declaration.kind == "function_block" and in_library(declaration.span):
                 blocks_of_library.append((key, declaration))
                 continue
             with self.declarations.names.within(Space(declaration.namespace, declaration.using)):
@@ -214,7 +214,8 @@ class Checker:
         declare_methods(self.pous.classes, self.declarations)
         for key, declaration in blocks_of_library:
             if key in self.declarations.types:  # somebody declared an instance
-                self._declare_pou(key, declaration)
+                with self.declarations.names.within(Space(declaration.namespace, declaration.using)):
+                    self._declare_pou(key, declaration)
         check_classes(self.pous.classes, self.report)
         methods = [each.pou.frame for each in self.pous.classes.methods() if each.pou is not None]
         blocks = [each for each in self.declarations.types.values() if isinstance(each, Record)]
@@ -222,7 +223,7 @@ class Checker:
 
     def _declare_pou(self, key: str, declaration: tree.PouDeclaration) -> None:
         name = qualified(declaration.namespace, declaration.name)
-        inline = declaration.span.file.startswith("standard/")
+        inline = in_library(declaration.span)
         if is_generic(declaration):
             self.pous.generic[key] = declaration
             return
@@ -268,7 +269,8 @@ class Checker:
         self.frames[pou] = dict(pou.frame.members), pou.frame.size, pou.frame.align
         with self.declarations.names.within(space), self.report.apart() as self.report.parts[pou]:
             externals = self._externals(declaration, pou, instance, space)
-            scope = Scope(pou.name, self.globals, instance, pou.frame, externals, this=this, space=space)
+            visible = Record("GLOBAL", Kind.STRUCT) if pou.inline else self.globals  # the library sees none of them
+            scope = Scope(pou.name, visible, instance, pou.frame, externals, this=this, space=space)
             pou.body = StatementChecker(self.report, self.declarations, self.pous, scope, pou).body(declaration.body)
 
     def _externals(
@@ -305,7 +307,6 @@ class Checker:
 
     def _check_library(self) -> None:
         """Bodies of the library POUs that are used, and of those that they use."""
-        trees = {pou.name.upper(): pou for file in library() for pou in file.pous}
         done: set[Pou] = set()
         while True:
             used = [callee for called in list(self.pous.uses.values()) for callee in called]
@@ -315,7 +316,7 @@ class Checker:
             for pou in fresh:
                 done.add(pou)
                 if not pou.body:
-                    self.check_body(trees[pou.name.upper()])
+                    self.check_body(self.names.library[pou.name.upper()])
 
     def _order(self) -> list[Pou]:
         methods = [each.pou for each in self.pous.classes.methods() if each.pou is not None]

@@ -30,6 +30,7 @@ from scanbench.check.program import (
 )
 from scanbench.check.scopes import decode
 from scanbench.check.standard.functions import FUNCTIONS
+from scanbench.check.standard.library import in_library
 from scanbench.check.types import BOOL, ULINT, Elementary, Member, Record, Reference, Section, Type, initial_of
 from scanbench.check.untyped import is_untyped, settle
 from scanbench.problems import Span
@@ -109,9 +110,12 @@ class CallChecker(GenericChecker):
             return None
         names: Names = self.declarations.names
         key = names.find(name, callee.span, self.pous.functions, self.pous.generic)
+        found = self.pous.functions.get(key) if key is not None else None
+        if in_library(callee.span) and (found is None or not found.inline):
+            return None  # the library means its own, which is no POU
         if key in self.pous.generic:
             return self.instantiated(self.pous.generic[key], node or tree.Call(callee, (), callee.span))
-        return self.pous.functions[key] if key is not None else None
+        return found
 
     def _hides(self, path: str) -> bool:
         """Whether this is a variable, and no function: a plain value of the same name, as a result, hides none."""

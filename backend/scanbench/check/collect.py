@@ -5,7 +5,7 @@ from dataclasses import dataclass, field, fields, is_dataclass, replace
 
 from scanbench.check.context import Report
 from scanbench.check.declare import Declarations
-from scanbench.check.names import Space, qualified
+from scanbench.check.names import LIBRARY, Space, qualified
 from scanbench.check.scopes import Pous
 from scanbench.check.standard.library import library
 from scanbench.check.types import ELEMENTARY, Record, Section
@@ -26,6 +26,8 @@ class Collector:
     functions: dict[str, tree.PouDeclaration] = field(default_factory=dict)
     user: list[tree.PouDeclaration] = field(default_factory=list)
     """POUs of the user in order of declaration, functions and blocks."""
+    library: dict[str, tree.PouDeclaration] = field(default_factory=dict)
+    """POUs of the standard library, those that the user hides in the namespace `LIBRARY`."""
     tells: set[str] = field(default_factory=set)
     """Keys of blocks whose body names ENO without declaring it: it is TRUE whenever they start."""
     _seen: dict[str, Span] = field(default_factory=dict)
@@ -50,10 +52,15 @@ class Collector:
                 made = self.with_enable(key, pou) if file.name in self.enabling else pou
                 self._register(key, made)
                 self.user.append(made)
-        for file in library():
-            for pou in file.pous:
-                if pou.name.upper() not in self._seen:
-                    self._register(pou.name.upper(), pou)
+        pous = [pou for file in library() for pou in file.pous]
+        hidden = {pou.name.upper() for pou in pous} & self._seen.keys()
+        for pou in pous:
+            key = pou.name.upper()
+            if hidden:  # the library itself goes on using its own
+                pou = replace(pou, namespace=LIBRARY if key in hidden else "", using=(LIBRARY,))
+                key = qualified(pou.namespace, pou.name).upper()
+            self.library[key] = pou
+            self._register(key, pou)
 
     def _register(self, key: str, pou: tree.PouDeclaration) -> None:
         table = self.functions if pou.kind == "function" else self.declarations.block_trees

@@ -1,12 +1,11 @@
 """Declarations -> types and members with offsets."""
 
-import struct
 from collections.abc import Callable
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 
-from scanbench.check import fold
 from scanbench.check.context import Rejected, Report, did_you_mean
+from scanbench.check.initial_values import initial_image
 from scanbench.check.names import Names, Space, qualified
 from scanbench.check.program import Const, Expr
 from scanbench.check.specs import (
@@ -466,50 +465,9 @@ class Declarations:
             )
         return self.areas[location.area.name] + location.byte, location.bit
 
-    # ---- initial values ---------------------------------------------------------------------------------
-
     def initial(self, value: tree.Initial, type: Type) -> bytes:
         """The image of an initial value."""
-        match value:
-            case tree.ArrayInit():
-                return self._array_initial(value, type)
-            case tree.StructInit():
-                return self._record_initial(value, type)
-        if not isinstance(type, Elementary | StringType):
-            example = "[1, 2, 3(0)]" if isinstance(type, ArrayType) else "(member := value)"
-            raise self.report.reject("D004", f"An initial value of {type} is written like {example}.", value.span)
-        return encode(type, self.constant_of(value, type))
-
-    def _array_initial(self, value: tree.ArrayInit, type: Type) -> bytes:
-        if not isinstance(type, ArrayType):
-            raise self.report.reject("D004", f"A list of values initialises an array, not {type}.", value.span)
-        element = type.element
-        if len(type.bounds) > 1 and any(isinstance(item, tree.ArrayInit) for _, item in value.items):
-            element = ArrayType(type.bounds[1:], type.element)
-        parts: list[bytes] = []
-        for count_tree, item in value.items:
-            count = 1 if count_tree is None else self.constant_of(count_tree, None).value
-            if not isinstance(count, int) or count < 0 or count > type.count:
-                raise self.report.reject("D004", f"{count!r} values do not fit {type}.", value.span)
-            parts += [self.initial(item, element)] * count
-        total = type.size // element.size
-        if len(parts) > total:
-            raise self.report.reject("D004", f"{len(parts)} values do not fit {type}; at most {total}.", value.span)
-        parts += [initial_of(element)] * (total - len(parts))
-        return b"".join(parts)
-
-    def _record_initial(self, value: tree.StructInit, type: Type) -> bytes:
-        if not isinstance(type, Record):
-            raise self.report.reject("D004", f"Values by member initialise a structure, not {type}.", value.span)
-        image = bytearray(type.initial())
-        for name, item, span in value.members:
-            member = type.members.get(name.upper())
-            if member is None or member.section in (Section.IN_OUT, Section.OUTPUT) or member.located:
-                hint = did_you_mean(name, [each.name for each in type.members.values()])
-                raise self.report.reject("D004", f"`{type.name}` has no `{name}` to initialise.{hint}", span)
-            data = self.initial(item, member.type)
-            image[member.offset : member.offset + len(data)] = data
-        return bytes(image)
+        return initial_image(self, value, type)
 
 
 def _with_arguments(variable: tree.Variable) -> tree.Variable:
@@ -524,16 +482,3 @@ def _has_bool(type: Type) -> bool:
     if isinstance(type, Record):
         return any(_has_bool(member.type) for member in type.members.values())
     return type.kind is Kind.BOOL
-
-
-def encode(type: Elementary | StringType, constant: Expr) -> bytes:
-    """The bytes of a constant in the image."""
-    assert isinstance(constant, Const)
-    value = constant.value
-    if isinstance(type, StringType):
-        assert isinstance(value, bytes)
-        text = value[: type.capacity * type.width]
-        return ((len(text) // type.width).to_bytes(2, "little") + text).ljust(type.size, b"\0")
-    if type.kind is Kind.REAL:
-        return struct.pack("<f" if type.size == 4 else "<d", fold.round_real(float(value), type))
-    return int(value).to_bytes(type.size, "little", signed=type.signed)

@@ -10,14 +10,13 @@ import re
 from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 
-from scanbench.check.affected import Words, tainted, tells_enumerators
+from scanbench.check.affected import SIZES, Words, inner_changes, tainted, tells_enumerators
 from scanbench.check.build import ENABLING, Checked, Checker, checker_of, concluded
 from scanbench.check.context import Report
 from scanbench.check.garbage import without_collection
 from scanbench.check.names import qualified
 from scanbench.check.program import Pou
 from scanbench.plcmodel.model import Model
-from scanbench.problems import Problem
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunk, Chunked, read
 
@@ -100,19 +99,24 @@ class _Project:
                 self.start_anew(sources)
                 return
             edits += found
-        if any(edit.moved for edit in edits) and self._tells_places():
-            self.start_anew(sources)  # spans of kept trees moved, but messages that tell a place did not
+        # spans of kept trees move by themselves, but what tells a place in words does not
+        telling = self._telling() if any(edit.moved for edit in edits) else set()
+        if telling is None:
+            self.start_anew(sources)
             return
         if whole and not self.whole:
             self.start()
             return
         bodies = [self._changed_body(edit) for edit in edits]
-        if None not in bodies:
-            for body in bodies:
-                assert body is not None
-                self.checker.recheck(*body)
+        told = self._declarations_of(telling)
+        if len(told) < len(telling):
+            self.start_anew(sources)
+        elif None not in bodies:
+            again = {body[0]: body[1] for body in bodies if body is not None}
+            for pou, declaration in (told | again).items():
+                self.checker.recheck(pou, declaration)
             self._finish()
-        elif whole or not self._redeclare(edits):
+        elif whole or not self._redeclare(edits, telling):
             self.start()
 
     def _finish(self) -> None:
@@ -120,7 +124,7 @@ class _Project:
         files = list(self.files.values())
         self.checked = concluded(files, self.checker.report, program if self.whole else None)
 
-    def _redeclare(self, edits: list[_Edit]) -> bool:
+    def _redeclare(self, edits: list[_Edit], telling: set[Pou]) -> bool:
         """Declares everything anew, and checks only bodies that may see what changed; false when that cannot be told."""
         files = [file.file for file in self.files.values()]
         if not all(_is_plain(edit.before) and _is_plain(edit.chunk.pou) for edit in edits):
@@ -129,12 +133,7 @@ class _Project:
             return False
         if any(each.block_tasks for file in files for conf in file.configurations for each in _programs(conf)):
             return False  # the last pass looks into bodies then
-        names = [pou.name for edit in edits for pou in (edit.before, edit.chunk.pou) if pou is not None]
-        changed = tainted(names, [chunk for file in self.files.values() for chunk in file.chunks], self.words)
-        sees = {
-            id(chunk.pou.span): not changed.isdisjoint(self.words.of(chunk))
-            for file in self.files.values() for chunk in file.chunks if chunk.pou is not None
-        }  # fmt: skip
+        seeing = self._seeing(edits)
         before, self.checker = self.checker, checker_of(list(self.files.values()), self.model)
         self.checker.declare()
         if next(iter(self.checker.pous.classes.methods()), None) is not None or before.pous.dispatchers:
@@ -142,13 +141,34 @@ class _Project:
         self.whole = False
         again = _Successors(before, self.checker)
         for declaration in self.checker.names.user:
-            found = None if sees.get(id(declaration.span), True) else again.of(declaration)
+            found = None if id(declaration.span) in seeing else again.of(declaration, telling)
             if found is None:
                 self.checker.check_body(declaration)
             else:
                 self.checker.reuse(*found)
         self._finish()
         return True
+
+    def _seeing(self, edits: list[_Edit]) -> set[int]:
+        """The POUs, by the identity of their spans, whose bodies may see what changed in declarations."""
+        chunks = [chunk for file in self.files.values() for chunk in file.chunks]
+        edited = {id(edit.chunk) for edit in edits}
+        names = [pou.name for edit in edits for pou in (edit.before, edit.chunk.pou) if pou is not None]
+        changed = tainted(names, chunks, self.words)
+        inner = [inner_changes(edit.before, edit.chunk.pou) for edit in edits if edit.before and edit.chunk.pou]
+        members = None if None in inner else frozenset[str]().union(*(each for each in inner if each is not None))
+        wrong = {pou.name.upper() for pou, part in self.checker.report.parts.items() if part.problems}
+        seeing = set()
+        for chunk in chunks:
+            if chunk.pou is None:
+                continue
+            words = self.words.of(chunk)
+            # whoever cannot see a member that changed sees nothing, unless near matches of a wrong name are to be told
+            name = qualified(chunk.pou.namespace, chunk.pou.name).upper()
+            sees = members is None or name in wrong or not words.isdisjoint(members | SIZES)
+            if id(chunk) in edited or (sees and not words.isdisjoint(changed)):
+                seeing.add(id(chunk.pou.span))
+        return seeing
 
     def start_anew(self, sources: Mapping[str, str]) -> None:
         """Reads and checks everything."""
@@ -187,16 +207,36 @@ class _Project:
             return None
         return pou, new
 
-    def _tells_places(self) -> bool:
-        parts = [problem for part in self.checker.report.parts.values() for problem in part.problems]
-        read_problems = [problem for file in self.files.values() for problem in file.problems]
-        found: list[Problem] = [*self.checker.report.problems, *parts, *read_problems]
-        return any(_TELLS_PLACE.search(problem.message) for problem in found)
+    def _telling(self) -> set[Pou] | None:
+        """POUs in whose bodies something was found that tells a place in words; None when that was not in a body."""
+        parts = self.checker.report.parts
+        inside = {id(problem) for part in parts.values() for problem in part.problems}
+        others = [problem for problem in self.checker.report.problems if id(problem) not in inside]
+        others += [problem for file in self.files.values() for problem in file.problems]
+        if any(_TELLS_PLACE.search(problem.message) for problem in others):
+            return None
+        own = ((pou, part) for pou, part in parts.items() if not pou.inline)  # the library does not move
+        return {pou for pou, part in own if any(map(_TELLS_PLACE.search, _said(part)))}
+
+    def _declarations_of(self, pous: set[Pou]) -> dict[Pou, tree.PouDeclaration]:
+        """Declarations of those that are programs, blocks or functions."""
+        found = {}
+        for declaration in self.checker.names.user:
+            key = qualified(declaration.namespace, declaration.name).upper()
+            tables = self.checker.pous
+            pou = (tables.functions if declaration.kind == "function" else tables.blocks).get(key)
+            if pou is not None and pou in pous:
+                found[pou] = declaration
+        return found
 
 
 def _same_declarations(old: tree.PouDeclaration, new: tree.PouDeclaration) -> bool:
     """Whether two POUs of one place differ in their bodies only; that one of them names ENO is part of its declarations."""
     return all(getattr(old, each.name) == getattr(new, each.name) for each in fields(old) if each.name != "body")
+
+
+def _said(part: Report) -> list[str]:
+    return [*(problem.message for problem in part.problems), *(site.needless for site in part.checks)]
 
 
 def _programs(configuration: tree.Configuration) -> tuple[tree.ProgramDeclaration, ...]:
@@ -217,13 +257,13 @@ class _Successors:
         tables = ((before.pous.functions, now.pous.functions), (before.pous.blocks, now.pous.blocks))
         self._pous = {old: new[key] for olds, new in tables for key, old in olds.items() if key in new}
 
-    def of(self, declaration: tree.PouDeclaration) -> tuple[Pou, Report, dict[Pou, int]] | None:
+    def of(self, declaration: tree.PouDeclaration, telling: set[Pou]) -> tuple[Pou, Report, dict[Pou, int]] | None:
         """The POU that is declared here, what was found in its body before, and whom that calls."""
         key = qualified(declaration.namespace, declaration.name).upper()
         function = declaration.kind == "function"
         old = (self._before.pous.functions if function else self._before.pous.blocks).get(key)
         part = None if old is None else self._before.report.parts.get(old)
-        if old is None or part is None or old not in self._pous:
+        if old is None or part is None or old not in self._pous or old in telling:
             return None
         uses = self._before.pous.uses.get(old, {})
         if any(callee not in self._pous for callee in uses):

@@ -7,7 +7,7 @@
     size
 
 Recursion is refused, so every POU needs exactly one frame, and its place is known: temporaries have offsets like
-everything else, and an in-out can refer to one.
+everything else, and an in-out can refer to one (a REF_TO cannot: it may outlive the call).
 """
 
 from dataclasses import dataclass, field

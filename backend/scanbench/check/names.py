@@ -7,6 +7,9 @@ from dataclasses import dataclass, field
 from scanbench.check.context import Report
 from scanbench.problems import Span
 
+LIBRARY = "__STANDARD"
+"""The namespace of what the standard library declares where the user declares the same name."""
+
 
 @dataclass(frozen=True, slots=True)
 class Space:

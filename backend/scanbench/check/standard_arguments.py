@@ -6,6 +6,7 @@ from dataclasses import replace
 from scanbench.check import fold
 from scanbench.check.context import did_you_mean
 from scanbench.check.expressions import ExpressionChecker
+from scanbench.check.names import LIBRARY
 from scanbench.check.program import Assign, CallFunction, Const, Expr, Load, Stmt
 from scanbench.check.standard.functions import Row
 from scanbench.check.types import LINT, Elementary, Kind, StringType, Type
@@ -107,7 +108,8 @@ class StandardArguments(ExpressionChecker):
 
     def library(self, name: str, *args: Expr) -> Expr | None:
         """A call of a FUNCTION of the ST library, if there is one of that name."""
-        callee = self.pous.functions.get(name)
+        functions = self.pous.functions
+        callee = functions.get(f"{LIBRARY}.{name}") or functions.get(name)
         if callee is None or not callee.inline:
             return None
         self.pous.use(self.pou, callee)

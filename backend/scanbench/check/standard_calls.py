@@ -16,6 +16,7 @@ from scanbench.check.standard.functions import (
     Special,
     StringFunction,
 )
+from scanbench.check.standard.library import in_library
 from scanbench.check.standard_choice import ChoiceFunctions
 from scanbench.check.types import (
     BOOL,
@@ -47,7 +48,7 @@ class StandardCallChecker(ChoiceFunctions):
         itself finds that its result is not right.
         """
         row = FUNCTIONS.get(name)
-        if row is None and node.span.file.startswith("standard/"):
+        if row is None and in_library(node.span):
             row = INTERNAL.get(name)
         if row is not None:
             return self._row(node, name, name, row, wanted, None, eno)
@@ -236,7 +237,7 @@ class StandardCallChecker(ChoiceFunctions):
         if target is None:
             whole = isinstance(wanted, Elementary) and wanted.kind in (Kind.INT, Kind.UINT)
             target = wanted if whole and wanted is not None else DINT
-        raw = node.span.file.startswith("standard/")
+        raw = in_library(node.span)
         result = conversions.convert(value, target, parsed.way, self.library, raw)
         if isinstance(result, str):
             raise self.report.reject("T002", f"There is no conversion {name}{result}", node.span)

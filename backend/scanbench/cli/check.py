@@ -20,7 +20,9 @@ class Format(StrEnum):
 
 
 def check(
-    paths: list[Path] = typer.Argument(metavar="FILE|DIR...", help="Program files (.st, .TcPOU, ...); a folder gives all below it."),
+    paths: list[Path] = typer.Argument(
+        metavar="FILE|DIR...", help="Program files (.st, .TcPOU, ...); a folder gives all below it."
+    ),
     format: Format = typer.Option(Format.TEXT, help="text: `file:line:column: code message`, one a line."),
     model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else project.json's, else GENERIC-IEC."),
     report: bool = typer.Option(False, help="Count supported and refused constructs per file instead."),

@@ -88,7 +88,10 @@ class _Carrier:
             if was is None or was.located or was.constant or was.section is Section.IN_OUT or not member.storage:
                 self._report.lost += 1
                 continue
-            self._value(was.type, old_offset + was.offset, member.type, new_offset + member.offset)
+            if member.type == was.type and (member.bit is not None or was.bit is not None):
+                self._bit(old_offset + was.offset, was.bit or 0, new_offset + member.offset, member.bit or 0)
+            else:
+                self._value(was.type, old_offset + was.offset, member.type, new_offset + member.offset)
 
     def _value(self, old: Type, old_offset: int, new: Type, new_offset: int) -> None:
         if isinstance(new, Reference):
@@ -138,6 +141,12 @@ class _Carrier:
             if there.type.name == symbol.type.name and not there.slots:
                 return there.offset
         return None
+
+    def _bit(self, old_offset: int, old_bit: int, new_offset: int, new_bit: int) -> None:
+        """A BOOL that shares its byte with others, before or after."""
+        value = self._old[old_offset] >> old_bit & 1
+        self._new[new_offset] = self._new[new_offset] & ~(1 << new_bit) | value << new_bit
+        self._report.kept += 1
 
     def _copy(self, old_offset: int, new_offset: int, size: int) -> None:
         self._new[new_offset : new_offset + size] = self._old[old_offset : old_offset + size]

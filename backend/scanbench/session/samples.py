@@ -5,6 +5,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.resources import files
 
+from scanbench.syntax.parse_file import is_program_file
+
 
 @dataclass(frozen=True, slots=True)
 class Sample:
@@ -26,6 +28,6 @@ def samples() -> Iterator[Sample]:
         texts = {
             file.name: file.read_text("utf-8")
             for file in sorted(folder.iterdir(), key=lambda each: each.name)
-            if file.name.endswith(".st")
+            if is_program_file(file.name)
         }
         yield Sample(about["name"], about["model"], tuple(about.get("watch", ())), texts)

@@ -10,6 +10,3 @@ Little endian, made in the PLC's own process and passed on unread by the web pro
 
 A value wider than 8 bytes that is not a STRING (array, structure, block) is never in a frame: its members are watched.
 """
-
-VALUES = 1
-HEADER_BYTES = 24

@@ -180,6 +180,45 @@ def test_only_bodies_that_see_a_declaration_are_checked_for_problems(monkeypatch
     assert any(problem.span.file == "seen.st" and problem.span.line == 6 for problem in found.problems)
 
 
+PROVEN = """\
+VAR_GLOBAL small : INT (0..9); END_VAR
+FUNCTION_BLOCK First
+VAR k : INT (0..5); b2 : BOOL; END_VAR
+  k := 3;
+  small := k;
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK Second
+VAR k : INT (0..5); n : INT; f : First; END_VAR
+  n := n + k;
+  n := n - k;
+  k := n;
+  small := k;
+{wrong}
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR s : Second; f : First; END_VAR
+  s(); f();
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize("wrong", ["", "  f.b3 := TRUE;", "  n := f.b2;", "  k := SIZEOF(f);"])
+def test_places_told_in_words_and_near_matches(wrong: str) -> None:
+    """A check is needless because of a line; a wrong name is near to one that comes and goes."""
+    text = PROVEN.replace("{wrong}", wrong)
+    assert wrong or any("line 9" in site.needless for site in check_sources({"a.st": text}, MODEL, INTERVAL_NS).checks)
+    whole, problems = Checks(), Checks()
+    for edited in (
+        text, text.replace("  k := 3;", "  k := 3;\n\n"), text.replace("b2 : BOOL;", "b2 : BOOL;\n  b4 : BOOL;"), text,
+        text.replace("b2 : BOOL;", "b7 : BOOL;"), text.replace("b2 : BOOL;", "b2 : LREAL; bb : STRING;"), text,
+        text.replace("  k := 3;", "  k := 4;"), text.replace("b2 : BOOL;", "b3 : BOOL;"),
+    ):  # fmt: skip
+        files = {"a.st": edited}
+        agree(whole.check(files, MODEL, INTERVAL_NS), files)
+        found, expected = problems.diagnose(files, MODEL, INTERVAL_NS), check_sources(files, MODEL, INTERVAL_NS)
+        assert (found.problems, found.pous, found.checks) == (expected.problems, expected.pous, expected.checks)
+
+
 def test_files_that_come_go_and_change_places() -> None:
     checks = Checks()
     for files in (

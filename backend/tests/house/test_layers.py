@@ -50,6 +50,7 @@ def test_an_empty_house_keeps_every_contract(house: Path) -> None:
         ("engines/native", "import llvmlite.binding", "llvmlite only in"),
         ("session", "from fastapi import FastAPI", "wire shapes only in web"),
         ("store", "import asyncio", "asyncio only in"),
+        ("check", "from pathlib import Path", "read and write nothing"),
         ("check", "from lxml import etree", "XML only in"),
         ("session", "import sqlalchemy", "the database only in store"),
         ("check", "import time", "wall clock and randomness"),

@@ -196,3 +196,16 @@ def test_an_edge_that_was_seen_is_not_seen_again_and_classes_take_their_new_numb
     resource.swap(new, engine(new, memory), memory, "Ada", 2)
     resource.run(2)
     assert (value(resource, "Main.c.n"), value(resource, "Main.shown")) == (1, 2)
+
+
+def test_bits_of_a_structure_are_kept_wherever_they_lie_now() -> None:
+    old = "TYPE T : STRUCT a AT %X0.0 : BOOL; b AT %X0.1 : BOOL; c : BOOL; END_STRUCT; END_TYPE\nPROGRAM Main VAR v : T; END_VAR v.a := TRUE; v.c := TRUE; END_PROGRAM"
+    resource = plc(old)
+    resource.run(1)
+    moved = old.replace("a AT %X0.0 : BOOL; b AT %X0.1", "b AT %X0.0 : BOOL; a AT %X0.5").replace(
+        "c : BOOL", "c AT %X2.7 : BOOL"
+    )
+    new = program(moved.replace("v.a := TRUE; v.c := TRUE;", ";"))
+    memory = bytearray(new.layout.size)
+    resource.swap(new, ENGINES[0](new, memory), memory, "Ada", 2)
+    assert [value(resource, f"Main.v.{name}") for name in "abc"] == [True, False, True]

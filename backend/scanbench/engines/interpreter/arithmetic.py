@@ -6,19 +6,13 @@ import struct
 from collections.abc import Callable
 
 from scanbench.check.types import Elementary, Kind
+from scanbench.check.untyped import bounds
 
 Number = int | float
 Operand = Callable[[int], Number]
 """Takes the offset of the running instance."""
 
 SINGLE = struct.Struct("<f")
-
-
-def bounds(type: Elementary) -> tuple[int, int]:
-    """The smallest and the largest integer."""
-    if type.signed:
-        return -(1 << type.bits - 1), (1 << type.bits - 1) - 1
-    return 0, (1 << type.bits) - 1
 
 
 def wrapper(type: Elementary) -> Callable[[int], int]:

@@ -24,6 +24,7 @@ class ReferenceEngine(Engine):
     def __init__(self, program: Program, memory: bytearray) -> None:
         self.program = program
         self.memory = memory
+        self.state_size = program.layout.state_size
         self.record = recorder(memory, program.layout.violations)
         self._bodies: dict[Pou, Body] = {}
         for pou in program.pous:
@@ -53,7 +54,7 @@ class ReferenceEngine(Engine):
         if task.single is None:
             return lambda scan: scan % every == 0
         assert task.previous is not None
-        places = Places(self.memory, 0, self._no_indices)
+        places = Places(self.memory, self.state_size, 0, self._no_indices)
         read, read_previous = places.read(task.single), places.read(task.previous)
         write_previous = places.write(task.previous)
 

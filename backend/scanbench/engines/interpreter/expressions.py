@@ -40,6 +40,7 @@ class Bodies(Protocol):
     """Where bodies that are called can be found."""
 
     memory: bytearray
+    state_size: int
     record: Record
 
     def body(self, pou: Pou) -> Body: ...
@@ -57,7 +58,7 @@ class Expressions(ABC):
         self.pou = pou
         self.caller = caller
         self.memory = bodies.memory
-        self.places = Places(bodies.memory, pou.frame_offset, self.evaluate, pou.first_trap)
+        self.places = Places(bodies.memory, bodies.state_size, pou.frame_offset, self.evaluate, pou.first_trap)
 
     @abstractmethod
     def block(self, statements: Sequence[Stmt]) -> Body:
@@ -196,7 +197,7 @@ class Expressions(ABC):
     def call(self, node: CallFunction) -> Read:
         """Runs a FUNCTION: arguments first, then its frame is filled, then its body."""
         callee = node.pou
-        frame = Places(self.memory, callee.frame_offset, self.evaluate)
+        frame = Places(self.memory, self.bodies.state_size, callee.frame_offset, self.evaluate)
         body, result = self.bodies.body(callee), self._result(callee, frame)
         given: list[Read] = []
         fill: list[tuple[Put, int]] = []

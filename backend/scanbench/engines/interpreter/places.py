@@ -29,12 +29,21 @@ class Trapped(Exception):
 
 
 class Places:
-    """Closures on places, for the body of one POU, whose trap sites count from `first_trap`."""
+    """Closures on places, for the body of one POU, whose trap sites count from `first_trap`.
+
+    References reach to `state_size`, as frames follow there, in-outs to the end of the memory.
+    """
 
     def __init__(
-        self, memory: bytearray, frame_offset: int, evaluate: Callable[[Expr], Read], first_trap: int = 0
+        self,
+        memory: bytearray,
+        state_size: int,
+        frame_offset: int,
+        evaluate: Callable[[Expr], Read],
+        first_trap: int = 0,
     ) -> None:
         self.memory = memory
+        self.state_size = state_size
         self.frame_offset = frame_offset
         self.evaluate = evaluate
         self.first_trap = first_trap
@@ -91,7 +100,7 @@ class Places:
     def _open(self, place: Place, start: Reference) -> Reference:
         """Bounds that come with a call may say anything: so the element is checked as a reference is."""
         steps = [self._step(index) for index in place.indices]
-        end, trap = self._end(place.type.size), self.first_trap + (place.null_trap or place.indices[-1].trap)
+        end, trap = self._end(place, place.type.size), self.first_trap + (place.null_trap or place.indices[-1].trap)
 
         def indexed(instance: int) -> int:
             first = start(instance)
@@ -102,9 +111,9 @@ class Places:
 
         return indexed
 
-    def _end(self, size: int) -> int:
-        """The last offset where so many bytes are in the image."""
-        return len(self.memory) - size
+    def _end(self, place: Place, size: int) -> int:
+        """The last offset where so many bytes are where the place may be."""
+        return (len(self.memory) if place.reference is None else self.state_size) - size
 
     def _start(self, place: Place, size: int) -> Reference:
         offset, bit = place.offset, (place.bit or 0) << BIT_SHIFT
@@ -122,7 +131,7 @@ class Places:
             assert place.reference is not None
             follow = self.evaluate(place.reference)
         offset, trap = place.offset, self.first_trap + place.null_trap
-        end = self._end(_reach(place, size))
+        end = self._end(place, _reach(place, size))
         # what a BOOL's reference says of the bit goes on, unless the place names one itself; other types have none
         kept = BYTE_OFFSET | (BIT_NUMBER if place.type.kind is Kind.BOOL and place.bit is None else 0)
         bit = (place.bit or 0) << BIT_SHIFT

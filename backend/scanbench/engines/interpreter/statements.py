@@ -24,6 +24,7 @@ from scanbench.check.program import (
     While,
 )
 from scanbench.check.types import Elementary
+from scanbench.check.untyped import bounds
 from scanbench.engines.interpreter import arithmetic
 from scanbench.engines.interpreter.expressions import SLOT, Body, Expressions
 from scanbench.engines.interpreter.memory import putter
@@ -225,7 +226,7 @@ class Statements(Expressions):
         store, body, spend = self.places.write(node.variable), self.block(node.body), self._spender(node.trap)
         type = node.variable.type
         assert isinstance(type, Elementary)
-        wrap, each_round, (low, high) = arithmetic.wrapper(type), node.exits, node.bounds or arithmetic.bounds(type)
+        wrap, each_round, (low, high) = arithmetic.wrapper(type), node.exits, node.bounds or bounds(type)
 
         def loop(instance: int) -> int:
             first, last, by = start(instance), end(instance), step(instance)

@@ -42,7 +42,9 @@ class Unit:
     mentioned: dict[Pou, None] = field(default_factory=dict)
     """The POUs whose code is in the module or called by it."""
     image_size: int = 0
-    """What lies in the image, a reference may refer to."""
+    """What lies in the image, an in-out may refer to."""
+    state_size: int = 0
+    """What lies in the state, a reference may refer to."""
     scratch: int = 0
     """Bytes of temporaries, up to now."""
     signatures: dict[Pou, Signature] = field(default_factory=dict)

@@ -18,6 +18,7 @@ from scanbench.check.program import (
     Violates,
 )
 from scanbench.check.types import StringType
+from scanbench.check.untyped import bounds
 from scanbench.engines.native import emit_calls, emit_checks, emit_string_functions
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
@@ -25,7 +26,7 @@ from scanbench.engines.native.emit_intrinsics import of_intrinsic
 from scanbench.engines.native.emit_operators import binary, compare, convert, unary
 from scanbench.engines.native.emit_places import load, reference
 from scanbench.engines.native.emit_strings import Piece, cut, of_place, ordered
-from scanbench.engines.native.emit_types import bounds, elementary, integer, is_real, real, string, wrap
+from scanbench.engines.native.emit_types import elementary, integer, is_real, real, string, wrap
 
 
 def scalar(body: Body, expr: Expr) -> Value:

@@ -5,7 +5,6 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 
 UNLIKELY = ", !prof !0"
-LIKELY = ", !prof !1"
 
 ALIGNMENT = 16
 """Of buffers, in bytes."""

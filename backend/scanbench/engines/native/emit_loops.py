@@ -6,6 +6,7 @@ from contextlib import contextmanager
 from scanbench.check.layout import Layout
 from scanbench.check.program import Base, Const, For, Place, Repeat, While
 from scanbench.check.types import Elementary
+from scanbench.check.untyped import bounds
 from scanbench.engines.native.effects import keeps, plain
 from scanbench.engines.native.emit_body import Body, counter_key
 from scanbench.engines.native.emit_checks import within_bounds
@@ -13,7 +14,7 @@ from scanbench.engines.native.emit_function import Value
 from scanbench.engines.native.emit_memory import store
 from scanbench.engines.native.emit_places import address, widened
 from scanbench.engines.native.emit_strings import pick
-from scanbench.engines.native.emit_types import bounds, elementary, value_type
+from scanbench.engines.native.emit_types import elementary, value_type
 from scanbench.engines.native.ranges import within
 
 I64 = (-(1 << 63), (1 << 63) - 1)

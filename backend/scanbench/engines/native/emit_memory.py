@@ -3,9 +3,10 @@
 from dataclasses import dataclass
 
 from scanbench.check.types import Elementary, Kind
+from scanbench.check.untyped import bounds
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import UNLIKELY, Value
-from scanbench.engines.native.emit_types import NAN, bounds, is_real, stored, value_type
+from scanbench.engines.native.emit_types import NAN, is_real, stored, value_type
 
 
 @dataclass(frozen=True, slots=True)

@@ -13,7 +13,6 @@ class ModuleText:
         self._reserved: list[str] = []
         self._metadata: list[str] = [
             '!{!"branch_weights", i32 1, i32 1048575}',
-            '!{!"branch_weights", i32 1048575, i32 1}',
             '!{!"scanbench"}',
         ]
         self._tags: dict[str, str] = {"": ""}
@@ -28,7 +27,7 @@ class ModuleText:
             variable = "@"
         tag = self._tags.get(variable)
         if tag is None:
-            leaf = self._node(f'!{{!"{_escape(variable.encode())}", !2, i64 0}}')
+            leaf = self._node(f'!{{!"{_escape(variable.encode())}", !1, i64 0}}')
             tag = self._tags[variable] = f", !tbaa {self._node(f'!{{{leaf}, {leaf}, i64 0}}')}"
         return tag
 

@@ -170,7 +170,7 @@ def _follow(body: Body, place: Place, size: int = 0) -> tuple[str, str]:
     if bit or not known:
         start = text.op(f"and i64 {whole}, {NO_BIT}")
     if not known and place.null_trap:
-        _check_reach(body, start, _reach(place, size), place.null_trap)
+        _check_reach(body, start, _reach(place, size), place)
     return start, bit
 
 
@@ -190,9 +190,11 @@ def _reach(place: Place, size: int) -> int:
     return int(place.offset + fixed + max(place.type.size, size))
 
 
-def _check_reach(body: Body, start: str, reach: int, trap: int) -> None:
-    """Traps unless so many bytes from there lie in the image, behind the header."""
-    room = body.unit.image_size - Layout.HEADER_SIZE - reach
+def _check_reach(body: Body, start: str, reach: int, place: Place) -> None:
+    """Traps unless so many bytes from there lie in the image, for a reference in its state, behind the header."""
+    trap = place.null_trap or place.indices[-1].trap
+    end = body.unit.image_size if place.reference is None else body.unit.state_size
+    room = end - Layout.HEADER_SIZE - reach
     distance = body.text.op(f"sub i64 {start}, {Layout.HEADER_SIZE}")
     body.text.trap_if(body.text.op(f"icmp ugt i64 {distance}, {room}") if room >= 0 else "true", trap)
 
@@ -204,5 +206,5 @@ def _open(place: Place) -> bool:
 def _open_offset(body: Body, place: Place, start: str) -> str:
     """The byte offset behind computed bounds, which may say anything: so the place is checked as a reference is."""
     at = _summed(body, place, start)
-    _check_reach(body, at, place.type.size, place.null_trap or place.indices[-1].trap)
+    _check_reach(body, at, place.type.size, place)
     return at

@@ -66,6 +66,7 @@ class Emitter:
             names=self.names,
             signatures=self._signatures,
             image_size=self._program.layout.size,
+            state_size=self._program.layout.state_size,
         )
 
     def _complete(self, unit: Unit, here: set[Pou]) -> Unit:
@@ -95,7 +96,7 @@ class Emitter:
 
 
 def emit_program(program: Program) -> str:
-    """The IR text of everything in one module, to be looked at."""
+    """The IR text of everything in one module."""
     return Emitter(program).whole().module.text()
 
 

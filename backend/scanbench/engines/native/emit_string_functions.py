@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from scanbench.check.program import Intrinsic
 from scanbench.check.types import LINT, MAX_STRING, Elementary, StringType
+from scanbench.check.untyped import bounds
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
@@ -23,7 +24,7 @@ from scanbench.engines.native.emit_strings import (
     shifted,
     total,
 )
-from scanbench.engines.native.emit_types import bounds, elementary, stored, string
+from scanbench.engines.native.emit_types import elementary, stored, string
 
 LONGEST = str(MAX_STRING)
 """No string is longer, so counts beyond it mean the same as it."""

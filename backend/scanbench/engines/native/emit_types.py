@@ -24,13 +24,6 @@ def value_type(type: Elementary) -> str:
     return f"i{type.bits}"
 
 
-def bounds(type: Elementary) -> tuple[int, int]:
-    """Smallest and largest number of an integer-like type."""
-    if type.signed:
-        return -(1 << (type.bits - 1)), (1 << (type.bits - 1)) - 1
-    return 0, (1 << type.bits) - 1
-
-
 def wrap(value: int, bits: int) -> int:
     """The number as LLVM prints it: two's complement of this width."""
     value &= (1 << bits) - 1
@@ -83,7 +76,6 @@ __all__ = [
     "BOOL",
     "NAN",
     "STRING_HEAD",
-    "bounds",
     "elementary",
     "has_members",
     "integer",

@@ -66,7 +66,8 @@ def _machine(opt_level: int) -> "llvm.TargetMachine":
 
 def _optimised(ir: str, machine: "llvm.TargetMachine", opt_level: int, timings: Timings) -> "llvm.ModuleRef":
     start = perf_counter_ns()
-    module = llvm.parse_assembly(ir)
+    # a context of its own: what is in the global one is never freed
+    module = llvm.parse_assembly(ir, llvm.create_context())
     module.triple = llvm.get_process_triple()
     module.data_layout = str(machine.target_data)
     module.verify()

@@ -70,6 +70,11 @@ class Parts:
         self._bodies: dict[Pou, _Body] = {}
         self._emitted: dict[Pou, _Emitted] = {}
 
+    @property
+    def fresh(self) -> bool:
+        """Whether there was no program before."""
+        return not self._bodies
+
     def of(self, program: Program) -> list[Part]:
         """One part for each POU, the scan, and the numbers that the others refer to; one part for a small program."""
         with without_collection():
@@ -85,6 +90,7 @@ class Parts:
         writes: dict[Pou, frozenset[str]] = {}
         signatures: dict[Pou, Signature] = {}
         emitter = Emitter(program, Effects(writes), signatures)
+        sizes = program.layout.size, program.layout.state_size
         for pou in program.pous:
             body = bodies[pou] = self._body(pou)
             writes[pou] = body.writes.union(*(writes[callee] for callee in body.callees))
@@ -94,7 +100,7 @@ class Parts:
                 continue  # no POU calls a program
             called = tuple(faces[callee] for callee in body.callees)
             faces[pou] = _face(emitter.names[pou], pou, body, writes[pou], called)
-            depends = (emitter.names[pou], body.same, pou.frame_offset, program.layout.size, called)
+            depends = (emitter.names[pou], body.same, pou.frame_offset, sizes, called)
             known = self._emitted.get(pou)
             if known is None or known.depends != depends:
                 unit = emitter.pou(pou)

@@ -30,10 +30,11 @@ from scanbench.check.program import (
     Violates,
 )
 from scanbench.check.types import Elementary, StringType
+from scanbench.check.untyped import bounds
 from scanbench.engines.native import walk
 from scanbench.engines.native.effects import keeps
 from scanbench.engines.native.emit_body import Body
-from scanbench.engines.native.emit_types import bounds, elementary, is_real
+from scanbench.engines.native.emit_types import elementary, is_real
 from scanbench.engines.native.ranges import Range, arithmetic, within
 
 MOST_ASSIGNMENTS = 4

@@ -73,6 +73,8 @@ class Builder:
 
     def build(self, sources: Sources) -> "Built":
         """The checked program: from the disk if it is known there."""
+        if self._engines.tiers is not None:
+            self._engines.tiers.supersede()
         model = find_model(sources.model)
         key = key_of(sources, model)
         program = recall(self._cache, key) if self._cache is not None and not self._ready else None

@@ -40,16 +40,21 @@ class Tiers:
         self._newest = 0
         self._waiting: _Waiting | None = None
 
-    def engine(self, program: Program, memory: bytearray, key: str) -> Engine:
-        """An engine that can run soon; `key` stands for the program. What was optimised for another is given up."""
+    def supersede(self) -> None:
+        """Gives up what is being optimised: the next program may share POUs with it, which change now."""
         with self._lock:
             self._newest += 1
             self._waiting = None
+
+    def engine(self, program: Program, memory: bytearray, key: str) -> Engine:
+        """An engine that can run soon; `key` stands for the program."""
+        self.supersede()
+        with self._lock:
             objects = self._recalled(key)
             if objects is None:
                 build = self._compiler.build_soon(program)
                 objects = build.objects
-                if build.pending:
+                if not build.finished:
                     self._waiting = _Waiting(self._newest, key, program, memory, build)
                 else:
                     self._keep(key, build)
@@ -74,10 +79,13 @@ class Tiers:
     def _optimise(self, waiting: _Waiting, deliver: Callable[[Recode], None]) -> None:
         engine: Engine | None = None
         try:
+            with self._lock:
+                if self._newest == waiting.number and waiting.build.whole is not None:
+                    self._compiler.divide(waiting.build, waiting.program)
             for part, code in optimised(waiting.build.pending, lambda: self._newest == waiting.number):
                 with self._lock:
                     self._compiler.learn(waiting.build, part, code)
-            if waiting.build.pending:
+            if not waiting.build.finished:
                 return  # superseded
             self._keep(waiting.key, waiting.build)
             engine = NativeEngine(waiting.program, waiting.memory, objects=waiting.build.objects)

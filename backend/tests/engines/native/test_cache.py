@@ -44,6 +44,10 @@ def program(more: str = "", extra: str = FILLER) -> Program:
     return check(SOURCE.format(more=more, extra=extra))
 
 
+def large() -> Program:
+    return program(extra=FILLER * (AT_ONCE // 16_000))
+
+
 def result(made: Program, build: Build, scans: int = 20) -> bytes:
     memory = bytearray(made.initial_image)
     assert NativeEngine(made, memory, objects=build.objects).run(scans).reason is Reason.DONE
@@ -120,24 +124,47 @@ def test_a_broken_file_is_built_again(tmp_path: Path) -> None:
 
 
 def test_quick_code_first_and_optimised_code_behind(tmp_path: Path) -> None:
-    made = program(extra=FILLER * (AT_ONCE // 16_000))
+    made = large()
     compiler = Compiler(BlobCache(tmp_path))
+    compiler.prepare(program())
     soon = compiler.build_soon(made)
+    assert len(soon.objects) > 1
     assert soon.pending
     quick = result(made, soon)
     for part, code in optimised(soon.pending, lambda: True):
         compiler.learn(soon, part, code)
-    assert not soon.pending
+    assert soon.finished
     assert result(made, soon) == quick
-    assert not Compiler(BlobCache(tmp_path)).build_soon(made).pending
+    again = Compiler(BlobCache(tmp_path))
+    again.prepare(program())
+    assert again.build_soon(made).finished
+
+
+def test_a_large_program_is_one_piece_first(tmp_path: Path) -> None:
+    made = large()
+    compiler = Compiler(BlobCache(tmp_path))
+    soon = compiler.build_soon(made)
+    assert len(soon.objects) == 1
+    quick = result(made, soon)
+    compiler.divide(soon, made)
+    for part, code in optimised(soon.pending, lambda: True):
+        compiler.learn(soon, part, code)
+    assert soon.finished
+    assert len(soon.objects) > 1
+    assert result(made, soon) == quick
+    again = Compiler(BlobCache(tmp_path)).build_soon(made)
+    Compiler(BlobCache(tmp_path)).divide(again, made)
+    assert again.finished  # all of it is on the disk
 
 
 def test_a_little_is_optimised_at_once() -> None:
-    assert not Compiler().build_soon(program(extra="")).pending
+    assert Compiler().build_soon(program(extra="")).finished
 
 
 def test_what_is_not_wanted_is_not_optimised() -> None:
-    soon = Compiler().build_soon(program(extra=FILLER * (AT_ONCE // 16_000)))
+    compiler, made = Compiler(), large()
+    soon = compiler.build_soon(made)
+    compiler.divide(soon, made)
     done: list[Part] = []
     for part, _ in optimised(soon.pending, lambda: not done):
         done.append(part)
