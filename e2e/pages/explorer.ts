@@ -20,6 +20,14 @@ export class Explorer {
     await expect(dialog).toBeHidden();
   }
 
+  /** Files of this computer, chosen as with the button above the tree. */
+  async addFiles(...files: { name: string; text: string | Buffer }[]): Promise<void> {
+    const chooser = this.page.waitForEvent('filechooser');
+    await this.page.getByRole('button', { name: 'Add files from this computer' }).click();
+    const chosen = files.map(({ name, text }) => ({ name, mimeType: 'text/plain', buffer: Buffer.from(text) }));
+    await (await chooser).setFiles(chosen);
+  }
+
   async newFile(name: string): Promise<void> {
     await this.page.getByRole('button', { name: 'New file' }).click();
     const dialog = this.page.getByRole('dialog', { name: 'New file' });

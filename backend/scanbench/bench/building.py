@@ -6,7 +6,6 @@ an empty cache directory; the second finds what the first has left there, and is
 """
 
 import json
-import os
 import subprocess
 import sys
 import tempfile
@@ -43,7 +42,7 @@ Figures = dict[str, float]
 
 
 def measure_building(program: str) -> Figures:
-    """ms of each step, and MB of the processes that took them."""
+    """ms of each step, and MB of the processes that took them. `program` is one of `LARGE`, or the path of one like them."""
     with tempfile.TemporaryDirectory() as cache:
         first, second, checker = (_process(part, program, cache) for part in PARTS)
     return {
@@ -98,32 +97,37 @@ def _host(program: str, cache: Path) -> tuple[Figures, Builder, Resource]:
     plc = Resource(built.program, built.engine)
     plc.run(1)
     figures = {"start": _ms(start)}
-    figures["optimised"], worker_kb = _optimise(builder, plc)
+    figures["optimised"], together_kb = _optimise(builder, plc)
     keep(BlobCache(cache), key_of(sources, find_model(MODEL)), built.program)
-    return figures | _memory(worker_kb), builder, plc
+    return figures | _memory(together_kb), builder, plc
 
 
-def _memory(worker_kb: int = 0) -> Figures:
-    """Peak of this process and of its worker together."""
-    return {"memory_mb": round((_peak_kb(os.getpid()) + worker_kb) / 1024, 1)}
+def _memory(together_kb: int = 0) -> Figures:
+    """Peak of this process, or of it and its worker together if that was more.
+
+    Not from `getrusage`, which counts what the parent had when it started the process.
+    """
+    return {"memory_mb": round(max(_field_kb("/proc/self/status", "VmHWM:"), together_kb) / 1024, 1)}
 
 
-def _peak_kb(pid: int) -> int:
-    """Most memory that was resident. Not `getrusage`: that counts what the parent had when it started the process."""
-    try:
-        status = Path(f"/proc/{pid}/status").read_text()
-    except OSError:  # it has just ended
-        return 0
-    return next((int(line.split()[1]) for line in status.splitlines() if line.startswith("VmHWM:")), 0)
-
-
-def _children() -> list[int]:
+def _together_kb() -> int:
+    """What this process and its children take now; what they share counts once."""
     lists = (path.read_text() for path in Path("/proc/self/task").glob("*/children"))
-    return [int(pid) for text in lists for pid in text.split()]
+    pids = ["self", *(pid for text in lists for pid in text.split())]
+    return sum(_field_kb(f"/proc/{pid}/smaps_rollup", "Pss:") for pid in pids)
+
+
+def _field_kb(path: str, name: str) -> int:
+    try:
+        lines = Path(path).read_text().splitlines()
+    except OSError:  # the process has just ended
+        return 0
+    return next((int(line.split()[1]) for line in lines if line.startswith(name)), 0)
 
 
 def _text(program: str) -> str:
-    return (Path(__file__).parent / "st" / f"{program}.st").read_text("utf-8")
+    own = Path(__file__).parent / "st" / f"{program}.st"
+    return (own if own.is_file() else Path(program)).read_text("utf-8")
 
 
 def _sources(program: str, text: str) -> Sources:
@@ -151,7 +155,7 @@ def _median(measure: Callable[[str], float], texts: list[str]) -> float:
 
 
 def _optimise(builder: Builder, plc: Resource) -> tuple[float, int]:
-    """Waits for the optimised code; ms, and the peak of the worker in KiB."""
+    """Waits for the optimised code; ms, and the most KiB that it took with the worker."""
     if builder.tiers is None or not builder.tiers.optimising:
         return 0.0, 0
     start, done = perf_counter_ns(), threading.Event()
@@ -164,7 +168,7 @@ def _optimise(builder: Builder, plc: Resource) -> tuple[float, int]:
     builder.tiers.optimise(take)
     peak = 0
     while not done.wait(LOOK_S) and _ms(start) < OPTIMISED_S * 1000:
-        peak = max([peak, *map(_peak_kb, _children())])
+        peak = max(peak, _together_kb())
     return _ms(start), peak
 
 

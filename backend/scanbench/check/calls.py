@@ -1,5 +1,6 @@
 """Calls -> checked calls: of functions, methods and blocks, with EN and ENO."""
 
+from collections.abc import Container
 from dataclasses import dataclass, replace
 
 from scanbench.check import fold
@@ -54,6 +55,15 @@ def enabling(node: tree.Call) -> Enabling:
         return Enabling(node, None, None)
     rest = tuple(each for each in node.arguments if each is not en and each is not eno)
     return Enabling(replace(node, arguments=rest), en, eno)
+
+
+def given_enable(apart: Enabling, inputs: Container[str]) -> tree.Call:
+    """The call itself; it runs when EN is TRUE, and so that is what a declared input EN gets."""
+    node, en = apart.call, apart.en
+    if en is None or en.value is None or "EN" not in inputs:
+        return node
+    argument = replace(en, value=tree.Literal("bool", 1, None, en.span))
+    return replace(node, arguments=(*node.arguments, argument))
 
 
 class CallChecker(GenericChecker):
@@ -142,6 +152,14 @@ class CallChecker(GenericChecker):
         key = name.upper()
         if self._hides(name):
             self._no_value(node.callee)
+        declared = self.declarations.block_trees.get(key)
+        if declared is not None and declared.kind == "program":
+            raise self.report.reject(
+                "X001",
+                f"`{name}` is a PROGRAM, which a task runs and nobody calls. Make it a FUNCTION_BLOCK, and declare an "
+                "instance in VAR.",
+                node.span,
+            )
         standard = self.standard(node, key, wanted, eno)
         if standard is not None:
             return standard
@@ -178,7 +196,9 @@ class CallChecker(GenericChecker):
         if callee is None:
             run, result, told = self._enabled_standard(node, wanted, ok)
         else:
-            made = self._invoked(callee, node, ok)
+            called = callee if isinstance(callee, Pou) else callee[1].pou
+            inputs = called.frame.members if called is not None else ()
+            made = self._invoked(callee, given_enable(apart, inputs), ok)
             pou = made.call.pou
             result = self.temporary(pou.result, span) if pou.result is not None else None
             run, told = made.statements(span, result), "ENO" in pou.parameters
@@ -241,17 +261,21 @@ class CallChecker(GenericChecker):
         instance, callee, name = self._instance(apart.call)
         record = callee.instance
         condition = self._condition_of(apart.en)
-        statements = self._block_statements(apart.call, instance, callee, name)
-        eno = record.members.get("ENO")
+        told = {
+            key: _inside(instance, record, member)
+            for key, section in (("EN", Section.INPUT), ("ENO", Section.OUTPUT))
+            if (member := record.members.get(key)) is not None and member.section is section and member.type == BOOL
+        }
+        statements = self._block_statements(given_enable(apart, told), instance, callee, name)
         if apart.eno is not None:
-            ok: Expr = Const(BOOL, 1)
-            if eno is not None and eno.section is Section.OUTPUT:
-                ok = Load(_inside(instance, record, eno))
+            ok: Expr = Load(told["ENO"]) if "ENO" in told else Const(BOOL, 1)
             statements.append(self._store_eno(ok, apart.eno))
         if condition is None:
             return together(statements, node.span)
-        skipped = () if apart.eno is None else (self._store_eno(Const(BOOL, 0), apart.eno),)
-        return If(((condition, tuple(statements)),), skipped, node.span)
+        skipped: list[Stmt] = [Assign(place, Const(BOOL, 0), node.span) for place in told.values()]
+        if apart.eno is not None:
+            skipped.append(self._store_eno(Const(BOOL, 0), apart.eno))
+        return If(((condition, tuple(statements)),), tuple(skipped), node.span)
 
     def _instance(self, node: tree.Call) -> tuple[Place, Pou, str]:
         """The instance that is called, the POU that runs, and the name of its type."""

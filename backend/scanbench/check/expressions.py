@@ -30,7 +30,7 @@ from scanbench.check.untyped import is_untyped, settle, widens
 from scanbench.problems import Span
 from scanbench.syntax import tree
 
-FORMS = ("REF", "ADR", "SIZEOF", "LOWER_BOUND", "UPPER_BOUND", "EN_CHECK", "SUBRANGE_ERROR")
+FORMS = ("REF", "ADR", "SIZEOF", "LOWER_BOUND", "UPPER_BOUND", "EN_CHECK", "SUBRANGE_ERROR", "__ISVALIDREF")
 """Calls whose argument is not a value: a variable, an array, a type."""
 
 
@@ -116,6 +116,8 @@ class ExpressionChecker(OperatorChecker):
                 return self.size_of(node)
             case "LOWER_BOUND" | "UPPER_BOUND":
                 return self.bound_of(node, name == "UPPER_BOUND")
+            case "__ISVALIDREF":
+                return self.is_bound(node)
         return self.explicit_check(node, name)
 
     def _unbound(self, node: tree.Name, name: str, wanted: Type | None, span: Span) -> Expr:

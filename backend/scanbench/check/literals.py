@@ -200,7 +200,7 @@ class LiteralChecker(ReferenceChecker):
 
 
 def _value(type: Enumeration, name: str) -> Const | None:
-    number = next((number for each, number in type.values if each.upper() == name.upper()), None)
+    number = type.number(name)
     return None if number is None else Const(type, number)
 
 

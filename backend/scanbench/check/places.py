@@ -115,7 +115,12 @@ class PlaceChecker(SubrangeChecker):
             return Rejected()
         if upper in self.pous.functions:
             return self.report.reject("T010", f"`{name}` is a FUNCTION; call it with `{name}(...)`.", span)
-        if upper in self.declarations.block_trees:
+        declared = self.declarations.block_trees.get(upper)
+        if declared is not None and declared.kind == "program":
+            return self.report.reject(
+                "T010", f"`{name}` is a PROGRAM; declare in VAR_GLOBAL what others share with it.", span
+            )
+        if declared is not None:
             return self.report.reject("T010", f"`{name}` is a type; declare an instance of it in VAR.", span)
         known = [*self.scope.names(), *(pou.name for pou in self.pous.functions.values())]
         hint = did_you_mean(name, [*known, *self.declarations.values.names()])

@@ -71,6 +71,16 @@ class ReferenceChecker(PlaceChecker):
             size = fold.binary("mul", LINT, size, count)
         return fold.convert(UDINT, size)
 
+    def is_bound(self, node: tree.Call) -> Expr:
+        """`__ISVALIDREF(reference)` of vendors: whether it refers to something."""
+        values = [argument.value for argument in node.arguments if argument.value is not None]
+        if len(values) != 1 or not isinstance(values[0], VARIABLES):
+            raise self.report.reject("T004", "`__ISVALIDREF` takes one reference.", node.span)
+        place, _ = self.raw_place(values[0])
+        if not isinstance(place.type, Reference):
+            raise self.report.reject("T002", f"`__ISVALIDREF` takes a reference, not {place.type}.", node.span)
+        return fold.compare("ne", BOOL, Load(place), Const(NULL, 0))
+
     # ---- values -----------------------------------------------------------------------------------------
 
     def fits_reference(self, source: Reference, target: Reference) -> bool:
@@ -96,6 +106,13 @@ class ReferenceChecker(PlaceChecker):
             assert isinstance(left.type, Reference) or isinstance(right.type, Reference)
             wanted = other.type if isinstance(other.type, Reference) else NULL
             made = one if isinstance(one.type, Reference) else self.as_reference(one, wanted, span)
+            if made is None and isinstance(other, Const) and other.type == NULL:
+                raise self.report.reject(
+                    "T002",
+                    f"Only references can be NULL, not {settle(one).type}. Whether a REFERENCE TO is bound, "
+                    "`__ISVALIDREF` says.",
+                    span,
+                )
             if made is None:
                 raise self.report.reject(
                     "T002", f"A reference cannot be compared with {settle(one).type}; dereference it with `^`.", span

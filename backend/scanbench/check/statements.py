@@ -1,5 +1,6 @@
 """Statements -> checked statements. A rejected statement is left out and the next one is checked all the same."""
 
+from bisect import bisect
 from dataclasses import replace
 
 from scanbench.check.assignments import AssignmentChecker
@@ -141,7 +142,7 @@ class StatementChecker(AssignmentChecker):
                 "T002", f"CASE needs an integer or an enumeration, not {type}.", node.selector.span
             )
         branches = []
-        taken: list[tuple[int, int]] = []
+        taken: list[tuple[int, int]] = []  # in order
         for labels, body in node.branches:
             ranges = []
             for first, last in labels:
@@ -159,11 +160,12 @@ class StatementChecker(AssignmentChecker):
         high = low if last is None else self._label_value(last, type)
         if low > high:
             raise self.report.reject("T007", f"The range {low}..{high} is empty.", first.span)
-        for other in taken:
+        at = bisect(taken, (low, high))
+        for other in taken[max(at - 1, 0) : at + 1]:
             if low <= other[1] and other[0] <= high:
                 number = max(low, other[0])
                 raise self.report.reject("T007", f"{_named(number, type)} is a label already.", first.span)
-        taken.append((low, high))
+        taken.insert(at, (low, high))
         return low, high
 
     def _label_value(self, node: tree.Expression, type: Elementary) -> int:

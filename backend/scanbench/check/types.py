@@ -70,6 +70,14 @@ class Enumeration(Elementary):
     values: tuple[tuple[str, int], ...] = ()
     """As declared, in their order."""
     base_name: str = "INT"
+    _numbers: dict[str, int] = field(init=False, compare=False, repr=False, default_factory=dict)
+
+    def __post_init__(self) -> None:
+        self._numbers.update((name.upper(), number) for name, number in reversed(self.values))
+
+    def number(self, name: str) -> int | None:
+        """The number of the value of this name."""
+        return self._numbers.get(name.upper())
 
 
 @dataclass(frozen=True, slots=True)

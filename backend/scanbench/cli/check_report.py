@@ -51,6 +51,8 @@ def report_lines(reports: Sequence[FileReport]) -> list[str]:
     whole = _sum(reports)
     if whole.refused:
         lines += ["", "refused:", *(f"{count:6}  {message}" for message, count in whole.refused.most_common())]
+    if whole.errors:
+        lines += ["", f"other errors: {whole.errors}; without --report each is listed with its place"]
     lines += ["", "in use:", *(f"{count:6}  {name}" for name, count in whole.supported.most_common())]
     return lines
 

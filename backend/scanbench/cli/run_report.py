@@ -15,6 +15,8 @@ from scanbench.runtime.resource import Resource
 Json = bool | int | float | str | None | list["Json"] | dict[str, "Json"]
 Shown = list[tuple[str, Symbol]]
 """What is printed: the path as it was asked for, and the variable."""
+VIOLATIONS_SHOWN = 20
+"""Places of violations that are printed as text: an array of blocks has hundreds."""
 Result = HeadlessRun[dict[str, Json]]
 
 
@@ -36,6 +38,7 @@ def report_json(result: Result, shown: Shown, problems: list[dict[str, str | int
         "problems": problems,
         "refused": [{"scan": each.scan, "message": each.refusal.message} for each in result.refused],
         "violations": _violations(resource),
+        "violations_dropped": read_violations(resource.program, resource.memory).dropped,
         "state": _state(resource),
         "trap": _trap(resource),
     }
@@ -51,9 +54,16 @@ def report_text(result: Result, shown: Shown, with_hash: bool) -> None:
         typer.echo(f"{path} = {_text(resource, symbol)}")
     if with_hash:
         typer.echo(f"sha256 {_hash(resource)}")
-    for each in read_violations(resource.program, resource.memory).entries:
+    violations = read_violations(resource.program, resource.memory)
+    for each in violations.entries[:VIOLATIONS_SHOWN]:
         times = f"{each.times} times, scans {each.first_scan} to {each.last_scan}"
         typer.echo(f"{each.span}: subrange: {each}, {times}", err=True)
+    more = len(violations.entries) - VIOLATIONS_SHOWN
+    if more > 0:
+        note = f"subrange: {more} more places, {violations.count} violations in all; --json lists the places"
+        if violations.dropped:
+            note += f" (the list is full: {violations.dropped} violations are not in it)"
+        typer.echo(note, err=True)
     typer.echo(f"{result.scans} scans, {result.scans * resource.program.interval_ns / 1e9:g} s of PLC time", err=True)
 
 

@@ -113,7 +113,7 @@ def tokenize(source: Source, start: int = 0, end: int | None = None) -> tuple[To
     all_starts = list(accumulate(map(len, pieces), initial=start))
     if Lex.UNREADABLE in found:
         for piece, at in zip(pieces, all_starts, strict=False):
-            if known[piece] is Lex.UNREADABLE:
+            if known[piece] is Lex.UNREADABLE and text[at - 1 : at + 1] != "||":  # reported already
                 problems.append(_unreadable(source, at, piece))
                 if len(problems) >= MAX_UNREADABLE:
                     break
@@ -160,7 +160,22 @@ def _unreadable(source: Source, at: int, char: str) -> Problem:
     span = source.span(at, at + 1)
     if char in "'\"":
         return Problem("S002", "This string never ends; close it on the same line.", span)
+    found = next((each for each in FOREIGN if source.text.startswith(each, at)), "")
+    if found:
+        return Problem("S001", f"`{found}` is of another language; {FOREIGN[found]}.", source.span(at, at + len(found)))
     return Problem("S001", f"`{char}` has no meaning here; remove it.", span)
+
+
+FOREIGN = {
+    "!=": "write `<>`",
+    "||": "write OR",
+    "!": "write NOT",
+    "|": "write OR",
+    "?": "write IF, or SEL(condition, value if FALSE, value if TRUE)",
+    "%": "write MOD",
+    "~": "write NOT",
+}
+"""Operators of other languages that no token begins with, the longer ones first."""
 
 
 NESTING = re.compile(r"""//[^\n]*|'(?:\$.|[^$'\n])*'|"(?:\$.|[^$"\n])*"|\(\*|/\*|\{""", re.DOTALL)

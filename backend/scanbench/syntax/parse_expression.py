@@ -27,12 +27,19 @@ REFUSED = {
     "__DELETE": "memory that is allocated while the program runs",
     "__QUERYINTERFACE": "use `?=`",
     "__QUERYPOINTER": "use `?=`",
-    "__ISVALIDREF": "compare the reference with NULL",
     "__VARINFO": "there is no information about variables at run time",
     "__CURRENTTASK": "there is no information about tasks at run time",
     "__POUNAME": "there is no information about POUs at run time",
     "__POSITION": "there is no information about positions at run time",
 }
+FOREIGN = {
+    "==": "write `=`",
+    "&&": "write AND",
+    ">>": "write SHR(value, count)",
+    "<<": "write SHL(value, count)",
+    **{f"{operator}=": f"write `x := x {operator} ...`" for operator in "+-*/"},
+}
+"""Operators of other languages that are read as two of ours."""
 MAX_CHAIN = 1000
 
 
@@ -94,6 +101,12 @@ class ExpressionParser(LiteralParser):
         if text == "#" and self.kinds[at + 1] is NAME:
             self.take()  # `#local`, as one vendor writes its local variables
             return self._operand()
+        foreign = FOREIGN.get(self.texts[at - 1] + text)
+        if foreign and self.starts[at - 1] + len(self.texts[at - 1]) == self.starts[at]:
+            self.report(
+                "S003", f"`{self.texts[at - 1]}{text}` is of another language; {foreign}.", self.span_from(at - 1)
+            )
+            raise Unexpected
         raise self.fail("an expression (a value, variable or call) expected")
 
     def _postfix(self, base: tree.Expression, calls: bool = True) -> tree.Expression:

@@ -78,7 +78,25 @@ def test_a_mark_of_byte_order_and_carriage_returns_are_blanks() -> None:
 
 
 def test_characters_without_meaning() -> None:
-    assert "S001 2:8 `!` has no meaning here; remove it." in complaints("PROGRAM p\nx := 1 ! 2;\nEND_PROGRAM")
+    assert "S001 2:8 `§` has no meaning here; remove it." in complaints("PROGRAM p\nx := 1 § 2;\nEND_PROGRAM")
+
+
+def test_operators_of_other_languages_are_named() -> None:
+    def of(expression: str) -> str:
+        return complaints(f"PROGRAM p\nx := {expression};\nEND_PROGRAM")[0]
+
+    assert of("!a") == "S001 2:6 `!` is of another language; write NOT."
+    assert (
+        complaints("PROGRAM p\nx := a || b;\nEND_PROGRAM").count("S001 2:8 `||` is of another language; write OR.") == 1
+    )
+    assert "S001 2:9 `|`" not in str(complaints("PROGRAM p\nx := a || b;\nEND_PROGRAM"))
+    assert "write `<>`" in of("a != b")
+    assert of("a == b") == "S003 2:8 `==` is of another language; write `=`."
+    assert of("a && b") == "S003 2:8 `&&` is of another language; write AND."
+    assert "write SHR(value, count)" in of("a >> 1")
+    assert complaints("PROGRAM p\nx += 1;\nEND_PROGRAM") == [
+        "S003 2:3 `+=` is of another language; write `x := x + ...`."
+    ]
     assert len(complaints("?" * 100_000)) <= 101
 
 

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Pou } from "../wire/types";
-import { newFilePath, pouAt, pouGroups, skeleton } from "./explorer";
+import { newFilePath, pouAt, pouGroups, shownAt, skeleton } from "./explorer";
 
 const pous: Pou[] = [
   { name: "FB_Belt", kind: "function_block", file: "belt.st", line: 3 },
@@ -38,9 +38,24 @@ describe("explorer", () => {
     expect(pouAt(pous, "belt.st", 1)).toBeUndefined();
   });
 
+  it("shows the block around the cursor, not its method", () => {
+    const method: Pou = { name: "FB_Belt.run", kind: "method", file: "belt.st", line: 8 };
+    expect(shownAt([...pous, method], "belt.st", 9)?.name).toBe("FB_Belt");
+  });
+
+  it("leaves a method behind at its end", () => {
+    const block: Pou = { name: "FB", kind: "function_block", file: "fb.st", line: 1 };
+    const method: Pou = { name: "FB.run", kind: "method", file: "fb.st", line: 2 };
+    const text = "FUNCTION_BLOCK FB\nMETHOD run\n  x := 1;\nEND_METHOD\n  y := 2;\nEND_FUNCTION_BLOCK\n";
+    expect(pouAt([block, method], "fb.st", 3, text)?.name).toBe("FB.run");
+    expect(pouAt([block, method], "fb.st", 4, text)?.name).toBe("FB.run");
+    expect(pouAt([block, method], "fb.st", 5, text)?.name).toBe("FB");
+  });
+
   it("makes paths for new files", () => {
     expect(newFilePath(" FB_New ", [])).toBe("FB_New.st");
     expect(newFilePath("a.ST", [])).toBe("a.ST");
+    expect(newFilePath("FB_X.TcPOU", [])).toBe("FB_X.TcPOU");
     expect(newFilePath("main", [{ path: "Main.st", version: 1, author: "Mika" }])).toBeNull();
     expect(newFilePath("../x", [])).toBeNull();
     expect(skeleton("FB_New.st")).toContain("FUNCTION_BLOCK FB_New");

@@ -48,26 +48,48 @@ function globalFiles(globals: readonly Pou[]): PouNode[] {
   return [...firsts.values()].map(({ file, line }) => ({ kind: "pou", name: file, file, line, shared: false }));
 }
 
-/** The declaration that a line of a file stands in, for `Add to watch` in the editor. */
-export function pouAt(pous: readonly Pou[], file: string, line: number): Pou | undefined {
+/** The declaration around the cursor among those that the explorer shows: a method is shown by its block. */
+export function shownAt(pous: readonly Pou[], file: string, line: number): Pou | undefined {
+  return pouAt(
+    pous.filter((pou) => (ORDER as readonly string[]).includes(pou.kind) && pou.kind !== "global"),
+    file,
+    line,
+  );
+}
+
+/**
+ * The declaration that a line of a file stands in, for `Add to watch` in the editor. With the text, a method is left behind
+ * at its end: the body of a block may come after its methods.
+ */
+export function pouAt(pous: readonly Pou[], file: string, line: number, text = ""): Pou | undefined {
+  const lines = text.split("\n");
+  const ended = (pou: Pou) =>
+    (pou.kind === "method" || pou.kind === "property") &&
+    lines.slice(pou.line - 1, line - 1).some((each) => /\bEND_(METHOD|PROPERTY)\b/i.test(each));
   return pous
-    .filter((pou) => pou.file === file && pou.line <= line)
+    .filter((pou) => pou.file === file && pou.line <= line && !ended(pou))
     .sort((a, b) => b.line - a.line)
     .at(0);
 }
 
 const NAME = /^[\p{L}\d_][\p{L}\d_\- .]*$/u;
+const XML_FILE = /\.tc(pou|dut|gvl|io)$/i;
+const TEXT_FILE = /\.(st|iecst|exp)$/i;
+
+/** What the file picker offers: what the compiler reads. */
+export const FILE_ENDINGS = ".st,.iecst,.exp,.tcpou,.tcdut,.tcgvl,.tcio";
 
 /** The path for a new file by the name someone typed; null when it cannot be one. */
 export function newFilePath(typed: string, existing: readonly FileInfo[]): string | null {
   const name = typed.trim();
   if (!NAME.test(name)) return null;
-  const path = /\.(st|iecst)$/i.test(name) ? name : `${name}.st`;
+  const path = TEXT_FILE.test(name) || XML_FILE.test(name) ? name : `${name}.st`;
   return existing.some((file) => file.path.toLowerCase() === path.toLowerCase()) ? null : path;
 }
 
 /** What a new file begins with: the frame of what its name promises. */
 export function skeleton(path: string): string {
+  if (XML_FILE.test(path)) return ""; // it is pasted whole: nobody types XML
   const name = path
     .replace(/^.*\//, "")
     .replace(/\.[^.]*$/, "")

@@ -278,11 +278,11 @@ export async function catchUp(): Promise<void> {
   if (get().project === project) set({ files });
 }
 
-/** Makes a new file with the frame of what its name promises. Throws what the server said when it refuses. */
-export async function createFile(path: string): Promise<void> {
+/** Makes a new file, with the frame of what its name promises unless there is a text. Throws what the server said when it refuses. */
+export async function createFile(path: string, text = skeleton(path)): Promise<void> {
   const { project } = get();
   if (project === null) return;
-  const result = await rest.save(project, path, skeleton(path), 0);
+  const result = await rest.save(project, path, text, 0);
   if ("conflict" in result) throw new Error(result.conflict.message);
   await refreshFiles();
   scheduleCheck();

@@ -73,11 +73,13 @@ class Compiler:
         Of a large program that has no part in common with the last one, the whole is compiled at once: that takes half
         the time that its parts take. Then `divide` comes before the optimisation.
         """
-        if self._parts.fresh and sum(inlining.size(pou.body) for pou in program.pous) > WHOLE:
+        first = self._parts.fresh
+        if first and sum(inlining.size(pou.body) for pou in program.pous) > WHOLE:
             return self._whole(program)
         build = self._emitted(program)
         self._take_known(build)
-        if sum(len(part.text) for part in build.pending) <= AT_ONCE:
+        # the first only: each run of LLVM's passes leaves some memory behind, and edits are many
+        if first and sum(len(part.text) for part in build.pending) <= AT_ONCE:
             build.fast |= {part: self._compiled(part, FAST, build.timings) for part in build.pending}
         build.quick = {part: self._compiled(part, QUICK, build.timings) for part in build.pending}
         return build

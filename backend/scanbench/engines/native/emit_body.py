@@ -7,6 +7,7 @@ from typing import TYPE_CHECKING, TypeAlias
 
 from scanbench.check.program import Base, Expr, Place, Pou, Stmt
 from scanbench.check.types import Elementary, Kind
+from scanbench.engines.native import inlining
 from scanbench.engines.native.effects import Effects, plain
 from scanbench.engines.native.emit_function import FunctionText, Value
 from scanbench.engines.native.emit_module import ModuleText
@@ -117,9 +118,17 @@ class Body:
         """Blocks that a `Jump` goes to, by number."""
         self.leave = "leave"
         """Block that RETURN goes to."""
+        self._swallowed = 0
         self._scalar = scalar
         self._pieces = pieces
         self._run = run
+
+    def swallow(self, callee: Pou) -> str:
+        """The attribute of a call: a body takes up so much of the standard library, and no more."""
+        if not callee.inline:
+            return ""
+        self._swallowed += inlining.size(callee.body)
+        return " noinline" if self._swallowed > inlining.MOST_SWALLOWED else ""
 
     def scalar(self, expr: Expr) -> Value:
         """The value of an elementary expression."""

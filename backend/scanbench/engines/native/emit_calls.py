@@ -75,7 +75,7 @@ def _call(body: Body, call: CallFunction) -> Held | None:
         room = _room(body, call, signature.result)
         if signature.result.passing is Passing.POINTER:
             given.append(f"ptr {room}")
-    status = body.text.op(f"call i32 {body.unit.symbol(call.pou)}({', '.join(given)})")
+    status = body.text.op(f"call i32 {body.unit.symbol(call.pou)}({', '.join(given)}){body.swallow(call.pou)}")
     body.text.check_status(status)
     # all is read before the first is stored: finding out where may call this function again
     disturbed = any(walk.address_disturbs(place) for _, _, place in outputs)
@@ -136,7 +136,9 @@ def block(body: Body, call: CallBlock) -> None:
         with body.instance(inner):
             where = address(body, slot)
         body.text.do(f"store i64 {number}, ptr {where.pointer}, align 1{where.tag}")
-    status = body.text.op(f"call i32 {body.unit.symbol(call.pou)}(ptr {body.image}, i64 {offset})")
+    status = body.text.op(
+        f"call i32 {body.unit.symbol(call.pou)}(ptr {body.image}, i64 {offset}){body.swallow(call.pou)}"
+    )
     body.text.check_status(status)
     for expr, target in call.outputs:
         with body.instance(inner):

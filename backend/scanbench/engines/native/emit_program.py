@@ -71,8 +71,13 @@ class Emitter:
 
     def _complete(self, unit: Unit, here: set[Pou]) -> Unit:
         """Adds copies of small callees, which may become part of the module, and declares what it refers to."""
+        left = inlining.MOST_COPIED
         while True:
-            copies = [each for each in unit.mentioned if each not in here and inlining.shared(each)]
+            copies = []
+            for each in unit.mentioned:
+                if each not in here and inlining.shared(each) and (left > 0 or each in self.housed):
+                    copies.append(each)
+                    left -= inlining.size(each.body) + inlining.COPY
             if not copies:
                 break
             for each in copies:

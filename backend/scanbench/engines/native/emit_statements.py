@@ -20,7 +20,7 @@ from scanbench.check.program import (
     Stmt,
     While,
 )
-from scanbench.check.types import Elementary
+from scanbench.check.types import Elementary, Kind
 from scanbench.engines.native import emit_calls, emit_loops, walk
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_memory import canonical, load_at, move, put
@@ -144,6 +144,12 @@ def _store_if(body: Body, guard: str, target: Place, statement: Assign) -> None:
     value = body.scalar(statement.value)
     ssa = canonical(body, type, value) if is_real(type) else value.ssa
     where = address(body, target)
+    if type.kind is Kind.BOOL and not where.bit:  # the whole byte is kept, also the bits that mean nothing
+        whole = body.text.op(f"load i8, ptr {where.pointer}, align 1{where.tag}")
+        byte = body.text.op(f"zext i1 {ssa} to i8")
+        kept = body.text.op(f"select i1 {guard}, i8 {byte}, i8 {whole}")
+        body.text.do(f"store i8 {kept}, ptr {where.pointer}, align 1{where.tag}")
+        return
     old = load_at(body, where, type)
     name = value_type(type)
     put(body, where, type, body.text.op(f"select i1 {guard}, {name} {ssa}, {name} {old.ssa}"))

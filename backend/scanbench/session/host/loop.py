@@ -29,6 +29,7 @@ COUNTING_NS = 200_000_000
 CHECKPOINT_NS = 2_000_000_000
 _FOREVER = 1 << 40
 _MAX_SPEED = 0.0
+NOTED_NS = 1_000_000_000
 OPTIMISING = "the program is being optimised: it runs slower for a moment"
 
 
@@ -41,6 +42,7 @@ class Loop:
     ) -> None:  # fmt: skip
         self.resource = resource
         self._tiers = tiers
+        self._quick_since = 0
         self._link, self._version, self._note = link, version, note
         self._inbox: deque[object] = deque()
         self._wake = threading.Event()
@@ -208,8 +210,7 @@ class Loop:
             frame = self._plan.sample(self.resource.memory, header.scan, header.clock_ns)
             if frame is not None:
                 self._link.post(protocol.Frame(frame))
-        note = self._note or (OPTIMISING if self._tiers is not None and self._tiers.optimising else "")
-        state = host_state(self.resource, self._speed, self._paused, self._version, note)
+        state = host_state(self.resource, self._speed, self._paused, self._version, self._note or self._tier_note(now))
         if state != self._last_state and (now >= self._state_at or self._differs(state)):
             self._last_state, self._state_at = state, now + COUNTING_NS
             self._link.post(state)
@@ -218,6 +219,14 @@ class Loop:
             self._diagnose()
         if now >= self._checkpoint_at:
             self._checkpoint()
+
+    def _tier_note(self, now: int) -> str:
+        """What to say of code that is not optimised yet, unless that is soon over."""
+        if self._tiers is None or not self._tiers.optimising:
+            self._quick_since = 0
+            return ""
+        self._quick_since = self._quick_since or now
+        return OPTIMISING if now - self._quick_since > NOTED_NS else ""
 
     def _diagnose(self) -> None:
         violations = read_violations(self.resource.program, self.resource.memory)

@@ -1,9 +1,11 @@
 """The bench command's measurement."""
 
+from pathlib import Path
+
 import pytest
 
 from scanbench.bench.building import measure_building
-from scanbench.bench.run import PROGRAMS, BenchError, run_bench
+from scanbench.bench.run import HERE, PROGRAMS, BenchError, run_bench
 from scanbench.cli.bench import BUILDING
 
 
@@ -32,8 +34,12 @@ def test_an_unknown_program_is_named() -> None:
     assert "noop" in PROGRAMS
 
 
-def test_what_building_takes() -> None:
-    figures = measure_building("state")
+def test_what_building_takes(tmp_path: Path) -> None:
+    blocks = (HERE / "st" / "big10kflat.st").read_text("utf-8").split("END_FUNCTION_BLOCK")[:20]
+    program = "PROGRAM Main\nVAR u : Unit0; END_VAR\n  u();\nEND_PROGRAM\n"
+    path = tmp_path / "blocks.st"
+    path.write_text("END_FUNCTION_BLOCK".join([*blocks, "\n"]) + program, "utf-8")
+    figures = measure_building(str(path))
     assert set(figures) == {key for key, _, _ in BUILDING}
     assert figures["cached"] < figures["cold"]
     assert 0 < figures["pou_changed"] < 1000

@@ -49,7 +49,7 @@ function List({ violations }: { violations: readonly Violation[] }) {
         <span>{t("diagnostics.what")}</span>
         <span>{t("diagnostics.instance")}</span>
         <span className="num">{t("diagnostics.times")}</span>
-        <span className="num">{t("diagnostics.scans")}</span>
+        <span className="num scans">{t("diagnostics.scans")}</span>
         <span>{t("diagnostics.where")}</span>
       </div>
       <ul aria-label={t("diagnostics.list")}>
@@ -85,8 +85,10 @@ function Row({ violation }: { violation: Violation }) {
       <span className="mono cut" title={violation.instance || violation.pou}>
         {violation.instance || violation.pou}
       </span>
-      <span className="num mono">{grouped(violation.times)}</span>
-      <span className="num mono muted">{scans}</span>
+      <span className="num mono" title={t("diagnostics.inscans", { scans })}>
+        {grouped(violation.times)}
+      </span>
+      <span className="num mono muted scans">{scans}</span>
       <span className="mono muted cut">{`${file}:${line}:${column}`}</span>
     </button>
   );

@@ -100,6 +100,7 @@ function expressionAt(code: editor.IStandaloneCodeEditor): string | null {
 
 // In a program the name is the program's; elsewhere it is taken as it stands, and the row says when it is not known.
 function instancePath(path: string, line: number, expression: string): string {
-  const pou = pouAt(useDocuments.getState().pous, path, line);
+  const { pous, open } = useDocuments.getState();
+  const pou = pouAt(pous, path, line, open[path]?.text);
   return pou?.kind === "program" && !expression.startsWith("%") ? `${pou.name}.${expression}` : expression;
 }

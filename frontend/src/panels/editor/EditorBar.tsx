@@ -14,7 +14,9 @@ export function EditorBar({ path }: { path: string }) {
   const dirty = useDocuments((documents) => isDirty(documents.open[path]));
   const building = useDocuments((documents) => documents.build.phase === "running");
   const lost = useLost();
-  const found = pouAt(pous, path, cursor?.line ?? 1) ?? pous.find((known) => known.file === path);
+  // Not a subscription: the caret moves with every change of the text.
+  const text = useDocuments.getState().open[path]?.text;
+  const found = pouAt(pous, path, cursor?.line ?? 1, text) ?? pous.find((known) => known.file === path);
   // A global variable is one line of the file, not what the file is about.
   const pou = found?.kind === "global" ? { name: path, kind: found.kind } : found;
   return (

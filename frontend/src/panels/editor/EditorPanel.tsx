@@ -1,4 +1,4 @@
-import { lazy, Suspense, useEffect, useState } from "react";
+import { lazy, Suspense, useEffect, useRef, useState } from "react";
 import { t } from "../../logic/text";
 import { messageOf, openDocument, useDocuments } from "../../store/documents";
 import { Icon } from "../../ui/Icon";
@@ -16,10 +16,14 @@ export function EditorPanel({ path }: { path: string }) {
   const deletedBy = useDocuments((documents) => documents.open[path]?.deletedBy ?? null);
   const [refused, setRefused] = useState<string | null>(null);
 
-  // A panel that was kept from last time is here before the project is known.
+  const of = useRef<number | null>(null);
+
+  // A panel that was kept from last time is here before the project is known. One that sees another project come is about
+  // to be closed: the other project does not have its file.
   useEffect(() => {
     setRefused(null);
-    if (project === null) return;
+    of.current ??= project;
+    if (project === null || of.current !== project) return;
     openDocument(path).catch((error: unknown) => setRefused(messageOf(error)));
   }, [path, project]);
 

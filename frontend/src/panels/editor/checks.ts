@@ -15,14 +15,22 @@ languages.registerInlayHintsProvider(LANGUAGE, {
     const path = model.uri.path.slice(1);
     const here = useDocuments.getState().checks.filter((check) => check.file === path);
     const seen = here.filter((check) => range.startLineNumber <= check.line && check.line <= range.endLineNumber);
-    return { hints: seen.map(hint), dispose: () => undefined };
+    return { hints: seen.map((check) => hint(check, sharesItsEnd(check, seen))), dispose: () => undefined };
   },
 });
 
-function hint(check: EmbeddedCheck): languages.InlayHint {
+/** The last operand and the whole that is assigned end at one place: then each says whose it is. */
+function sharesItsEnd(check: EmbeddedCheck, all: readonly EmbeddedCheck[]): boolean {
+  return all.some(
+    (other) => other !== check && other.end_line === check.end_line && other.end_column === check.end_column,
+  );
+}
+
+function hint(check: EmbeddedCheck, named: boolean): languages.InlayHint {
   const { variable, low, high, needless } = check;
+  const range = `${needless ? "✓" : "⊂"} ${low}..${high}`;
   return {
-    label: needless ? `✓ ${low}..${high}` : `⊂ ${low}..${high}`,
+    label: named ? `${variable} ${range}` : range,
     tooltip: needless
       ? t("checks.needless", { variable, why: needless })
       : t("checks.embedded", { variable, low, high }),

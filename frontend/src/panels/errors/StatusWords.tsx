@@ -10,7 +10,7 @@ export function StatusWords({ words }: { words: readonly string[] }) {
   useEffect(() => watch(words), [key]);
   if (words.length === 0) return null;
   return (
-    <div className="mem" role="group" aria-label={t("errors.memory")}>
+    <div className="mem" role="group" aria-label={t("errors.memory")} title={t("errors.memory")}>
       {words.map((word) => (
         <Word key={word} word={word} />
       ))}

@@ -4,6 +4,7 @@ import { useDocuments } from "../../store/documents";
 import { IconButton } from "../../ui/IconButton";
 import { Menu, type MenuItem } from "../../ui/Menu";
 import { Tree } from "../../ui/Tree";
+import { AddFiles } from "./AddFiles";
 import { DeleteFile } from "./DeleteFile";
 import { NewFile } from "./NewFile";
 import { useExplorerRows } from "./rows";
@@ -22,6 +23,7 @@ export function Explorer() {
     <nav className="pane left" aria-label={t("explorer.label")} data-pane="explorer">
       <div className="phead">
         <h2 className="grow">{t("explorer.label")}</h2>
+        <AddFiles />
         <IconButton
           icon="plus"
           label={t("file.new")}

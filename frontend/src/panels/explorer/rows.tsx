@@ -1,5 +1,5 @@
 import { useEffect, useState } from "react";
-import { type PouGroup, type PouNode, pouGroups } from "../../logic/explorer";
+import { type FileNode, type PouGroup, type PouNode, pouGroups, shownAt } from "../../logic/explorer";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { isDirty, useDocuments } from "../../store/documents";
@@ -10,7 +10,7 @@ import type { IconName } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import type { MenuItem } from "../../ui/Menu";
 import type { TreeRow } from "../../ui/Tree";
-import type { Area, ModelInfo, PlcSymbol, Problem } from "../../wire/types";
+import type { Area, ModelInfo, PlcSymbol, Pou, Problem } from "../../wire/types";
 import type { OpenMenu } from "./Explorer";
 import { PouLabel } from "./PouLabel";
 
@@ -44,7 +44,8 @@ export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) =>
     "file",
     "instances",
   ]);
-  const { pous, files, active, problems } = useDocuments();
+  const { pous, files, active, cursor, problems } = useDocuments();
+  const here = active === null ? undefined : shownAt(pous, active, cursor?.line ?? 1);
   const { instance, model } = useBench();
   const members = useMembers((state) => state.of);
   const open = useDocuments((documents) => documents.open);
@@ -72,7 +73,7 @@ export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) =>
         label: <PouLabel node={node} />,
         name: node.name,
         meta: <FileMarks file={node.file} dirty={isDirty(open[node.file])} problems={problems} />,
-        selected: node.file === active,
+        selected: node.file === active && isAround(node, group.kind, here),
         title: node.kind === "pou" ? `${node.file}:${line}` : node.file,
         onActivate: () => openFile(node.file, line),
         onMenu: (at) => openMenu(menu, at),
@@ -85,6 +86,13 @@ export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) =>
   }
   if (model) rows.push(...modelRows(model, folding, openMenu));
   return rows;
+}
+
+/** Whether this is the one declaration of its file that the cursor stands in. */
+function isAround(node: PouNode | FileNode, kind: PouGroup["kind"], here: Pou | undefined): boolean {
+  if (node.kind === "file") return true;
+  if (kind === "global") return here === undefined;
+  return here ? node.name === here.name : !node.shared;
 }
 
 function useFolding(initial: string[]): Folding {

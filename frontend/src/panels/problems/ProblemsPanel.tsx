@@ -52,9 +52,7 @@ function Row({ problem }: { problem: Problem }) {
         <Icon name={icon} small />
         {t(`severity.${problem.severity}`)}
       </span>
-      <span className="cut" title={problem.message}>
-        {problem.message}
-      </span>
+      <span className="says">{problem.message}</span>
       <span className="mono muted">{problem.code}</span>
       <span className="mono muted cut">{`${problem.file}:${problem.line}:${problem.column}`}</span>
     </button>

@@ -1,6 +1,6 @@
 import { useEffect, useState } from "react";
 import { t } from "../../logic/text";
-import { createProject } from "../../store/bench";
+import { createProject, useBench } from "../../store/bench";
 import { messageOf } from "../../store/documents";
 import { listModels } from "../../store/models";
 import { Dialog } from "../../ui/Dialog";
@@ -12,7 +12,8 @@ export function NewProject({ onClose }: { onClose: () => void }) {
   const [models, setModels] = useState<readonly ModelSummary[]>([]);
   const [name, setName] = useState("");
   const [model, setModel] = useState("");
-  const [instance, setInstance] = useState("plc-1");
+  const taken = useBench(({ app }) => app?.instances);
+  const [instance, setInstance] = useState(() => freeName((taken ?? []).map((known) => known.name)));
   const [refused, setRefused] = useState<{ instance: boolean; why: string } | null>(null);
 
   useEffect(() => {
@@ -27,6 +28,11 @@ export function NewProject({ onClose }: { onClose: () => void }) {
   async function create(): Promise<void> {
     if (name.trim() === "" || instance.trim() === "") {
       setRefused({ instance: name.trim() !== "", why: t("name.missing") });
+      return;
+    }
+    // Asked before anything is made: a project without its instance would be left behind.
+    if (taken?.some((known) => known.name === instance.trim())) {
+      setRefused({ instance: true, why: t("newproject.taken", { name: instance.trim() }) });
       return;
     }
     try {
@@ -80,4 +86,11 @@ export function NewProject({ onClose }: { onClose: () => void }) {
       />
     </Dialog>
   );
+}
+
+/** The first of plc-1, plc-2, ... that is not taken. */
+function freeName(taken: readonly string[]): string {
+  let number = 1;
+  while (taken.includes(`plc-${number}`)) number += 1;
+  return `plc-${number}`;
 }

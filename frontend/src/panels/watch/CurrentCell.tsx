@@ -73,6 +73,9 @@ function LiveCell({ path, known, format }: { path: string; known: boolean; forma
       role="gridcell"
       aria-label={t("watch.current.of", { path })}
       data-testid={`current:${path}`}
+      onMouseEnter={({ currentTarget }) => {
+        currentTarget.title = text.current?.textContent ?? ""; // a long value is cut
+      }}
     >
       <Icon name="changed" />
       <span ref={lamp} className="lamp" hidden />
