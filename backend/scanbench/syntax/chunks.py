@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from scanbench.problems import Problem
 from scanbench.syntax import tree
 from scanbench.syntax.lexer import AHEAD, KEYWORDS, Lex, Tokens, tokenize
-from scanbench.syntax.parse_file import MAX_SIZE, XML_ENDINGS, parse_file
+from scanbench.syntax.parse_file import MAX_SIZE, is_exported, parse_file
 from scanbench.syntax.parse_st import StParser
 from scanbench.syntax.source import Source
 
@@ -113,7 +113,7 @@ class Chunked:
 
 def read(name: str, text: str) -> Chunked:
     """Parses a file, chunk by chunk if it falls into chunks."""
-    if len(text) > MAX_SIZE or name.lower().endswith(XML_ENDINGS):
+    if len(text) > MAX_SIZE or is_exported(name, text):
         return _whole(name, text)
     source = Source(name, text)
     tokens, problems = tokenize(source)

@@ -1,5 +1,7 @@
 """One file of a project -> tree, whatever it is written in: the ending of its name says how to read it."""
 
+import re
+
 from scanbench.problems import Problem
 from scanbench.syntax import tree
 from scanbench.syntax.parse_st import parse_st
@@ -11,6 +13,7 @@ TEXT_ENDINGS = (".st", ".iecst", ".exp")
 XML_ENDINGS = (".tcpou", ".tcdut", ".tcgvl", ".tcio")
 ENDINGS = TEXT_ENDINGS + XML_ENDINGS
 """Of the names of program files, in lower case."""
+EXPORTED = re.compile(r"\s*(<\?xml[^>]*>\s*)?<TcPlcObject\b")
 MAX_SIZE = 8_000_000
 """Characters of one file: 200,000 lines and more."""
 
@@ -20,9 +23,14 @@ def is_program_file(name: str) -> bool:
     return name.lower().endswith(ENDINGS)
 
 
+def is_exported(name: str, text: str) -> bool:
+    """Whether it is a file of TwinCAT: by its name, or by its beginning when it was pasted into another one."""
+    return name.lower().endswith(XML_ENDINGS) or EXPORTED.match(text) is not None
+
+
 def parse_file(source: Source) -> tuple[tree.File, list[Problem]]:
     """The tree of what could be read, and every problem on the way, in the order of the text."""
     if len(source.text) > MAX_SIZE:
         message = f"This file has more than {MAX_SIZE:,} characters; split it up."
         return tree.File(source.name), [Problem("S003", message, source.span(0, 1))]
-    return parse_tc(source) if source.name.lower().endswith(XML_ENDINGS) else parse_st(source)
+    return parse_tc(source) if is_exported(source.name, source.text) else parse_st(source)

@@ -147,3 +147,8 @@ def test_constants_of_a_block_stand_in_bounds_of_its_temporaries() -> None:
 def test_only_line_feeds_make_lines() -> None:
     text = "PROGRAM Main (* \f \v \u2028 *)\nx := 1;\nEND_PROGRAM"
     assert [each.span.line for each in check_sources({"a.st": text}, MODELS["GENERIC-IEC"]).problems] == [2]
+
+
+def test_a_call_of_what_has_no_type_is_reported_once() -> None:
+    text = "PROGRAM Main\nVAR fb : Missing; END_VAR\nfb(a := 1);\nEND_PROGRAM"
+    assert [each.code for each in check_sources({"a.st": text}, MODELS["GENERIC-IEC"]).problems] == ["D002"]

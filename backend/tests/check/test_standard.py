@@ -68,3 +68,19 @@ def test_a_function_of_the_user_goes_before_the_standard_one() -> None:
 
 def test_the_page_is_up_to_date() -> None:
     assert PAGE.read_text("utf-8") == page(), "docs/standard-library.md is out of date: python -m tests.standard_page"
+
+
+def test_a_folder_of_the_user_is_not_the_library() -> None:
+    source = "FUNCTION Twice : INT\nVAR_INPUT x : INT; END_VAR\nTwice := x * 2;\nEND_FUNCTION\n" + MAIN.format(
+        "x := Twice(2);"
+    )
+    program = check_sources({"standard/a.st": source}, MODELS["GENERIC-IEC"]).program
+    assert program is not None
+    assert {pou.name: pou.inline for pou in program.pous} == {"Twice": False, "Main": False}
+
+
+def test_a_program_is_not_called() -> None:
+    other = "PROGRAM Other\nVAR n : INT; END_VAR\nn := n + 1;\nEND_PROGRAM\n"
+    problems = check_sources({"a.st": other + MAIN.format("Other(); x := Other.n;")}, MODELS["GENERIC-IEC"]).problems
+    assert [problem.code for problem in problems] == ["X001", "T010"]
+    assert all("`Other` is a PROGRAM" in problem.message for problem in problems)

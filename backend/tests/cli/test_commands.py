@@ -230,3 +230,18 @@ def test_without_models_it_says_where_it_looked(count: str, monkeypatch: pytest.
     result = scanbench("check", count)
     assert result.returncode == 2
     assert "Traceback" not in result.stderr
+
+
+def test_violations_are_printed_with_their_places_and_not_by_the_hundred(tmp_path: Path) -> None:
+    path = tmp_path / "many.st"
+    path.write_text(
+        "FUNCTION_BLOCK Valve\nVAR_INPUT want : INT; END_VAR\nVAR open : INT (0..10); END_VAR\nopen := want;\n"
+        "END_FUNCTION_BLOCK\nPROGRAM Main\nVAR v : ARRAY[1..30] OF Valve; i : INT; END_VAR\n"
+        "FOR i := 1 TO 30 DO v[i](want := 99); END_FOR;\nEND_PROGRAM\n",
+        "utf-8",
+    )
+    text = scanbench("run", str(path), "--scans", "2").stderr.splitlines()
+    assert text[0].startswith(f"{path}:4:9: subrange: open in Main.v[1] was 99, outside of 0..10, 2 times")
+    assert text[20].startswith("subrange: 10 more places, 60 violations in all")
+    found = json.loads(scanbench("run", str(path), "--scans", "2", "--json").stdout)
+    assert (len(found["violations"]), found["violations_dropped"]) == (30, 0)

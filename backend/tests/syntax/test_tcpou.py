@@ -152,3 +152,14 @@ def test_a_file_that_is_too_large_is_not_read() -> None:
     assert complaints(" " * (MAX_SIZE + 1)) == [
         f"S003 1:1 This file has more than {MAX_SIZE:,} characters; split it up."
     ]
+
+
+def test_a_file_pasted_under_another_name_is_read_all_the_same() -> None:
+    pasted = check_sources(
+        {"pasted.st": MOTOR, "main.st": "PROGRAM Main\nVAR m : FB_Motor; END_VAR\nEND_PROGRAM"}, MODELS["GENERIC-IEC"]
+    )
+    named = check_sources(
+        {"a.TcPOU": MOTOR, "main.st": "PROGRAM Main\nVAR m : FB_Motor; END_VAR\nEND_PROGRAM"}, MODELS["GENERIC-IEC"]
+    )
+    assert [each.message for each in pasted.problems] == [each.message for each in named.problems]
+    assert pasted.program is not None

@@ -39,8 +39,8 @@ def recorder(memory: bytearray, violations: int) -> Record:
         (scan,) = SCAN.unpack_from(memory, Layout.SCAN)
         used, at = find(site, instance)
         if at:
-            _, times, _, _, first, _, _ = ENTRY.unpack_from(memory, at)
-            ENTRY.pack_into(memory, at, site, min(times + 1, LARGEST), instance, value & WORD, first, scan, 0)
+            _, times, _, _, first, _, reserved = ENTRY.unpack_from(memory, at)
+            ENTRY.pack_into(memory, at, site, min(times + 1, LARGEST), instance, value & WORD, first, scan, reserved)
         elif used < Layout.VIOLATION_LIMIT:
             at = entries_at + used * Layout.VIOLATION_BYTES
             ENTRY.pack_into(memory, at, site, 1, instance, value & WORD, scan, scan, 0)
