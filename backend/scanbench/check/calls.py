@@ -167,8 +167,8 @@ class CallChecker(GenericChecker):
         hint = did_you_mean(name, known)
         if self.declarations.find_type(name, node.span) in self.declarations.block_trees:
             hint = f" `{name}` is a FUNCTION_BLOCK: declare an instance in VAR and call that."
-        declared = {(self.scope.pou.upper(), key), ("GLOBAL", key)}
-        if key in self.pous.broken or declared & self.declarations.broken:
+        untyped = {(self.scope.pou.upper(), key), ("GLOBAL", key)} & self.declarations.broken
+        if key in self.pous.broken or untyped:
             raise Rejected
         if self.scope.find(name) is not None:
             raise self.report.reject("T010", f"`{name}` is a variable; it cannot be called.", node.span)
