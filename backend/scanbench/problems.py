@@ -87,6 +87,7 @@ TABLE: dict[str, str] = {
     "T014": "member that is not accessible from here",
     # W: works, but is probably not meant
     "W001": "statement without effect",
+    "W002": "input or output without an address",
     # X: constructs that are known, and not supported
     "X001": "construct that is not supported",
     # M: model files

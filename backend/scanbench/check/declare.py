@@ -383,7 +383,7 @@ class Declarations:
         return member
 
     def _incomplete(self, owner: Record, variable: tree.Variable, section: Section, made: Type) -> Member | None:
-        """`AT %I*`: a reference that VAR_CONFIG fills for each instance."""
+        """`AT %I*`: a reference that VAR_CONFIG fills for each instance, and memory for when it does not."""
         span = variable.address_span or variable.span
         if section not in (Section.VAR, Section.GLOBAL) or has_instance(made) or isinstance(made, OpenArray):
             self.report.error("D005", "`AT %I*` is for elementary data in VAR and VAR_GLOBAL.", span)
@@ -394,6 +394,9 @@ class Declarations:
         member = Member(variable.name, type, section, variable.span, incomplete=(variable.address or "").upper())
         self.incomplete = True
         owner.place(member)
+        owner.place(
+            Member(own_memory(variable.name), made, Section.VAR, variable.span, initial=initial_of(made), hidden=True)
+        )
         return member
 
     def _start_reference(self, owner: Record, member: Member, node: tree.Expression) -> None:
@@ -474,6 +477,11 @@ def _with_arguments(variable: tree.Variable) -> tree.Variable:
     """`inst : FB(a := 1)` means `inst : FB := (a := 1)`."""
     members = tuple((each.name or "", each.value, each.span) for each in variable.arguments if each.value is not None)
     return replace(variable, initial=tree.StructInit(members, variable.span))
+
+
+def own_memory(name: str) -> str:
+    """The hidden variable beside an `AT %I*` that is used as long as no address is given."""
+    return f"{name}$memory"
 
 
 def _has_bool(type: Type) -> bool:

@@ -5,7 +5,7 @@ from contextlib import suppress
 from dataclasses import replace
 
 from scanbench.check.context import Rejected, Report
-from scanbench.check.declare import Declarations
+from scanbench.check.declare import Declarations, own_memory
 from scanbench.check.program import AccessPath, Program
 from scanbench.check.symbols import Symbol, UnknownPath, resolve
 from scanbench.check.types import SLOT_BYTES, ArrayType, Member, Record, Section, Type
@@ -38,10 +38,11 @@ class Settings:
                     accesses.append(self._access(access, accesses))
                 except Rejected:
                     continue
-        for path, member in self._open.values():
-            self._report.error(
-                "D005", f"`{path}` is AT {member.incomplete} and has no address yet; give it one in VAR_CONFIG: "
-                f"`{path} AT {member.incomplete[:-1]}... : ...;`.", member.span,
+        for slot, (path, member, own) in self._open.items():
+            self._image[slot : slot + SLOT_BYTES] = own.to_bytes(SLOT_BYTES, "little")
+            self._report.warn(
+                "W002", f"`{path}` is AT {member.incomplete} and has no address, so nothing outside reaches it; give it one in "
+                f"VAR_CONFIG: `{path} AT {member.incomplete[:-1]}... : ...;`.", member.span,
             )  # fmt: skip
         return replace(self._program, initial_image=bytes(self._image), accesses=tuple(accesses))
 
@@ -116,8 +117,12 @@ class Settings:
             raise self._report.reject("D010", f"{unknown.message}{hint}", span) from None
 
 
-def _incomplete(program: Program) -> Iterator[tuple[int, tuple[str, Member]]]:
-    """Offset of the slot, path and declaration of every variable that waits for its address."""
+Waiting = tuple[int, tuple[str, Member, int]]
+"""Offset of the slot; path, declaration, and offset of the memory of its own."""
+
+
+def _incomplete(program: Program) -> Iterator[Waiting]:
+    """Every variable that waits for its address."""
     layout = program.layout
     if layout.globals is not None:
         yield from _waiting("", layout.globals, 0)
@@ -127,15 +132,16 @@ def _incomplete(program: Program) -> Iterator[tuple[int, tuple[str, Member]]]:
                 yield from _waiting(f"{instance.name}.", instance.pou.instance, instance.offset)
 
 
-def _waiting(path: str, record: Record, offset: int) -> Iterator[tuple[int, tuple[str, Member]]]:
+def _waiting(path: str, record: Record, offset: int) -> Iterator[Waiting]:
     for member in record.members.values():
         if member.incomplete:
-            yield offset + member.offset, (f"{path}{member.name}", member)
+            own = record.members[own_memory(member.name).upper()]
+            yield offset + member.offset, (f"{path}{member.name}", member, offset + own.offset)
         elif _holds(member):
             yield from _inside(f"{path}{member.name}", member.type, offset + member.offset)
 
 
-def _inside(path: str, type: Type, offset: int) -> Iterator[tuple[int, tuple[str, Member]]]:
+def _inside(path: str, type: Type, offset: int) -> Iterator[Waiting]:
     if isinstance(type, Record):
         yield from _waiting(f"{path}.", type, offset)
     elif isinstance(type, ArrayType):

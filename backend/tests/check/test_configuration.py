@@ -75,8 +75,10 @@ def test_what_is_wrong(text: str, code: str, line: int, says: str) -> None:
 
 def test_what_waits_for_an_address_is_told_by_its_path() -> None:
     text = f"{SOURCE}RESOURCE R ON P\nPROGRAM Main : Main;\nEND_RESOURCE\nEND_CONFIGURATION\n"
-    (problem,) = check_sources({"a.st": text}, MODEL).problems
-    assert (problem.code, problem.span.line) == ("D005", 3)
+    checked = check_sources({"a.st": text}, MODEL)
+    (problem,) = checked.problems
+    assert (problem.code, problem.span.line) == ("W002", 3)
+    assert checked.program is not None
     assert "`Main.fb.q` is AT %Q*" in problem.message
 
 

@@ -86,6 +86,7 @@ FILES = [
     ("D006", "PROGRAM Main\nVAR x : INT (9..0); END_VAR\nEND_PROGRAM", 2),
     ("D008", "PROGRAM Main\nVAR x : ARRAY[*] OF INT; END_VAR\nEND_PROGRAM", 2),
     ("D008", "TYPE U : UNION t : TON; x : INT; END_UNION; END_TYPE\nPROGRAM Main\nEND_PROGRAM", 1),
+    ("W002", "PROGRAM Main\nVAR x AT %I* : INT; END_VAR\nEND_PROGRAM", 2),
     ("T011", "PROGRAM Main\nVAR f AT A402.12 : BOOL; END_VAR\nf := TRUE;\nEND_PROGRAM", 3),
 ]  # fmt: skip
 
