@@ -24,6 +24,7 @@ from scanbench.check.types import (
     Record,
     Reference,
     Section,
+    StringType,
     Type,
 )
 from scanbench.check.untyped import ANY_INT, settle
@@ -192,6 +193,10 @@ class PlaceChecker(SubrangeChecker):
             moved = self.moved("add", Load(place), self.expr(indices[0]), node.span, of_target=True)
             return self.behind(moved, node.span, shown(node.array)), None
         while indices:
+            if isinstance(type, StringType):
+                raise self.report.reject(
+                    "T003", f"A character of a {type} can be read here, not written; use REPLACE.", node.span
+                )
             if not isinstance(type, ArrayType | OpenArray):
                 raise self.report.reject("T010", f"{type} is not an array and has no index.", node.span)
             count = len(type.bounds) if isinstance(type, ArrayType) else type.dimensions

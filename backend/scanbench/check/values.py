@@ -126,14 +126,15 @@ def _parse_time(text: str) -> int:
 
 
 def _parse_real(type: Elementary, text: str) -> bytes:
+    digits = text.upper().removeprefix(f"{type.name}#").replace("_", "")
     try:
-        value = float(text.upper().removeprefix(f"{type.name}#").replace("_", ""))
+        value = float(digits)
     except ValueError:
         raise ValueError(f"`{text}` is not {type}; write a number, e.g. 1.5") from None
     if math.isnan(value):
         value = math.nan
-    if type.size == 4 and math.isinf(round_real(value, type)) and not math.isinf(value):
-        raise ValueError(f"{text} is too large for REAL (about 3.4e38)")
+    if math.isinf(round_real(value, type)) and "INF" not in digits:
+        raise ValueError(f"{text} is too large for {type} (about {'3.4e38' if type.size == 4 else '1.8e308'})")
     return struct.pack("<f" if type.size == 4 else "<d", value)
 
 

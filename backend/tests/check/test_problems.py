@@ -6,7 +6,7 @@ from scanbench.check.build import check_sources
 from scanbench.problems import TABLE
 from tests.caseformat import MODELS
 
-MAIN = "PROGRAM Main\nVAR x : INT; b : BOOL; a : ARRAY[1..3] OF INT; r : REAL; t : TON; END_VAR\n{}\nEND_PROGRAM\n"
+MAIN = "PROGRAM Main\nVAR x : INT; b : BOOL; a : ARRAY[1..3] OF INT; r : REAL; t : TON; s : STRING; END_VAR\n{}\nEND_PROGRAM\n"
 
 BODIES = [
     ("S001", "x := 1 ? 2;", 3),
@@ -24,6 +24,7 @@ BODIES = [
     ("T002", "b := x + 1;", 3),
     ("T002", "x := x AND 1;", 3),
     ("T003", "t.Q := TRUE;", 3),
+    ("T003", "s[1] := 'x';", 3),
     ("T004", "t(IM := b);", 3),
     ("T004", "x := ABS();", 3),
     ("T006", "IF x THEN x := 1; END_IF;", 3),

@@ -53,3 +53,10 @@ def test_a_number_without_a_name_is_shown_as_it_is() -> None:
     assert format_value(COLOR, b"\7\0") == "7"
     assert python_value(COLOR, b"\5\0") == "GREEN"
     assert python_value(ELEMENTARY["DATE"], bytes(8)) == 0
+
+
+def test_a_number_too_large_is_refused_in_both_widths() -> None:
+    for name, text in (("REAL", "1e39"), ("LREAL", "1e400")):
+        with pytest.raises(ValueError, match=f"too large for {name}"):
+            parse_value(ELEMENTARY[name], text)
+    assert format_value(ELEMENTARY["LREAL"], parse_value(ELEMENTARY["LREAL"], "-inf")) == "-inf"
