@@ -28,10 +28,20 @@ class Area:
     ranges: tuple[AccessRange, ...]
     """Without gaps or overlaps, ascending: the loader sees to it."""
     retain: bool = False
-    """Keeps its content over a change between PROGRAM and RUN and over a power cycle."""
+    """Keeps its content over a power cycle. What a change between PROGRAM and RUN clears: `FatalBehaviour.cleared`."""
     description: str = ""
+    prefix: str = ""
+    """What its addresses begin with, where that is not the name (`E0_`)."""
     aliases: tuple[str, ...] = ()
     """Other prefixes of its addresses, upper case (`AR` for `A`)."""
+    first: int = 0
+    """Number of its first word (or bit, see `unit`) in addresses."""
+    unit: Literal["word", "bit"] = "word"
+    """What the number in an address counts: `D100` is a word, `M100` on a MELSEC a bit."""
+    radix: Literal[10, 16] = 10
+    """Of that number: `X1F` is the 32nd bit."""
+    bit_radix: Literal[10, 16] = 10
+    """Of the bit behind the dot: `A402.12`, `D100.F`."""
     bare_bits: bool = False
     """A bit may be written without a prefix: `0.00`."""
     source: str = ""
@@ -41,6 +51,11 @@ class Area:
     def size(self) -> int:
         """Bytes: words are stored little endian, two bytes each."""
         return self.words * 2
+
+    @property
+    def written(self) -> str:
+        """What its addresses begin with."""
+        return self.prefix or self.name
 
     def access(self, word: int, who: Who) -> Access:
         """What `who` may do with this word; nothing outside of the area."""

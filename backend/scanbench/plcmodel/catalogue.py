@@ -9,6 +9,14 @@ from scanbench.plcmodel.areas import Location
 Severity = Literal["fatal", "nonfatal"]
 Control = Literal["List", "Spin", "Edit"]
 Kind = Literal["Bit", "Word", "Byte", "BCD", "Nibble", "BitArray"]
+CodeForm = Literal["hex4", "hex8", "decimal"]
+"""How a model shows its error codes: `80F1`, `60010000`, `1600`."""
+CODE_LIMITS: dict[CodeForm, int] = {"hex4": 0xFFFF, "hex8": 0xFFFF_FFFF, "decimal": 0xFFFF}
+
+
+def show_code(code: int, form: CodeForm) -> str:
+    """An error code as the device shows it."""
+    return {"hex4": f"{code:04X}", "hex8": f"{code:08X}", "decimal": str(code)}[form]
 
 
 @dataclass(frozen=True, slots=True)
@@ -29,7 +37,7 @@ class ErrorAddress:
     """
 
     id: str
-    """What names this choice of a List; empty otherwise."""
+    """What names this choice of a List. In `ErrorEntry.also`: the detail whose number is written. Else empty."""
     description: str
     location: Location | None
     """None where the number goes into the error code only."""
@@ -84,7 +92,24 @@ class ErrorEntry:
     """False: from knowledge, not checked against a source. Shown as such."""
     keeps_memory: bool = False
     """A fatal error that leaves the memory as it is (outputs go off all the same)."""
+    also: tuple[ErrorAddress, ...] = ()
+    """What it writes besides its flag and details: bits, a fixed `value`, or the number of the detail named by `id`."""
+    form: CodeForm = "hex4"
     wordings: tuple[Wording, ...] = ()
+
+    @property
+    def code_text(self) -> str:
+        """The code without what details add to it, as the device shows it."""
+        return show_code(self.code, self.form)
+
+    @property
+    def code_limit(self) -> int:
+        """The largest code that the form can show."""
+        return CODE_LIMITS[self.form]
+
+    def show(self, code: int) -> str:
+        """A code of this error (details added) as the device shows it."""
+        return show_code(code, self.form)
 
     def detail(self, name: str) -> ErrorDetail | None:
         """The detail of this name."""

@@ -8,6 +8,7 @@ from typing import Literal
 from scanbench.plcmodel import address
 from scanbench.plcmodel.areas import Access, AccessRange, Area, IecMap, Location, Who
 from scanbench.plcmodel.catalogue import (
+    CodeForm,
     Control,
     ErrorAddress,
     ErrorDetail,
@@ -16,12 +17,15 @@ from scanbench.plcmodel.catalogue import (
     Kind,
     Severity,
     Wording,
+    show_code,
 )
 
 __all__ = [
     "Access",
     "AccessRange",
     "Area",
+    "ClockField",
+    "CodeForm",
     "Control",
     "ErrorAddress",
     "ErrorDetail",
@@ -30,9 +34,11 @@ __all__ = [
     "ErrorLog",
     "FatalBehaviour",
     "IecMap",
+    "Instruction",
     "Kind",
     "Location",
     "Model",
+    "Role",
     "Severity",
     "Special",
     "Who",
@@ -52,12 +58,13 @@ class WordRange:
 
 @dataclass(frozen=True, slots=True)
 class FatalBehaviour:
-    """What happens to memory when a fatal error stops the program."""
+    """What happens to memory when the program stops: by a fatal error, or by a change to PROGRAM."""
 
     outputs: tuple[WordRange, ...] = ()
-    """Go to 0 in any case."""
+    """Go to 0: at a fatal error in any case, at a change to PROGRAM unless the hold bit is on."""
     cleared: tuple[Area, ...] = ()
-    """Go to 0 too, unless the hold bit is on or the error keeps the memory."""
+    """Go to 0 too, but for input words, and so they do when the program starts again; unless the hold bit is on or the
+    error keeps the memory."""
     hold: Location | None = None
 
 
@@ -71,6 +78,21 @@ class ErrorLog:
     counter: Location
 
 
+Role = Literal[
+    "", "on", "off", "first-cycle", "pulse", "cycle-time", "longest-cycle-time", "shortest-cycle-time", "scan-count",
+    "clock",
+]  # fmt: skip
+"""What common processing writes to a special address in every scan; '' is nothing.
+
+`first-cycle`: on in the first scan after the program started. `pulse`: off for half of `period_ns` of virtual time, then
+on. `cycle-time`: the length of a scan in virtual time, in units of `unit_ns`, as wide as the address. `scan-count`: scans
+since the start of the run, wrapping. `clock`: the PLC's clock (`Layout.EPOCH` + `Layout.CLOCK`): one byte for each of
+`fields`, from the low byte of the address on, which has 8 bits for each.
+"""
+ClockField = Literal["second", "minute", "hour", "day", "month", "year", "century", "weekday", "zero"]
+"""`year` is the last two digits, `weekday` counts from 0 on Sunday."""
+
+
 @dataclass(frozen=True, slots=True)
 class Special:
     """An address with a meaning for the system: first cycle flag, clock, ..."""
@@ -81,6 +103,33 @@ class Special:
     description: str
     source: str
     verified: bool
+    symbol: str = ""
+    """A variable that every program on this model knows (`P_First_Cycle`, `SM400`, `_ErrSta`); '' where there is none."""
+    role: Role = ""
+    period_ns: int = 0
+    unit_ns: int = 0
+    fields: tuple[ClockField, ...] = ()
+    bcd: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class Instruction:
+    """An instruction of the vendor that raises an error of the catalogue; a program calls it as a function.
+
+    `FAL(N := 5)` gives the error `error` with 5 as its detail `detail`; a number outside `minimum` to `maximum` does
+    nothing, but for `clears`, which recovers it. When the error is fatal the program stops right there.
+    """
+
+    name: str
+    error: str
+    parameter: str
+    detail: str
+    minimum: int
+    maximum: int
+    clears: int | None = None
+    description: str = ""
+    source: str = ""
+    verified: bool = False
 
 
 @dataclass(frozen=True)
@@ -101,6 +150,8 @@ class Model:
     fatal: FatalBehaviour = FatalBehaviour()
     log: ErrorLog | None = None
     specials: tuple[Special, ...] = ()
+    instructions: tuple[Instruction, ...] = ()
+    code_form: CodeForm = "hex4"
     wordings: tuple[Wording, ...] = ()
 
     def area(self, name: str) -> Area | None:
@@ -110,14 +161,14 @@ class Model:
     def locate(self, text: str) -> Location | None:
         """The place that an address names, in either notation and any case; None where there is none."""
         try:
-            return address.parse(self.areas, self.iec_maps, text)
+            return address.parse(self.areas, self.iec_maps, text, self._symbols)
         except address.NoSuchPlace:
             return None
 
     def why_not(self, text: str) -> str:
         """Why `locate` finds nothing; empty where it does."""
         try:
-            address.parse(self.areas, self.iec_maps, text)
+            address.parse(self.areas, self.iec_maps, text, self._symbols)
         except address.NoSuchPlace as reason:
             return f"{reason} ({self.name})"
         return ""
@@ -125,6 +176,16 @@ class Model:
     def format(self, area: Area, byte: int, bit: int | None, bits: int) -> str:
         """The vendor's notation of a place."""
         return address.write(area, self.iec_maps, byte, bit, bits)
+
+    def range_text(self, words: WordRange) -> tuple[str, str]:
+        """First and last address of a range, in the vendor's notation: `D0`, `D99`; `X0`, `X63F` where bits count."""
+        area, bits = words.area, words.area.unit == "bit"
+        first = self.format(area, 2 * words.first, 0 if bits else None, 1 if bits else 16)
+        return first, self.format(area, 2 * words.last + bits, 7 if bits else None, 1 if bits else 16)
+
+    def show_code(self, code: int) -> str:
+        """An error code as this device shows it."""
+        return show_code(code, self.code_form)
 
     def errors(self) -> Iterator[ErrorEntry]:
         """Every error of the catalogue, in the order of the tree."""
@@ -138,6 +199,10 @@ class Model:
     def special(self, name: str) -> Location | None:
         """The special address of this name."""
         return next((entry.location for entry in self.specials if entry.name == name), None)
+
+    @cached_property
+    def _symbols(self) -> dict[str, Location]:
+        return {entry.symbol.upper(): entry.location for entry in self.specials if entry.symbol}
 
     @cached_property
     def _areas(self) -> dict[str, Area]:

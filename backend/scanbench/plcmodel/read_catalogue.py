@@ -1,10 +1,13 @@
 """The catalogue part of a model file: groups, errors, details. Checks what the schema cannot say."""
 
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, field, replace
 from typing import cast, get_args
 
 from lxml import etree
 
 from scanbench.plcmodel.catalogue import (
+    CODE_LIMITS,
     Control,
     ErrorAddress,
     ErrorDetail,
@@ -12,62 +15,97 @@ from scanbench.plcmodel.catalogue import (
     ErrorGroup,
     Kind,
     Severity,
+    show_code,
 )
 from scanbench.plcmodel.document import line_of
-from scanbench.plcmodel.reading import Reader, number_of, text_of, wordings_of
+from scanbench.plcmodel.reading import Element, Reader, nearest, number_of, removals, text_of, wordings_of
 
 FIELD_WIDTH: dict[Kind, int] = {"Bit": 1, "Nibble": 4, "Byte": 8, "BCD": 16, "Word": 16, "BitArray": 1}
 
 
-def read_catalogue(reader: Reader, root: etree._Element) -> tuple[ErrorGroup, ...]:
-    """Every `ErrorGroup` below the root; ids and pairs of code and flag are unique across all of them."""
-    groups = tuple(_group(reader, node) for node in root.iterchildren("ErrorGroup"))
-    _unique(reader, root)
-    return groups
+@dataclass(slots=True)
+class _Branch:
+    """A group while the files that make it are looked through."""
+
+    node: etree._Element | None
+    errors: dict[str, Element] = field(default_factory=dict)
+    groups: dict[str, "_Branch"] = field(default_factory=dict)
+
+    def walk(self) -> Iterator["_Branch"]:
+        """This branch and all below."""
+        yield self
+        for branch in self.groups.values():
+            yield from branch.walk()
 
 
-def _unique(reader: Reader, root: etree._Element) -> None:
-    ids: dict[str, int] = {}
-    pairs: dict[tuple[str, str], str] = {}
-    for node in root.iter("Error"):
-        id, line = node.get("Id", ""), line_of(node)
-        if id in ids:
-            reader.problem("M004", f"Id {id!r} is used in line {ids[id]} already", node, "Id")
-        ids.setdefault(id, line)
-        location = reader.find(node.get("ErrorFlag", ""))
-        if location is None:
-            continue  # `_error` has said so
-        code = node.get("ErrorCode", "").upper()
-        flag = f"{location.area.name}.{location.byte}.{location.bit}"
-        if (code, flag) in pairs:
-            other = pairs[code, flag]
-            message = f"code {code} with flag {node.get('ErrorFlag')} belongs to {other!r} already"
-            reader.problem("M005", message, node, "ErrorCode")
-        pairs.setdefault((code, flag), id)
+def read_catalogue(layers: Sequence[Reader]) -> tuple[ErrorGroup, ...]:
+    """The tree that the layers make together, the base first.
+
+    An error with an id of the base's takes its place; groups of the same name become one.
+    """
+    root = _Branch(None)
+    for reader in layers:
+        inherited = {id: branch for branch in root.walk() for id in branch.errors}
+        left = dict(inherited)
+        removals(reader, "Errors", left)
+        for id in inherited.keys() - left.keys():
+            del inherited[id].errors[id]
+        own: dict[str, int] = {}
+        for node in reader.root.iterchildren("ErrorGroup"):
+            _add(reader, node, root, left, own)
+    made = _made(root)
+    _unique(made, {id: element for branch in root.walk() for id, element in branch.errors.items()})
+    return made.groups
 
 
-def _group(reader: Reader, node: etree._Element) -> ErrorGroup:
-    errors = [_error(reader, child) for child in node.iterchildren("Error")]
+def _add(
+    reader: Reader, node: etree._Element, parent: _Branch, inherited: dict[str, _Branch], own: dict[str, int]
+) -> None:
+    branch = parent.groups.setdefault(text_of(node, "Name"), _Branch(node))
+    for child in node.iterchildren("Error"):
+        id = child.get("Id", "")
+        if id in own:
+            reader.problem("M004", f"Id {id!r} is used in line {own[id]} already", child, "Id")
+            continue
+        own[id] = line_of(child)
+        inherited.get(id, branch).errors[id] = reader, child
+    for child in node.iterchildren("ErrorSubGroup"):
+        _add(reader, child, branch, inherited, own)
+
+
+def _made(branch: _Branch) -> ErrorGroup:
+    """The group as data, without groups that have nothing left in them."""
+    errors = [_error(*element) for element in branch.errors.values()]
+    groups = [_made(each) for each in branch.groups.values()]
     return ErrorGroup(
-        name=text_of(node, "Name"),
-        groups=tuple(_group(reader, child) for child in node.iterchildren("ErrorSubGroup")),
+        name="" if branch.node is None else text_of(branch.node, "Name"),
+        groups=tuple(group for group in groups if group.groups or group.errors),
         errors=tuple(error for error in errors if error is not None),
-        wordings=wordings_of(node),
+        wordings=() if branch.node is None else wordings_of(branch.node),
     )
+
+
+def _unique(tree: ErrorGroup, elements: dict[str, Element]) -> None:
+    """A pair of code and flag belongs to one error."""
+    pairs: dict[tuple[int, str, int, int | None], str] = {}
+    for error in tree.walk():
+        pair = (error.code, error.flag.area.name, error.flag.byte, error.flag.bit)
+        if pair in pairs:
+            message = f"code {error.code_text} with flag {error.flag_text} belongs to {pairs[pair]!r} already"
+            reader, node = elements[error.id]
+            reader.problem("M005", message, node, "ErrorCode")
+        pairs.setdefault(pair, error.id)
 
 
 def _error(reader: Reader, node: etree._Element) -> ErrorEntry | None:
     flag = reader.place(node, "ErrorFlag", bits=1)
     inherited = node.get("AddToErrorCode") in ("true", "1")
-    code = int(node.get("ErrorCode", "0"), 16)
     details = tuple(_detail(reader, control, inherited) for control in node.iter("ErrorControl"))
     names = [detail.name for detail in details]
     for name in {name for name in names if names.count(name) > 1}:
         reader.problem("M004", f"two details are named {name!r}", node)
-    largest = code + sum(_largest_addition(detail) for detail in details)
-    if largest > 0xFFFF:
-        message = f"with its details added the error code can grow to {largest:X}, beyond FFFF"
-        reader.problem("M007", message, node, "ErrorCode")
+    code = _code(reader, node, sum(_largest_addition(detail) for detail in details))
+    also = tuple(_also(reader, child, details) for child in node.iterchildren("Also"))
     if flag is None or not reader.engine_writes(node, "ErrorFlag", flag):
         return None
     return ErrorEntry(
@@ -83,8 +121,48 @@ def _error(reader: Reader, node: etree._Element) -> ErrorEntry | None:
         source=node.get("Source", ""),
         verified=node.get("Verified") == "yes",
         keeps_memory=node.get("Memory") == "keep",
+        also=also,
+        form=reader.code_form,
         wordings=wordings_of(node),
     )
+
+
+def _code(reader: Reader, node: etree._Element, added: int) -> int:
+    text, form = node.get("ErrorCode", "0"), reader.code_form
+    if form == "decimal" and not text.isdigit():
+        reader.problem("M007", f"{text!r} is not decimal, as the codes of this model are", node, "ErrorCode")
+        return 0
+    if form != "decimal" and len(text) != int(form[3:]):
+        message = f"{text!r} has {len(text)} digits, the codes of this model have {form[3:]}"
+        reader.problem("M007", message, node, "ErrorCode")
+        return 0
+    code = int(text, 10 if form == "decimal" else 16)
+    if code + added > CODE_LIMITS[form]:
+        largest, limit = show_code(code + added, form), show_code(CODE_LIMITS[form], form)
+        message = f"with its details added the error code can grow to {largest}, beyond {limit}"
+        reader.problem("M007", message, node, "ErrorCode")
+    return code
+
+
+def _also(reader: Reader, node: etree._Element, details: Sequence[ErrorDetail]) -> ErrorAddress:
+    """A bit, a fixed value, or the number of a detail."""
+    address = _read_address(reader, node, inherited=False)
+    address = replace(address, id=node.get("Detail", ""))
+    numbers = {detail.name: detail.addresses[0] for detail in details if detail.control != "List"}
+    if address.id and address.id not in numbers:
+        message = f"there is no detail {address.id!r} that is a number{nearest(address.id, numbers)}"
+        reader.problem("M010", message, node, "Detail")
+        return address
+    if (address.kind == "Bit") == bool(address.id or address.value is not None) or (address.id and address.value):
+        reader.problem(
+            "M008", "an Also is a Bit without more, or has a Value, or the Detail whose number it takes", node
+        )
+        return address
+    if address.id:
+        address = replace(address, minimum=numbers[address.id].minimum, maximum=numbers[address.id].maximum)
+    _check_width(reader, node, address)
+    _check_place(reader, node, address)
+    return address
 
 
 def _largest_addition(detail: ErrorDetail) -> int:
@@ -113,11 +191,19 @@ def _detail(reader: Reader, node: etree._Element, inherited: bool) -> ErrorDetai
 
 
 def _address(reader: Reader, node: etree._Element, control: Control, inherited: bool) -> ErrorAddress:
+    address = _read_address(reader, node, inherited)
+    _check_control(reader, node, control, address)
+    _check_width(reader, node, address)
+    _check_place(reader, node, address)
+    return address
+
+
+def _read_address(reader: Reader, node: etree._Element, inherited: bool) -> ErrorAddress:
     kind = cast(Kind, node.get("Type"))
     assert kind in get_args(Kind)
     optional = {key: None if (text := node.get(key)) is None else number_of(text) for key in _NUMBERS}
     width = optional["Width"] if optional["Width"] is not None else FIELD_WIDTH[kind]
-    address = ErrorAddress(
+    return ErrorAddress(
         id=node.get("Id", ""),
         description=text_of(node, "Description"),
         location=reader.place(node, "Address", bits=1 if kind == "Bit" else 16),
@@ -133,18 +219,12 @@ def _address(reader: Reader, node: etree._Element, control: Control, inherited: 
         add_to_code=inherited if (own := node.get("AddToErrorCode")) is None else own in ("true", "1"),
         wordings=wordings_of(node),
     )
-    _check_numbers(reader, node, control, address)
-    _check_place(reader, node, address)
-    return address
 
 
 _NUMBERS = ("Shift", "Width", "Value", "Min", "Max", "Default")
 
 
-def _check_numbers(reader: Reader, node: etree._Element, control: Control, address: ErrorAddress) -> None:
-    if address.shift + address.width > 16 or address.width < 1:
-        reader.problem("M007", f"bits {address.shift} to {address.shift + address.width - 1} are not in one word", node)
-        return
+def _check_control(reader: Reader, node: etree._Element, control: Control, address: ErrorAddress) -> None:
     if control == "List":
         if address.value is None and (address.kind != "Bit" or address.add_to_code):
             reader.problem("M008", "this choice writes or adds a number and needs a Value", node)
@@ -157,8 +237,15 @@ def _check_numbers(reader: Reader, node: etree._Element, control: Control, addre
     elif address.default is not None and not address.minimum <= address.default <= address.maximum:
         message = f"Default {address.default} is not in {address.minimum} to {address.maximum}"
         reader.problem("M007", message, node, "Default")
+
+
+def _check_width(reader: Reader, node: etree._Element, address: ErrorAddress) -> None:
     if address.kind in ("Bit", "BitArray"):
         return  # the number says which bit, or only adds to the code
+    if address.shift + address.width > 16 or address.width < 1:
+        last = address.shift + address.width - 1
+        reader.problem("M007", f"bits {address.shift} to {last} are not in one word", node)
+        return
     largest = (10 ** (address.width // 4) if address.kind == "BCD" else 1 << address.width) - 1
     for attribute, number in (("Value", address.value), ("Max", address.maximum)):
         if number is not None and number > largest:
