@@ -99,4 +99,6 @@ TABLE: dict[str, str] = {
     "M006": "access ranges with a gap or an overlap",
     "M007": "number that does not fit its field",
     "M008": "error detail that is incomplete",
+    "M009": "model that a model is based on, and that cannot be used",
+    "M010": "special address or instruction that does not fit its role or error",
 }

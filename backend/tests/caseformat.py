@@ -14,9 +14,11 @@ from scanbench.check.violations import read_violations
 from scanbench.engines.engine import Engine, Reason, Stop
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
-from scanbench.syntax.literals import duration
+from scanbench.syntax.literals import date_and_time, duration
 
-HEAD = re.compile(r"^\[(case|source|scans|trap|model|interval|budget|feature|violations)\b\s*(.*?)\]\s*$")
+HEAD = re.compile(
+    r"^\[(case|source|scans|trap|model|interval|budget|feature|violations|file|clock|start)\b\s*(.*?)\]\s*$"
+)
 LINE = re.compile(r"^\s*(\d+)\s*:(.*?)(?:\|(.*))?$")
 PAIR = re.compile(
     r"\s*([^\s:=,]+(?:\[[^\]]*\][^\s:=,]*)*)\s*:?=\s*('(?:\$.|[^'])*'|\"(?:\$.|[^\"])*\"|[^,]+)\s*(?:,|$)"
@@ -48,6 +50,12 @@ class Case:
     """Numbers of what it shows, as in `tests/features`: `72.4`."""
     violations: list[str] | None = None
     """The list of subrange violations after the last scan, as `shown_violations` writes it."""
+    files: dict[str, str] = field(default_factory=dict)
+    """Beside `source`: what is in `plant/`."""
+    epoch_ns: int = 0
+    """What the PLC's clock shows at virtual time 0."""
+    starts: list[int] = field(default_factory=list)
+    """Scans before which the program starts once more, with everything kept."""
 
 
 def read_cases(path: Path) -> list[Case]:
@@ -60,21 +68,12 @@ def read_cases(path: Path) -> list[Case]:
             part, rest = head.groups()
             if part == "case":
                 cases.append(Case(f"{path.stem}/{rest}"))
-            elif part == "trap":
-                kind, place = rest.split()
-                cases[-1].trap = kind, int(place)
-            elif part == "model":
-                cases[-1].model = rest
-            elif part == "budget":
-                cases[-1].budget = int(rest)
-            elif part == "feature":
-                cases[-1].features += rest.replace(",", " ").split()
-            elif part == "interval":
-                cases[-1].interval_ns = duration(rest)
-            elif part == "violations":
-                cases[-1].violations = []
+            else:
+                _head(cases[-1], part, rest)
         elif part == "source":
             cases[-1].source += line + "\n"
+        elif part == "file":
+            cases[-1].files[[*cases[-1].files][-1]] += line + "\n"
         elif part == "violations" and line.strip():
             expected_violations = cases[-1].violations
             assert expected_violations is not None
@@ -87,9 +86,33 @@ def read_cases(path: Path) -> list[Case]:
     return cases
 
 
+def _head(case: Case, part: str, rest: str) -> None:
+    """What stands in brackets, but `[case]`."""
+    match part:
+        case "trap":
+            kind, place = rest.split()
+            case.trap = kind, int(place)
+        case "model":
+            case.model = rest
+        case "budget":
+            case.budget = int(rest)
+        case "feature":
+            case.features += rest.replace(",", " ").split()
+        case "interval":
+            case.interval_ns = duration(rest)
+        case "clock":
+            case.epoch_ns = date_and_time(rest.replace("T", "-"))
+        case "start":
+            case.starts.append(int(rest))
+        case "file":
+            case.files[rest] = ""
+        case "violations":
+            case.violations = []
+
+
 def build(case: Case) -> Program:
     """The checked program; problems fail the test."""
-    checked = check_sources({"case.st": case.source}, MODELS[case.model], case.interval_ns)
+    checked = check_sources({"case.st": case.source, **case.files}, MODELS[case.model], case.interval_ns)
     assert checked.program is not None, "\n".join(map(str, checked.problems))
     return checked.program
 
@@ -138,11 +161,15 @@ def run_case(case: Case, engines: list[Callable[[Program, bytearray], Engine]]) 
     memories = [bytearray(program.initial_image) for _ in engines]
     for memory in memories if case.budget else ():
         memory[Layout.BUDGET_LIMIT : Layout.BUDGET_LIMIT + 8] = (case.budget or 0).to_bytes(8, "little")
+    for memory in memories:
+        memory[Layout.EPOCH : Layout.EPOCH + 8] = case.epoch_ns.to_bytes(8, "little")
     running = [make(program, memory) for make, memory in zip(engines, memories, strict=True)]
     steps = {step.scan: step for step in case.steps}
     last = max(steps)
     for scan in range(last + 1):
         step = steps.get(scan)
+        for memory in memories if scan in case.starts else ():
+            memory[Layout.STARTED : Layout.STARTED + 8] = scan.to_bytes(8, "little")
         for path, value in step.sets if step else ():
             for memory in memories:
                 write(program, path, value, memory)
@@ -152,11 +179,19 @@ def run_case(case: Case, engines: list[Callable[[Program, bytearray], Engine]]) 
             difference = first_difference(program, memories[0], memory)
             assert not difference, f"scan {scan}: {running[0].name} and {running[1].name} differ at {difference}"
         for path, value in step.expected if step else ():
-            shown = find(program, path, memories[0])[2]
+            shown = shown_asked(memories[0]) if path == "asked" else find(program, path, memories[0])[2]
             assert same(shown, value), f"line {step.line if step else 0}, scan {scan}: {path} is {shown}, not {value}"
         check_stop(program, case, stops[0], scan == last)
     if case.violations is not None:
         assert shown_violations(program, memories[0]) == case.violations
+
+
+def shown_asked(memory: bytearray) -> str:
+    """What the program asked for: `instruction:number` each."""
+    count = int.from_bytes(memory[Layout.ASKED_COUNT : Layout.ASKED_COUNT + 4], "little")
+    entries = (memory[Layout.ASKED + 8 * each :][:8] for each in range(count))
+    shown = (f"{int.from_bytes(each[:2], 'little')}:{int.from_bytes(each[4:], 'little')}" for each in entries)
+    return " ".join(shown) or "none"
 
 
 def shown_violations(program: Program, memory: bytearray) -> list[str]:

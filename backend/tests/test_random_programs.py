@@ -2,11 +2,13 @@
 
 import pytest
 
-from tests.programs import INGREDIENTS, generate
-from tests.programs.compare import compare, levels
+from tests.programs import INGREDIENTS, conditions, generate
+from tests.programs.compare import checked, compare, levels
 from tests.programs.reduce import reduced
 
 PROGRAMS = 1000
+CONDITIONS = 200
+"""Programs that a random condition is evaluated on."""
 BATCH = 50
 MOST_REFUSED = BATCH // 5
 """Programs of a batch with a constant that the checker must refuse."""
@@ -24,6 +26,21 @@ def test_engines_agree(first: int) -> None:
                 error.add_note(f"seed {seed} at O{level}:\n{source}")
                 raise
     assert compared >= BATCH - MOST_REFUSED
+
+
+@pytest.mark.parametrize("first", range(0, CONDITIONS, BATCH))
+def test_conditions_hold_after_the_same_scans(first: int) -> None:
+    results = []
+    for seed in range(first, first + BATCH):
+        source = generate(seed)
+        program = checked(source)
+        words = conditions.text(seed, program) if program is not None else "FALSE"
+        try:
+            results.append(conditions.compare(source, words))
+        except Exception as error:
+            error.add_note(f"seed {seed}, {words}:\n{source}")
+            raise
+    assert results.count(True) >= BATCH // 2
 
 
 def test_a_seed_gives_the_same_program_again() -> None:

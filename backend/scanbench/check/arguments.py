@@ -10,6 +10,7 @@ from scanbench.check.program import (
     Const,
     Evaluate,
     Expr,
+    Halt,
     If,
     Load,
     Place,
@@ -17,11 +18,13 @@ from scanbench.check.program import (
     Sequence,
     SetBytes,
     Stmt,
+    TrapKind,
 )
 from scanbench.check.scopes import decode
 from scanbench.check.shown import shown
 from scanbench.check.standard.library import in_library
 from scanbench.check.standard_calls import StandardCallChecker
+from scanbench.check.system_text import STOP, is_system
 from scanbench.check.types import (
     BOOL,
     INT,
@@ -122,7 +125,7 @@ class ArgumentChecker(StandardCallChecker):
         bound = Bindings()
         for member in members:
             if not member.hidden:
-                self._bind(member, given.get(member.name.upper()), bound, node.span)
+                self._bind(member, given.get(member.name.upper()), bound, node.span, name)
         if eno is not None and "ENO" in callee.parameters:
             bound.places["ENO"] = eno
         if this is not None:
@@ -145,13 +148,19 @@ class ArgumentChecker(StandardCallChecker):
         result = self.temporary(made.call.type, span)
         return Sequence(tuple(made.statements(span, result)), Load(result))
 
-    def _bind(self, member: Member, argument: tree.Argument | None, bound: Bindings, span: Span) -> None:
+    def _bind(self, member: Member, argument: tree.Argument | None, bound: Bindings, span: Span, callee: str) -> None:
         key = member.name.upper()
         value = argument.value if argument else None
         if member.section is Section.IN_OUT:
             bound.places[key] = self.in_out(member, value, span, bound.before)
         elif member.section is Section.INPUT:
+            if value is None and is_system(member.span):
+                raise self.report.reject("T004", f"`{callee}` needs a number: `{callee}({member.name} := 1)`.", span)
             bound.inputs[key] = self._input(member, value, span)
+        elif key == STOP and in_library(member.span):
+            stop = bound.places[key] = self.temporary(BOOL, span)
+            trap = self.trap(TrapKind.FATAL, span, f"{callee} stops the PLC")
+            bound.after.append(If(((Load(stop), (Halt(trap, span),)),), (), span))
         elif argument is not None and value is not None:
             target = self.target(value)
             if not argument.negated and _takes(target.type, member.type):

@@ -43,6 +43,14 @@ def place_globals(model: Model, areas: dict[str, int], variables: Record) -> Non
     variables.size += base
 
 
+@dataclass(frozen=True, slots=True)
+class Around:
+    """Programs that run in every scan without a task: common processing, and the plant in its order."""
+
+    common: list[Pou]
+    plant: list[Pou]
+
+
 def assemble(
     report: Report,
     declarations: Declarations,
@@ -52,35 +60,45 @@ def assemble(
     configurations: list[tree.Configuration],
     interval_ns: int,
     where: Span,
+    around: "Around",
 ) -> Program | None:
     """The program, or None when there is nothing that can run."""
-    planner = Planner(report, declarations, pous, variables, interval_ns)
+    planner = Planner(report, declarations, pous, variables, interval_ns, around.plant)
     configuration = configurations[0] if configurations else None
     planned = planner.configured(configuration) if configuration else planner.free()
+    planner.plant()
     for extra in configurations[1:]:
         report.error("D010", "A program has one CONFIGURATION; remove this one.", extra.span)
     if not any(task.runs for task in planned):
-        report.error("D011", "There is no PROGRAM, so nothing would run.", where)
+        alone = " What is in plant/ drives the inputs of a program." if around.plant else ""
+        report.error("D011", f"There is no PROGRAM, so nothing would run.{alone}", where)
         return None
     layout = Layout(declarations.model, place_areas(declarations.model))
     layout.globals = variables
+    layout.symbols = declarations.symbols
     resources = [each.name for each in planner.resources if each.name]
     placing = _Placing(report, pous, align(variables.size))
+    common = placing.one_by_one(around.common)
     placing.programs(planned)
-    wiring = Wiring(report, declarations, pous, variables, list(placing.instances.values()), resources)
+    plant = placing.one_by_one(around.plant)
+    instances = list(placing.instances.values())
+    wiring = Wiring(report, declarations, pous, variables, instances, resources)
     tasks, interval = _tasks(planned, placing, wiring, interval_ns)
     at = align(placing.at)
     if report.checks:
         layout.violations = at
         at = align(at + 8 + Layout.VIOLATION_LIMIT * Layout.VIOLATION_BYTES)
     layout.state_size = at
-    needed = _reachable(order, pous, {each.pou for task in tasks for each in task.programs})
+    needed = _reachable(
+        order, pous, {*around.common, *around.plant, *(each.pou for task in tasks for each in task.programs)}
+    )
     for pou in needed:
         pou.frame_offset = at
         at = align(at + pou.frame.size)
     layout.size = at
-    image = _initial_image(layout, declarations, variables, list(placing.instances.values()))
-    program = Program(tuple(needed), tasks, interval, tuple(report.traps), layout, image, tuple(report.checks))
+    image = _initial_image(layout, declarations, variables, [*common, *instances, *plant])
+    traps, checks = tuple(report.traps), tuple(report.checks)
+    program = Program(tuple(needed), tasks, interval, traps, layout, image, checks, common=common, plant=plant)
     program = Settings(report, declarations, program, resources).apply(configuration)
     return replace(program, checks=tuple(report.checks))
 
@@ -125,8 +143,19 @@ class _Placing:
             for each in task.runs:
                 if isinstance(each, PlannedInstance):
                     self.at = align(self.at)
-                    self.instances[each.name.upper()] = ProgramInstance(each.name, each.pou, self.at)
+                    retain = each.declaration is not None and each.declaration.retain
+                    made = ProgramInstance(each.name, each.pou, self.at, retain=retain)
+                    self.instances[each.name.upper()] = made
                     self.at += each.pou.instance.size
+
+    def one_by_one(self, pous: list[Pou]) -> tuple[ProgramInstance, ...]:
+        """Instances of what runs around the tasks, named as the programs are."""
+        made = []
+        for pou in pous:
+            self.at = align(self.at)
+            made.append(ProgramInstance(pou.name.rpartition(".")[2], pou, self.at))
+            self.at += pou.instance.size
+        return tuple(made)
 
     def flag(self, name: str) -> Place:
         """A BOOL of its own."""

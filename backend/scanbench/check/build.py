@@ -10,7 +10,7 @@ from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 
-from scanbench.check.assemble import assemble, place_areas, place_globals
+from scanbench.check.assemble import Around, assemble, place_areas, place_globals
 from scanbench.check.calls import CallChecker
 from scanbench.check.class_rules import check_classes, check_instances
 from scanbench.check.classes import Method, called_pou, collect, declare_methods
@@ -20,12 +20,16 @@ from scanbench.check.declare import Declarations
 from scanbench.check.generic import is_generic
 from scanbench.check.names import Space, qualified
 from scanbench.check.order import Order
+from scanbench.check.plant import Plant, plant_files
 from scanbench.check.program import Assign, Base, CheckSite, Const, Expr, Place, Pou, Program
 from scanbench.check.scopes import Pous, Scope, place_of
 from scanbench.check.standard.library import in_library
 from scanbench.check.statements import StatementChecker
+from scanbench.check.stimulus import StimulusChecker
+from scanbench.check.system import System, system_of
+from scanbench.check.system_text import COMMON, is_system
 from scanbench.check.types import BOOL, Kind, Member, Record, Reference, Section, Type
-from scanbench.plcmodel.model import Model
+from scanbench.plcmodel.model import Model, Who
 from scanbench.problems import Problem, Severity, Span
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunked, read
@@ -125,6 +129,10 @@ class Checker:
     pous: Pous = field(default_factory=Pous)
     declarations: Declarations = field(init=False)
     names: Collector = field(init=False)
+    system: System = field(init=False)
+    plant: Plant = field(init=False)
+    stimuli: dict[tree.Stimulus, Pou] = field(default_factory=dict)
+    """The programs that tables of inputs became."""
     declared: tuple[int, int, int] = (0, 0, 0)
     """What was reported of the declarations."""
     frames: dict[Pou, tuple[dict[str, Member], int, int]] = field(default_factory=dict)
@@ -145,7 +153,10 @@ class Checker:
         areas = place_areas(self.model)
         self.declarations = Declarations(self.report, self.model, areas, self._constant)
         self.declarations.reference_of = self._reference
-        self.names = Collector(self.report, self.declarations, self.enabling)
+        self.system = system_of(self.model, areas)
+        self.declarations.symbols = self.system.symbols
+        self.names = Collector(self.report, self.declarations, self.system.file, self.enabling)
+        self.plant = Plant(self.report, self.pous, plant_files(file.name for file in self.parsed))
         self.names.collect(self.parsed)
         self.pous.classes = collect(self.declarations)
         declare_globals(self.parsed, self.globals, self.declarations, self.pous)
@@ -176,12 +187,24 @@ class Checker:
         """What all bodies together make."""
         self.report.undo(self.declared)
         self._check_instances()
-        self._check_library()
-        order = self._order()
+        self._check_stimuli()
+        common = self._common()
+        self._check_library(common)
+        self.plant.check(self.parsed)
+        order = self._order(common)
         self.report.join(order)
         configurations = [each for file in self.parsed for each in file.configurations]
+        around = Around(common, self.plant.programs())
         return assemble(
-            self.report, self.declarations, self.pous, self.globals, order, configurations, interval_ns, self._end()
+            self.report,
+            self.declarations,
+            self.pous,
+            self.globals,
+            order,
+            configurations,
+            interval_ns,
+            self._end(),
+            around,
         )
 
     def _end(self) -> Span:
@@ -271,7 +294,16 @@ class Checker:
             externals = self._externals(declaration, pou, instance, space)
             visible = Record("GLOBAL", Kind.STRUCT) if pou.inline else self.globals  # the library sees none of them
             scope = Scope(pou.name, visible, instance, pou.frame, externals, this=this, space=space)
+            scope.system, scope.who = self._rights(declaration.span)
             pou.body = StatementChecker(self.report, self.declarations, self.pous, scope, pou).body(declaration.body)
+
+    def _rights(self, span: Span) -> tuple[tuple[Record, ...], Who]:
+        """What every program knows that stands here, and with whose rights it writes."""
+        if is_system(span):
+            return (self.system.words,), "engine"
+        if in_library(span):
+            return (), "program"
+        return (self.system.symbols,), "engine" if self.plant.holds(span) else "program"
 
     def _externals(
         self, declaration: tree.PouDeclaration, pou: Pou, instance: Record, space: Space
@@ -305,11 +337,56 @@ class Checker:
             for pou, declaration in [(each.pou, each.declaration) for each in fresh]:
                 self._check(pou, declaration, pou.instance, Space(declaration.namespace, declaration.using), None)
 
-    def _check_library(self) -> None:
+    def _check_stimuli(self) -> None:
+        """Makes the programs of the tables in plant/: once, as they depend on declarations only."""
+        tables = {stimulus for file in self.parsed for stimulus in file.stimuli}
+        for stimulus in [each for each in self.stimuli if each not in tables]:
+            gone = self.stimuli.pop(stimulus)
+            self.report.parts.pop(gone, None)
+            if self.pous.blocks.get(gone.name.upper()) is gone:
+                del self.pous.blocks[gone.name.upper()]
+        for file in self.parsed:
+            for stimulus in file.stimuli:
+                if stimulus not in self.stimuli:
+                    with self.report.apart() as part:
+                        made = StimulusChecker(
+                            self.report, self.declarations, self.pous, self.globals, stimulus, self._program_variables()
+                        ).make()
+                    self.report.parts[made] = part
+                    self.stimuli[stimulus] = made
+        for stimulus, pou in self.stimuli.items():
+            first = self.pous.blocks.setdefault(pou.name.upper(), pou)
+            if first is not pou:
+                self.report.error(
+                    "D001", f"This file's program `{pou.name}` is declared already in {first.span}; rename the file.",
+                    stimulus.span,
+                )  # fmt: skip
+
+    def _program_variables(self) -> dict[str, Record]:
+        """By the name of the program instance."""
+        programs = {
+            key: pou.instance for key, pou in self.pous.blocks.items() if pou.kind == "program" and not pou.inline
+        }
+        for configuration in (each for file in self.parsed for each in file.configurations):
+            resources = configuration.resources
+            for each in (
+                *configuration.programs,
+                *(program for resource in resources for program in resource.programs),
+            ):
+                if each.type_name.upper() in programs:
+                    programs[each.name.upper()] = programs[each.type_name.upper()]
+        return programs
+
+    def _common(self) -> list[Pou]:
+        """The program of common processing."""
+        key = next((key for key, each in self.names.library.items() if each.name == COMMON), "")
+        return [self.pous.blocks[key]] if key else []
+
+    def _check_library(self, common: list[Pou]) -> None:
         """Bodies of the library POUs that are used, and of those that they use."""
         done: set[Pou] = set()
         while True:
-            used = [callee for called in list(self.pous.uses.values()) for callee in called]
+            used = [*common, *(callee for called in list(self.pous.uses.values()) for callee in called)]
             fresh = [pou for pou in used if pou.inline and pou not in done]
             if not fresh:
                 return
@@ -317,8 +394,10 @@ class Checker:
                 done.add(pou)
                 if not pou.body:
                     self.check_body(self.names.library[pou.name.upper()])
+                    found = self.report.parts[pou].problems
+                    assert not found, found  # the library is ours
 
-    def _order(self) -> list[Pou]:
+    def _order(self, common: list[Pou]) -> list[Pou]:
         methods = [each.pou for each in self.pous.classes.methods() if each.pou is not None]
         roots = (*self.pous.functions.values(), *self.pous.blocks.values(), *methods)
-        return Order(self.report, self.pous).of(pou for pou in roots if not pou.inline)
+        return Order(self.report, self.pous).of([*common, *(pou for pou in roots if not pou.inline)])

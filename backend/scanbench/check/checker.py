@@ -65,9 +65,5 @@ class PouChecker(ABC):
         """A reference to an instance, where a variable of an interface that it implements wants one."""
 
     @abstractmethod
-    def is_derived(self, record: Record, base: Record) -> bool:
-        """Whether a block is `base`, or extends it in any number of steps."""
-
-    @abstractmethod
     def may_use(self, record: Record, member: Member) -> bool:
         """Whether this POU may use the member of a block, which is not an input or output."""

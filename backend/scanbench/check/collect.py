@@ -21,6 +21,8 @@ class Collector:
 
     report: Report
     declarations: Declarations
+    system: tree.File
+    """What the model adds to the library."""
     enabling: frozenset[str]
     """Files in whose text EN or ENO occurs."""
     functions: dict[str, tree.PouDeclaration] = field(default_factory=dict)
@@ -52,7 +54,7 @@ class Collector:
                 made = self.with_enable(key, pou) if file.name in self.enabling else pou
                 self._register(key, made)
                 self.user.append(made)
-        pous = [pou for file in library() for pou in file.pous]
+        pous = [pou for file in (*library(), self.system) for pou in file.pous]
         hidden = {pou.name.upper() for pou in pous} & self._seen.keys()
         for pou in pous:
             key = pou.name.upper()
@@ -156,8 +158,10 @@ class _Lists:
         if section.list_name and key in variables.members and self.lists.get(key, "") not in ("", section.list_name):
             self.pous.ambiguous.setdefault(key, [f"{self.lists[key]}.{variable.name}"]).append(own)
             name = own
-        if self.declarations.declare(variables, replace(variable, name=name), Section.GLOBAL, constant) is None:
+        member = self.declarations.declare(variables, replace(variable, name=name), Section.GLOBAL, constant)
+        if member is None:
             return
+        member.retain = bool({"RETAIN", "PERSISTENT"} & set(section.qualifiers))
         self.lists.setdefault(name.upper(), section.list_name)
         if section.list_name:
             self.pous.aliases[own.upper()] = name

@@ -1,5 +1,6 @@
 """CONFIGURATION -> which program instances run in which task, with which names. Nothing has a place yet."""
 
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from scanbench.check.context import Rejected, Report, did_you_mean
@@ -56,22 +57,39 @@ class Resource:
 
 class Planner:
     def __init__(
-        self, report: Report, declarations: Declarations, pous: Pous, variables: Record, interval_ns: int
+        self,
+        report: Report,
+        declarations: Declarations,
+        pous: Pous,
+        variables: Record,
+        interval_ns: int,
+        plant: Sequence[Pou] = (),
     ) -> None:
         self._report = report
         self._variables = variables
         self._declarations = declarations
         self._pous = pous
         self._interval_ns = interval_ns
+        self._plant = plant
         self._names: dict[str, Span] = {}
         self.resources: list[Resource] = []
+
+    def plant(self) -> None:
+        """Names of the plant's programs, which nothing else may have."""
+        for pou in self._plant:
+            self._is_free(pou.name.rpartition(".")[2], pou.span)
+
+    def _programs(self) -> list[Pou]:
+        """Programs that a task may run."""
+        programs = (pou for pou in self._pous.blocks.values() if pou.kind == "program" and not pou.inline)
+        return [pou for pou in programs if pou not in self._plant]
 
     def free(self) -> list[PlannedTask]:
         """Without a CONFIGURATION every PROGRAM runs, in order of declaration, in one task."""
         task = PlannedTask("Main", self._interval_ns)
-        for pou in self._pous.blocks.values():
+        for pou in self._programs():
             name = pou.name.rpartition(".")[2]  # of a namespace: the dot is for resources
-            if pou.kind == "program" and self._is_free(name, pou.span):
+            if self._is_free(name, pou.span):
                 task.runs.append(PlannedInstance(name, pou))
         return [task]
 
@@ -162,10 +180,16 @@ class Planner:
     def _pou(self, program: tree.ProgramDeclaration) -> Pou | None:
         key = self._declarations.names.find(program.type_name, program.span, self._pous.blocks)
         pou = self._pous.blocks.get(key or "")
-        if pou is not None and pou.kind == "program":
+        if pou is not None and pou in self._plant:
+            self._report.error(
+                "D010", f"`{program.type_name}` is of the plant, which runs by itself in every scan; take it out here.",
+                program.span,
+            )  # fmt: skip
+            return None
+        programs = self._programs()
+        if pou in programs:
             return pou
-        programs = [each.name for each in self._pous.blocks.values() if each.kind == "program"]
-        hint = did_you_mean(program.type_name, programs)
+        hint = did_you_mean(program.type_name, [each.name for each in programs])
         self._report.error("D010", f"There is no PROGRAM `{program.type_name}`.{hint}", program.span)
         return None
 

@@ -26,7 +26,12 @@ class Wiring:
         resources: list[str],
     ) -> None:
         self._report = report
-        scope = Scope("CONFIGURATION", variables, externals=_roots(variables, instances, resources))
+        scope = Scope(
+            "CONFIGURATION",
+            variables,
+            externals=_roots(variables, instances, resources),
+            system=(declarations.symbols,),
+        )
         self._checker = CallChecker(report, declarations, pous, scope, None)
 
     def event(self, node: tree.Expression) -> Place | None:

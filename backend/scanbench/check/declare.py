@@ -84,6 +84,8 @@ class Declarations:
     start_references: list[tuple[Record, Member, tree.Expression]] = field(default_factory=list)
     """References that start with REF(variable): owner, variable, what it starts with."""
     reference_of: ReferenceOf = field(default=lambda owner, node, type: Const(NULL, 0))
+    symbols: Record = field(default_factory=lambda: Record("", Kind.STRUCT))
+    """Variables that the model gives to every program."""
     names: Names = field(init=False)
     values: EnumerationValues = field(init=False)
     shells: dict[str, Record] = field(default_factory=dict)
@@ -270,6 +272,7 @@ class Declarations:
                 if member is not None:
                     member.access = section.access if kind is Section.VAR else "PUBLIC"
                     member.retain = bool({"RETAIN", "PERSISTENT"} & set(section.qualifiers))
+                    member.non_retain = "NON_RETAIN" in section.qualifiers
         record.close()
         return record
 

@@ -93,7 +93,7 @@ class ExpressionChecker(OperatorChecker):
                 return self.form(node) or self.call(node, wanted)
             case tree.TypedName(type_name, name, span):
                 return self.value_of_type(type_name, name, span)
-            case tree.Name(name, span) if name.upper() not in INSTANCE and self.scope.find(name) is None:
+            case tree.Name(name, span) if name.upper() not in INSTANCE and self._is_free(name):
                 return self._unbound(node, name, wanted, span)
             case tree.PartialAccess():
                 return self._part_value(node)
@@ -101,6 +101,11 @@ class ExpressionChecker(OperatorChecker):
                 return self._element(node)
             case _:
                 return self._read(node)
+
+    def _is_free(self, name: str) -> bool:
+        """Whether the program declares no variable of this name; an enumeration's value goes before what the model has."""
+        found = self.scope.find(name)
+        return found is None or found[2] in self.scope.system
 
     def form(self, node: tree.Call) -> Expr | None:
         """One of `FORMS`, unless the user declared something of that name."""

@@ -35,7 +35,18 @@ class Layout:
     """u32 entries in use of the force table."""
     FORCES: ClassVar[int] = 48
     """The force table: 8 bytes an entry, see engines/engine.py."""
-    FORCE_LIMIT: ClassVar[int] = 504
+    FORCE_LIMIT: ClassVar[int] = 480
+    EPOCH: ClassVar[int] = 3888
+    """i64 ns since 1970: what the PLC's clock showed at virtual time 0. Its clock is EPOCH + CLOCK."""
+    STARTED: ClassVar[int] = 3896
+    """u64 number of the first scan since the program last started: the scan of the first cycle flag."""
+    ASKED_COUNT: ClassVar[int] = 3904
+    """u32 what the program asked for in the scan that just ran (FAL and the like), up to `ASKED_LIMIT`."""
+    ASKED: ClassVar[int] = 3912
+    """Entries of 8 bytes: u16 index into `Model.instructions`, u16 0, u32 number that was passed."""
+    ASKED_LIMIT: ClassVar[int] = 16
+    INTERVAL: ClassVar[int] = 4040
+    """i64 ns: length of a scan in virtual time. The engine writes it in every scan, from the program."""
     SUBRANGE_ERROR: ClassVar[int] = 4080
     """BOOL `_SubrangeError`: a violation since the program or a tool last cleared it."""
     SUBRANGE_COUNT: ClassVar[int] = 4084
@@ -54,6 +65,8 @@ class Layout:
     """Offset of each area of the model."""
     globals: Record | None = None
     """Members with absolute offsets."""
+    symbols: Record | None = None
+    """Variables that the model gives to every program; located, all of them."""
     state_size: int = 0
     size: int = 0
     violations: int = 0

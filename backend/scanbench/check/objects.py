@@ -6,7 +6,7 @@ from scanbench.check.arguments import ArgumentChecker
 from scanbench.check.classes import Class
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.program import Base, Place, TrapKind, TrapSite
-from scanbench.check.types import Member, Record, Section, is_derived
+from scanbench.check.types import Member, Record, Section
 from scanbench.problems import Span
 from scanbench.syntax import tree
 
@@ -123,9 +123,6 @@ class ObjectChecker(ArgumentChecker):
         if owner is not None and owner.find(name.upper()) is not None:
             return self.report.reject("T010", f"`{name}` is a method; call it with `{name}(...)`.", span)
         return super().unknown(name, span)
-
-    def is_derived(self, record: Record, base: Record) -> bool:
-        return is_derived(record, base)
 
     def may_use(self, record: Record, member: Member) -> bool:
         if member.hidden or member.section is not Section.VAR:

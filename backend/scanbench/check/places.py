@@ -80,10 +80,11 @@ class PlaceChecker(SubrangeChecker):
         return self.place(node)[0]
 
     def _width(self, text: str) -> Elementary:
-        letters = "".join(char for char in text[1:] if char.isalpha()).upper()
-        if len(letters) > 1 and letters[-1] in WIDTHS:
-            return WIDTHS[letters[-1]]
-        return BOOL if "." in text else ELEMENTARY["WORD"]
+        """The type of an address that stands in a statement: as wide as the model says."""
+        found = self.declarations.model.locate(text)
+        if found is None:
+            return BOOL if "." in text else ELEMENTARY["WORD"]
+        return next((type for type in WIDTHS.values() if type.bits == found.bits), ELEMENTARY["WORD"])
 
     # ---- names and members ------------------------------------------------------------------------------
 
@@ -344,7 +345,7 @@ class PlaceChecker(SubrangeChecker):
             start = self.declarations.areas[area.name]
             if start <= place.offset < start + area.size:
                 word = (place.offset - start) // 2
-                if area.access(word, "program") != "write":
+                if area.access(word, self.scope.who) != "write":
                     where = model.format(area, place.offset - start, place.bit, 1 if place.bit is not None else 16)
                     raise self.report.reject(
                         "T011", f"{where} is read-only for the program on a {model.name}; it can only be read.", span

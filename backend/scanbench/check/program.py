@@ -53,6 +53,8 @@ class TrapKind(StrEnum):
     LOOP = "loop"
     ABSTRACT = "abstract"
     """A call whose instance has no body for it."""
+    FATAL = "fatal"
+    """The program called an instruction that stops the PLC (FALS and the like): see `Layout.ASKED`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -387,6 +389,14 @@ class Jump:
     span: Span
 
 
+@dataclass(frozen=True, slots=True)
+class Halt:
+    """Traps, always."""
+
+    trap: int
+    span: Span
+
+
 Stmt = (
     Assign
     | SetBytes
@@ -402,6 +412,7 @@ Stmt = (
     | Return
     | Blocks
     | Jump
+    | Halt
 )
 
 
@@ -454,6 +465,8 @@ class ProgramInstance:
     offset: int
     before: tuple[Stmt, ...] = ()
     after: tuple[Stmt, ...] = ()
+    retain: bool = False
+    """Declared as PROGRAM RETAIN: so are its variables, where they say nothing else themselves."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -498,3 +511,18 @@ class Program:
     initial_image: bytes
     checks: tuple[CheckSite, ...] = ()
     accesses: tuple[AccessPath, ...] = ()
+    common: tuple[ProgramInstance, ...] = ()
+    """Phase 1: keeps the model's system words alive (first cycle flag, clock pulses, clock). Made from the model."""
+    plant: tuple[ProgramInstance, ...] = ()
+    """Phase 2: the project's `plant/`: programs and stimuli that drive the inputs, before the forces."""
+
+    @property
+    def instances(self) -> tuple[ProgramInstance, ...]:
+        """Every instance of a program: of common processing, of the tasks, of the plant. Blocks that a task runs are none."""
+        tasks = (each for task in self.tasks for each in task.programs if each.pou.kind == "program")
+        return (*self.common, *tasks, *self.plant)
+
+    @property
+    def shown(self) -> tuple[ProgramInstance, ...]:
+        """The same without what was made from the model."""
+        return self.instances[len(self.common) :]

@@ -20,6 +20,7 @@ from scanbench.check.types import (
     Record,
     Reference,
     Type,
+    is_derived,
 )
 from scanbench.check.untyped import ANY_INT, settle
 from scanbench.problems import Span
@@ -90,7 +91,7 @@ class ReferenceChecker(PlaceChecker):
         a, b = source.target, target.target
         if isinstance(a, ArrayType) and a == b:
             return True
-        return isinstance(a, Record) and isinstance(b, Record) and self.is_derived(a, b)
+        return isinstance(a, Record) and isinstance(b, Record) and is_derived(a, b)
 
     def as_reference(self, expr: Expr, type: Reference, span: Span) -> Expr | None:
         """The value as a reference of this type, or None."""

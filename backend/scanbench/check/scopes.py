@@ -23,6 +23,7 @@ from scanbench.check.types import (
     Type,
     base_of,
 )
+from scanbench.plcmodel.model import Who
 from scanbench.problems import Span
 from scanbench.syntax import tree
 
@@ -31,7 +32,8 @@ if TYPE_CHECKING:
 
 _NOWHERE = Span("", 1, 1, 1, 1)
 SYSTEM = Record("$SYSTEM", Kind.STRUCT)
-"""Variables that every program has: of the subrange checks."""
+"""Variables that every program has: of the subrange checks. An engine writes beside the program what a record of this name
+holds."""
 SYSTEM.place_at(Member("_SubrangeError", BOOL, Section.GLOBAL, _NOWHERE), Layout.SUBRANGE_ERROR)
 SYSTEM.place_at(Member("_SubrangeErrorCount", UDINT, Section.GLOBAL, _NOWHERE, constant=True), Layout.SUBRANGE_COUNT)
 
@@ -51,6 +53,10 @@ class Scope:
     """Slot of THIS, in a method: the variables of the instance stand behind it."""
     space: Space = field(default_factory=Space)
     """The namespaces whose global variables are visible."""
+    system: tuple[Record, ...] = ()
+    """Variables that every program has: the nearest of all to be hidden."""
+    who: Who = "program"
+    """With whose rights it writes to areas of the model."""
 
     def find(self, name: str) -> tuple[Member, Base, Record] | None:
         """The member, what its offset counts from, and who owns it."""
@@ -67,13 +73,15 @@ class Scope:
         for full in self.space.candidates(key):
             if full in self.globals.members:
                 return self.globals.members[full], Base.IMAGE, self.globals
-        if key in SYSTEM.members and not self.constants:
-            return SYSTEM.members[key], Base.IMAGE, SYSTEM
+        if not self.constants:
+            for owner in (SYSTEM, *self.system):
+                if key in owner.members:
+                    return owner.members[key], Base.IMAGE, owner
         return None
 
     def names(self) -> list[str]:
         """Everything that `find` would find, for near matches."""
-        owners = [owner for owner in (self.frame, self.instance, self.globals) if owner is not None]
+        owners = [owner for owner in (self.frame, self.instance, self.globals, *self.system) if owner is not None]
         return [member.name for owner in owners for member in owner.members.values() if not member.hidden]
 
 
@@ -81,7 +89,7 @@ def place_of(member: Member, base: Base, owner: Record, null_trap: int) -> Place
     """Where a variable lives; an in-out lives where its slot refers to."""
     if member.located:
         return Place(member.type, Base.IMAGE, member.offset, bit=member.bit, variable="@")
-    if owner is SYSTEM:
+    if owner.name == SYSTEM.name:
         return Place(member.type, base, member.offset)  # an engine writes it beside the program
     prefix = "frame " if base is Base.FRAME else ""
     variable = f"{prefix}{member.home or owner.name}.{member.name}".upper()

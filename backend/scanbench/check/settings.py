@@ -126,10 +126,8 @@ def _incomplete(program: Program) -> Iterator[Waiting]:
     layout = program.layout
     if layout.globals is not None:
         yield from _waiting("", layout.globals, 0)
-    for task in program.tasks:
-        for instance in task.programs:
-            if instance.pou.kind == "program":
-                yield from _waiting(f"{instance.name}.", instance.pou.instance, instance.offset)
+    for instance in program.instances:
+        yield from _waiting(f"{instance.name}.", instance.pou.instance, instance.offset)
 
 
 def _waiting(path: str, record: Record, offset: int) -> Iterator[Waiting]:

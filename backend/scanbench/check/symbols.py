@@ -119,6 +119,12 @@ def complete(program: Program, text: str, limit: int) -> list[Symbol]:
                 found.append(symbol)
                 if len(found) >= limit:
                     break
+        if not owner and start:
+            given = (_root(program, name) for name in _given(program) if name.startswith(start))
+            known = {symbol.path.upper() for symbol in found}
+            found += [each for each in given if each is not None and each.path.upper() not in known][
+                : limit - len(found)
+            ]
     except UnknownPath:  # the name of a resource, perhaps
         found += [symbol for symbol in _roots(program) if symbol.path.upper().startswith(start)][:limit]
     if len(found) < limit and text:
@@ -131,10 +137,8 @@ def complete(program: Program, text: str, limit: int) -> list[Symbol]:
 
 
 def _roots(program: Program) -> Iterator[Symbol]:
-    for task in program.tasks:
-        for instance in task.programs:
-            if instance.pou.kind == "program":
-                yield Symbol(instance.name, instance.name, instance.pou.instance, "PROGRAM", instance.offset)
+    for instance in program.shown:
+        yield Symbol(instance.name, instance.name, instance.pou.instance, "PROGRAM", instance.offset)
     owner = program.layout.globals
     for member in owner.members.values() if owner else ():
         if member.hidden:
@@ -146,12 +150,19 @@ def _root(program: Program, name: str) -> Symbol | None:
     upper = name.upper()
     found = next((symbol for symbol in _roots(program) if symbol.name.upper() == upper), None)
     access = next((each for each in program.accesses if each.name.upper() == upper), None)
-    if found is None and upper in SYSTEM.members:
-        return _member(Symbol("", "", BOOL, "", 0), SYSTEM.members[upper], SYSTEM.members[upper].name)
+    if found is None and access is None:
+        given = _given(program).get(upper)
+        return None if given is None else _checked(program, _member(Symbol("", "", BOOL, "", 0), given, given.name))
     if found is not None or access is None:
         return found
     symbol = resolve(program, access.path)
     return replace(symbol, path=access.name, name=access.name, constant=symbol.constant or not access.writable)
+
+
+def _given(program: Program) -> dict[str, Member]:
+    """Variables that every program has, by upper-case name; its own of that name come first."""
+    named = program.layout.symbols
+    return {**(named.members if named is not None else {}), **SYSTEM.members}
 
 
 def _member(owner: Symbol, member: Member, path: str) -> Symbol:
@@ -261,11 +272,9 @@ def _reason(program: Program, text: str) -> str:
 def _near(program: Program, text: str) -> tuple[str, ...]:
     """Near matches among the roots, and among the members of programs for a bare name."""
     paths = {symbol.path.upper(): symbol.path for symbol in _roots(program)}
-    for task in program.tasks:
-        for instance in task.programs:
-            for member in instance.pou.instance.members.values():
-                if member.hidden:
-                    continue
+    for instance in program.shown:
+        for member in instance.pou.instance.members.values():
+            if not member.hidden:
                 paths[member.name.upper()] = f"{instance.name}.{member.name}"
     return tuple(paths[each] for each in get_close_matches(text.upper(), paths, 3, 0.5))
 
@@ -292,7 +301,8 @@ def at_offset(program: Program, offset: int) -> str:
     if found is not None:
         area, byte = found
         return program.layout.model.format(area, byte - byte % 2, None, 16)
-    for symbol in _roots(program):
+    common = (Symbol(each.name, each.name, each.pou.instance, "PROGRAM", each.offset) for each in program.common)
+    for symbol in (*_roots(program), *common):
         if not symbol.slots and symbol.offset <= offset < symbol.offset + symbol.type.size:
             return _descend(program, symbol, offset)
     return f"image+{offset}"

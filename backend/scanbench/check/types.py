@@ -228,6 +228,8 @@ class Member:
     """PUBLIC, PROTECTED, PRIVATE or INTERNAL."""
     retain: bool = False
     """RETAIN or PERSISTENT."""
+    non_retain: bool = False
+    """NON_RETAIN: not retained, even where the instance around it is."""
     hidden: bool = False
     """Made by the compiler (a name with `$` in it): never shown."""
     incomplete: str = ""

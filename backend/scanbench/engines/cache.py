@@ -1,9 +1,11 @@
 """What was built before, kept by key in a directory. Never in the way: what cannot be read or written is built again."""
 
+import fcntl
 import hashlib
 import os
 import tempfile
-from contextlib import suppress
+from collections.abc import Iterator
+from contextlib import contextmanager, suppress
 from pathlib import Path
 
 _MAGIC = b"scanbench 1\n"
@@ -59,6 +61,25 @@ class BlobCache:
         if self._writes % _WRITES_BETWEEN_LOOKS == 0:
             self._make_room()
         self._writes += 1
+
+    @contextmanager
+    def claimed(self, key: str) -> Iterator[None]:
+        """Waits while another process has claimed the key: it may be making just what this one is about to make.
+
+        The next look into the cache then finds that. A process that ends gives up its claims.
+        """
+        try:
+            self._directory.mkdir(parents=True, exist_ok=True)
+            handle = os.open(self._directory / f"{key}.claim", os.O_RDWR | os.O_CREAT | os.O_CLOEXEC, 0o600)
+        except OSError:
+            yield
+            return
+        try:
+            with suppress(OSError):  # a file system without locks: it is made twice
+                fcntl.flock(handle, fcntl.LOCK_EX)
+            yield
+        finally:
+            os.close(handle)
 
     def _path(self, key: str) -> Path:
         return self._directory / f"{key}{_SUFFIX}"

@@ -2,8 +2,9 @@
 
 One scan, in the order of the design:
 
-1. common processing: `Layout.CLOCK` := `Layout.SCAN` * interval; `Layout.BUDGET` := `Layout.BUDGET_LIMIT`
-2. input refresh (inputs are changed in the image from outside, in the seam), then the force table is applied
+1. common processing: `Layout.CLOCK` := `Layout.SCAN` * interval; `Layout.BUDGET` := `Layout.BUDGET_LIMIT`;
+   `Layout.INTERVAL` := interval; `Layout.ASKED_COUNT` := 0; then `Program.common`
+2. input refresh (`Program.plant`; inputs are also changed from outside, in the seam), then the force table is applied
 3. the user program: every due task in order, every program instance of it in order
 4. the force table is applied again; output refresh
 and, when all went well, `Layout.SCAN` += 1.
@@ -16,6 +17,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from enum import StrEnum
 
+from scanbench.check.condition import Condition
 from scanbench.check.program import Program
 
 
@@ -24,6 +26,11 @@ class Reason(StrEnum):
     """The scans asked for are run."""
     KNOCKED = "knocked"
     """Somebody called `knock`: the engine stands between two scans."""
+    ASKED = "asked"
+    """The program asked for something (`Layout.ASKED_COUNT` is not 0) in the scan that just ended."""
+    CONDITION = "condition"
+    """The condition holds after the scan that just ended. It comes before ASKED where both are so: what was asked for
+    stands in the image in any case, but that a condition held is not found out later."""
     TRAP = "trap"
     """The program trapped; the scan is not counted, phase 4 did not run."""
 
@@ -47,11 +54,13 @@ class Pace:
     period_ns: int
     deadline_ns: int
     late_ns: int = 0
-    """Sum of the lateness of scan starts."""
+    """Sum of the lateness of scan starts. A deadline that was moved counts as kept."""
     worst_ns: int = 0
     busy_ns: int = 0
     """Sum of the time spent inside scans."""
     scans: int = 0
+    late_scans: int = 0
+    """Scans that began after the next one was due; a moved deadline counts as one."""
 
 
 class Engine(ABC):
@@ -65,11 +74,21 @@ class Engine(ABC):
 
     @abstractmethod
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
-        """Runs up to `scans` scans, as fast as possible (no pace, or period 0) or at a pace; returns at once after a
-        knock or a trap. A knock that is pending when the last scan is done is reported as KNOCKED.
+        """Runs up to `scans` scans, as fast as possible (no pace, or period 0) or at a pace; returns after a scan in
+        which the program asked for something, or after which the condition holds, and at once after a knock or a trap.
+        A knock that is pending when the last scan is done is reported as KNOCKED.
 
-        A knock that came before the call makes it return without running a scan; returning clears the knock.
-        While waiting for a deadline it looks for a knock at least every 2 ms.
+        A knock that came before the call makes it return without running a scan. Returning for any reason clears the
+        knock: whoever knocks puts what he wants where the caller looks after every return. A knock ends a wait for a
+        deadline at once.
+        """
+
+    @abstractmethod
+    def stop_when(self, condition: Condition | None) -> None:
+        """From now on `run` comes back after every scan after which the condition, made for this engine's program,
+        holds; None takes it away. Not while `run` is running. A trap inside of the condition is FALSE.
+
+        The condition is the engine's: whoever swaps the engine gives the next one its condition.
         """
 
     @abstractmethod

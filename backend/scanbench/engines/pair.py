@@ -1,5 +1,6 @@
 """Both engines at once: every scan runs on each, and the images must agree byte for byte."""
 
+from scanbench.check.condition import Condition
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
 from scanbench.check.symbols import at_offset
@@ -32,18 +33,26 @@ class PairEngine(Engine):
     def knock(self) -> None:
         self.native.knock()
 
+    def stop_when(self, condition: Condition | None) -> None:
+        self.native.stop_when(condition)
+        self.reference.stop_when(condition)
+
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
         for _ in range(scans):
-            scan = int.from_bytes(self.memory[Layout.SCAN : Layout.SCAN + 8], "little")
+            scan = self._scan
             self.shadow[:] = self.memory
             stop = self.native.run(1, pace)
-            if stop.reason is Reason.KNOCKED:
+            if stop.reason is Reason.KNOCKED and self._scan == scan:
                 return stop
             other = self.reference.run(1)
-            self._compare(scan, stop, other)
-            if stop.reason is Reason.TRAP:
+            self._compare(scan, Stop(Reason.DONE) if stop.reason is Reason.KNOCKED else stop, other)
+            if stop.reason is not Reason.DONE:
                 return stop
         return Stop(Reason.DONE)
+
+    @property
+    def _scan(self) -> int:
+        return int.from_bytes(self.memory[Layout.SCAN : Layout.SCAN + 8], "little")
 
     def _compare(self, scan: int, stop: Stop, other: Stop) -> None:
         size = self.program.layout.state_size
@@ -55,7 +64,12 @@ class PairEngine(Engine):
             raise Differs(scan, f"{at_offset(self.program, at)} (byte {at} of the image)", *values)
 
     def _say(self, stop: Stop) -> str:
-        if stop.reason is not Reason.TRAP:
-            return "went on"
-        site = self.program.traps[stop.trap - 1]
-        return f"trapped at {site.span}: {site.message}"
+        match stop.reason:
+            case Reason.TRAP:
+                site = self.program.traps[stop.trap - 1]
+                return f"trapped at {site.span}: {site.message}"
+            case Reason.ASKED:
+                return "asked for something"
+            case Reason.CONDITION:
+                return "found that the condition holds"
+        return "went on"

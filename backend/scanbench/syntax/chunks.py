@@ -5,7 +5,7 @@ from dataclasses import dataclass, field
 from scanbench.problems import Problem
 from scanbench.syntax import tree
 from scanbench.syntax.lexer import AHEAD, KEYWORDS, Lex, Tokens, tokenize
-from scanbench.syntax.parse_file import MAX_SIZE, is_exported, parse_file
+from scanbench.syntax.parse_file import MAX_SIZE, is_exported, is_stimulus, parse_file
 from scanbench.syntax.parse_st import StParser
 from scanbench.syntax.source import Source
 
@@ -57,6 +57,7 @@ class Chunked:
             whole.pous += chunk.file.pous
             whole.configurations += chunk.file.configurations
             whole.internal += chunk.file.internal
+            whole.stimuli += chunk.file.stimuli
         return whole
 
     @property
@@ -113,7 +114,7 @@ class Chunked:
 
 def read(name: str, text: str) -> Chunked:
     """Parses a file, chunk by chunk if it falls into chunks."""
-    if len(text) > MAX_SIZE or is_exported(name, text):
+    if len(text) > MAX_SIZE or is_stimulus(name) or is_exported(name, text):
         return _whole(name, text)
     source = Source(name, text)
     tokens, problems = tokenize(source)

@@ -117,6 +117,7 @@ class ConfigurationParser(PouParser):
 
     def _program(self) -> tree.ProgramDeclaration:
         self.take()
+        retain = self.word() == "RETAIN" and self.kinds[self.at + 1] is NAME
         if self.word() in ("RETAIN", "NON_RETAIN") and self.kinds[self.at + 1] is NAME:
             self.take()
         name = self.name("the name of the program instance")
@@ -133,7 +134,9 @@ class ConfigurationParser(PouParser):
             self.expect(")", "to close the connections of the program")
         self.close(";", "behind the program instance")
         span = self.span_of(name)
-        return tree.ProgramDeclaration(self.texts[name], task, type_name, span, tuple(connections), tuple(blocks))
+        return tree.ProgramDeclaration(
+            self.texts[name], task, type_name, span, tuple(connections), tuple(blocks), retain
+        )
 
     def _connection(self, connections: list[tree.Argument], blocks: list[tuple[str, str, Span]]) -> None:
         """`input := x`, `output => y`, or `instance WITH task`."""

@@ -5,6 +5,7 @@ import re
 from scanbench.problems import Problem
 from scanbench.syntax import tree
 from scanbench.syntax.parse_st import parse_st
+from scanbench.syntax.parse_stimulus import parse_stimulus
 from scanbench.syntax.source import Source
 from scanbench.syntax.tcpou import parse_tc
 
@@ -18,9 +19,19 @@ MAX_SIZE = 8_000_000
 """Characters of one file: 200,000 lines and more."""
 
 
-def is_program_file(name: str) -> bool:
-    """Whether a file of this name is part of a program."""
-    return name.lower().endswith(ENDINGS)
+STIMULUS_ENDING = ".csv"
+
+
+def is_program_file(path: str) -> bool:
+    """Whether a file of this path is part of a program, or in `plant/` and a stimulus."""
+    folder = path.replace("\\", "/").rpartition("/")[0].lower()
+    in_plant = folder == "plant" or folder.endswith("/plant") or folder.startswith("plant/") or "/plant/" in folder
+    return path.lower().endswith(ENDINGS) or (in_plant and is_stimulus(path))
+
+
+def is_stimulus(name: str) -> bool:
+    """Whether it is a table of inputs by scan or time."""
+    return name.lower().endswith(STIMULUS_ENDING)
 
 
 def is_exported(name: str, text: str) -> bool:
@@ -33,4 +44,6 @@ def parse_file(source: Source) -> tuple[tree.File, list[Problem]]:
     if len(source.text) > MAX_SIZE:
         message = f"This file has more than {MAX_SIZE:,} characters; split it up."
         return tree.File(source.name), [Problem("S003", message, source.span(0, 1))]
+    if is_stimulus(source.name):
+        return parse_stimulus(source)
     return parse_tc(source) if is_exported(source.name, source.text) else parse_st(source)

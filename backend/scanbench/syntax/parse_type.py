@@ -1,5 +1,7 @@
 """Types and initial values."""
 
+from abc import ABC, abstractmethod
+
 from scanbench.syntax import tree
 from scanbench.syntax.cursor import NAME, Unexpected
 from scanbench.syntax.lexer import Lex
@@ -8,7 +10,7 @@ from scanbench.syntax.parse_expression import ExpressionParser
 INTEGERS = frozenset("SINT INT DINT LINT USINT UINT UDINT ULINT BYTE WORD DWORD LWORD".split())
 
 
-class TypeParser(ExpressionParser):
+class TypeParser(ExpressionParser, ABC):
     def type_spec(self, named: bool = False) -> tree.TypeSpec:
         """A type; `named` in a TYPE declaration, where `Base (A, B)` can only be an enumeration."""
         start = self.at
@@ -127,9 +129,9 @@ class TypeParser(ExpressionParser):
             raise Unexpected
         return tree.OpenArraySpec(stars, element, span) if stars else tree.ArraySpec(tuple(ranges), element, span)
 
+    @abstractmethod
     def structure(self, extends: str | None = None) -> tree.StructSpec:
-        """STRUCT or UNION."""
-        raise NotImplementedError  # of variables, which parse_declaration knows
+        """STRUCT or UNION: it is made of variables, which `DeclarationParser` knows."""
 
     # ---- initial values -----------------------------------------------------------------------------------------
 

@@ -355,6 +355,8 @@ class ProgramDeclaration:
     connections: tuple[Argument, ...] = ()
     block_tasks: tuple[tuple[str, str, Span], ...] = ()
     """(instance of a block, task): it runs in that task instead."""
+    retain: bool = False
+    """`PROGRAM RETAIN name ...`."""
 
 
 @node
@@ -403,6 +405,31 @@ class File:
     configurations: list[Configuration] = field(default_factory=list)
     internal: list[str] = field(default_factory=list)
     """Namespaces that are declared INTERNAL, by their full names."""
+    stimuli: list["Stimulus"] = field(default_factory=list)
+
+
+@dataclass(eq=False, slots=True)
+class Stimulus:
+    """A table of inputs: from each moment on, the variables have the values of its row; empty cells change nothing."""
+
+    file: str
+    text: str
+    by_time: bool
+    """Moments are ns since the start of the program; else scans."""
+    delimiter: str
+    columns: tuple[tuple[str, Span], ...]
+    """The variables: as they were written, and where."""
+    span: Span
+    moments: list[int] = field(default_factory=list)
+    """Ascending."""
+    rows: list[list[str]] = field(default_factory=list)
+    """What was written, for each moment; a row may end early."""
+    lines: list[int] = field(default_factory=list)
+    """Of the file, for each moment."""
+    period: int = 0
+    """After this the rows come again; 0: never."""
+    known: dict[int, tuple[object, object]] = field(default_factory=dict)
+    """For whoever reads the cells: by column, for which type, and what came out. It holds as long as the table."""
 
 
 # ---- statements ------------------------------------------------------------------------------------------------

@@ -1,6 +1,9 @@
 """The directory of what was built before."""
 
 import os
+import subprocess
+import sys
+import threading
 from concurrent.futures import ProcessPoolExecutor
 from multiprocessing import get_context
 from pathlib import Path
@@ -60,3 +63,39 @@ def write_many(directory: Path, number: int) -> int:
 def test_several_processes_at_once(tmp_path: Path) -> None:
     with ProcessPoolExecutor(3, get_context("spawn")) as pool:
         assert sum(pool.map(write_many, [tmp_path] * 3, range(3))) == 0
+
+
+_CLAIMING = """
+import sys, time
+from pathlib import Path
+from scanbench.engines.cache import BlobCache
+with BlobCache(Path(sys.argv[1])).claimed("key"):
+    print("claimed", flush=True)
+    time.sleep(600)
+"""
+
+
+def test_a_claim_lasts_as_long_as_its_process(tmp_path: Path) -> None:
+    cache, entered = BlobCache(tmp_path), threading.Event()
+
+    def wait() -> None:
+        with cache.claimed("key"):
+            entered.set()
+
+    with subprocess.Popen([sys.executable, "-c", _CLAIMING, str(tmp_path)], stdout=subprocess.PIPE, text=True) as other:
+        assert other.stdout is not None
+        assert other.stdout.readline() == "claimed\n"
+        with cache.claimed("another key"):
+            pass
+        waiting = threading.Thread(target=wait)
+        waiting.start()
+        assert not entered.wait(0.1)
+        other.kill()
+        assert entered.wait(60)
+        waiting.join()
+
+
+def test_where_nothing_can_be_claimed_everybody_goes_on(tmp_path: Path) -> None:
+    (tmp_path / "file").write_text("")
+    with BlobCache(tmp_path / "file" / "below").claimed("key"):
+        pass

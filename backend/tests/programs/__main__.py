@@ -13,8 +13,8 @@ from multiprocessing.sharedctypes import Synchronized
 from queue import Empty
 from time import monotonic
 
-from tests.programs import generate
-from tests.programs.compare import Refused, compare, levels
+from tests.programs import conditions, generate
+from tests.programs.compare import Refused, checked, compare, levels
 from tests.programs.reduce import reduced
 
 WAIT_S = 1.0
@@ -35,7 +35,17 @@ def failure(source: str, seed: int) -> str:
             return f"O{level} differs: {error}"
         except Exception as error:
             return f"{type(error).__name__} at O{level}: {error}\n{traceback.format_exc(limit=-4)}"
+    try:
+        conditions.compare(source, condition_of(seed))
+    except Exception as error:
+        return f"condition, {type(error).__name__}: {error}"
     return ""
+
+
+def condition_of(seed: int) -> str:
+    """The condition that is compared on the program of a seed, and on what is left of it when it is made small."""
+    program = checked(generate(seed))
+    return conditions.text(seed, program) if program is not None else "FALSE"
 
 
 def work(first: int, step: int, end: int, now: "Synchronized[int]", found: "multiprocessing.Queue[Found]") -> None:

@@ -39,11 +39,16 @@ def checked(source: str) -> Program | None:
     return found.program
 
 
+def limited(program: Program) -> bytearray:
+    """A fresh image, in which loops do not go on for long."""
+    image = bytearray(program.initial_image)
+    image[Layout.BUDGET_LIMIT : Layout.BUDGET_LIMIT + 8] = BUDGET.to_bytes(8, "little")
+    return image
+
+
 def difference(program: Program, opt_level: int) -> str:
     """What the engines disagree about, or ''."""
-    images = [bytearray(program.initial_image) for _ in range(2)]
-    for image in images:
-        image[Layout.BUDGET_LIMIT : Layout.BUDGET_LIMIT + 8] = BUDGET.to_bytes(8, "little")
+    images = [limited(program) for _ in range(2)]
     engines = [ReferenceEngine(program, images[0]), NativeEngine(program, images[1], opt_level)]
     for scan in range(SCANS):
         stops = [engine.run(1) for engine in engines]

@@ -35,7 +35,7 @@ def test_configuration() -> None:
     ]
     assert [show(each) for each in (*one.programs, *two.programs)] == [
         "ProgramDeclaration(name=main, task=slow, type_name=Lib.Main, connections=[Argument(name=in1, value=a), "
-        "Argument(name=in2, value=5), Argument(name=out, output=True, value=b)], block_tasks=[[block, event]])",
+        "Argument(name=in2, value=5), Argument(name=out, output=True, value=b)], block_tasks=[[block, event]], retain=True)",
         "ProgramDeclaration(name=retain, type_name=Main)",
         "ProgramDeclaration(name=x, type_name=Main)",
     ]

@@ -1,18 +1,21 @@
 """The reference engine: the scan loop in Python."""
 
+import threading
 import time
 from collections.abc import Callable
 from dataclasses import replace
 
+from scanbench.check.condition import Condition
 from scanbench.check.layout import Layout
 from scanbench.check.program import Expr, Pou, Program, ProgramInstance, Task
+from scanbench.check.types import Kind, Record
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.interpreter.expressions import Body
 from scanbench.engines.interpreter.places import Places, Read, Trapped
 from scanbench.engines.interpreter.statements import Statements
 from scanbench.engines.interpreter.violations import recorder
+from scanbench.problems import Span
 
-SLICE_NS = 2_000_000
 LOST_NS = 100_000_000
 
 
@@ -29,8 +32,11 @@ class ReferenceEngine(Engine):
         self._bodies: dict[Pou, Body] = {}
         for pou in program.pous:
             self._bodies[pou] = Statements(self, pou).block(pou.body)
+        self._common = [self._program(each) for each in program.common]
+        self._plant = [self._program(each) for each in program.plant]
         self._tasks = [(self._due(task), [self._program(each) for each in task.programs]) for task in program.tasks]
-        self._knocked = False
+        self._knock = threading.Event()
+        self._condition: Callable[[], bool] | None = None
 
     def body(self, pou: Pou) -> Body:
         """The body of a callee; `Program.pous` lists callees first."""
@@ -69,12 +75,34 @@ class ReferenceEngine(Engine):
         raise AssertionError(f"the place of a task computes nothing, but {expr}")
 
     def knock(self) -> None:
-        self._knocked = True
+        self._knock.set()
+
+    def stop_when(self, condition: Condition | None) -> None:
+        self._condition = None if condition is None else self._holds(condition)
+
+    def _holds(self, condition: Condition) -> Callable[[], bool]:
+        """Evaluates the condition on the image."""
+        nobody = Record("CONDITION", Kind.STRUCT)
+        pou = Pou("CONDITION", "function", nobody, nobody, (), None, Span("", 0, 0, 0, 0))
+        value = Statements(self, pou).evaluate(condition.expr)
+
+        def holds() -> bool:
+            try:
+                return bool(value(0))
+            except Trapped:
+                return False
+
+        return holds
 
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
+        stop = self._run(scans, pace)
+        self._knock.clear()
+        return stop
+
+    def _run(self, scans: int, pace: Pace | None) -> Stop:
         for _ in range(scans):
-            if self._knocked or (pace is not None and not self._wait(pace)):
-                self._knocked = False
+            paced = pace is not None and pace.period_ns > 0
+            if self._knock.is_set() or (pace is not None and paced and not self._wait(pace)):
                 return Stop(Reason.KNOCKED)
             begin = time.monotonic_ns()
             try:
@@ -85,18 +113,19 @@ class ReferenceEngine(Engine):
                 pace.busy_ns += time.monotonic_ns() - begin
                 pace.scans += 1
                 pace.deadline_ns += pace.period_ns
-        if self._knocked:
-            self._knocked = False
-            return Stop(Reason.KNOCKED)
-        return Stop(Reason.DONE)
+            if self._condition is not None and self._condition():
+                return Stop(Reason.CONDITION)
+            if any(self.memory[Layout.ASKED_COUNT : Layout.ASKED_COUNT + 4]):
+                return Stop(Reason.ASKED)
+        return Stop(Reason.KNOCKED if self._knock.is_set() else Reason.DONE)
 
     def _wait(self, pace: Pace) -> bool:
         """Sleeps to the deadline; False when somebody knocked meanwhile."""
         while (left := pace.deadline_ns - time.monotonic_ns()) > 0:
-            time.sleep(min(left, SLICE_NS) / 1e9)
-            if self._knocked:
+            if self._knock.wait(left / 1e9):
                 return False
         late = -left
+        pace.late_scans += late > pace.period_ns
         if late > max(10 * pace.period_ns, LOST_NS):
             pace.deadline_ns += late
             late = 0
@@ -111,7 +140,13 @@ class ReferenceEngine(Engine):
         clock = scan * self.program.interval_ns & (1 << 63) - 1
         memory[Layout.CLOCK : Layout.CLOCK + 8] = clock.to_bytes(8, "little")
         memory[Layout.BUDGET : Layout.BUDGET + 8] = memory[Layout.BUDGET_LIMIT : Layout.BUDGET_LIMIT + 8]
-        # 2 input refresh: inputs are changed in the seam; forces
+        memory[Layout.INTERVAL : Layout.INTERVAL + 8] = self.program.interval_ns.to_bytes(8, "little")
+        memory[Layout.ASKED_COUNT : Layout.ASKED_COUNT + 4] = bytes(4)
+        for run in self._common:
+            run()
+        # 2 input refresh: the plant; inputs are also changed in the seam; forces
+        for run in self._plant:
+            run()
         self._force()
         # 3 user program
         for due, programs in self._tasks:

@@ -15,6 +15,7 @@ from scanbench.check.program import (
     Evaluate,
     Exit,
     For,
+    Halt,
     If,
     Jump,
     Repeat,
@@ -70,16 +71,10 @@ class Statements(Expressions):
                 return self._while(node)
             case Repeat():
                 return self._repeat(node)
-            case Exit():
-                return lambda instance: EXIT
-            case Continue():
-                return lambda instance: CONTINUE
-            case Return():
-                return lambda instance: RETURN
             case Blocks():
                 return self._blocks(node)
-            case Jump():
-                return self._jump(node)
+            case Exit() | Continue() | Return() | Jump() | Halt():
+                return self._leave(node)
 
     def _assign(self, node: Assign) -> Body:
         value, target = self.evaluate(node.value), node.target
@@ -109,6 +104,27 @@ class Statements(Expressions):
             return GO_ON
 
         return set_bytes
+
+    def _leave(self, node: Exit | Continue | Return | Jump | Halt) -> Body:
+        match node:
+            case Exit():
+                return lambda instance: EXIT
+            case Continue():
+                return lambda instance: CONTINUE
+            case Return():
+                return lambda instance: RETURN
+            case Jump():
+                return self._jump(node)
+            case Halt():
+                return self._halt(node)
+
+    def _halt(self, node: Halt) -> Body:
+        trap = self.pou.first_trap + node.trap
+
+        def halt(instance: int) -> int:
+            raise Trapped(trap)
+
+        return halt
 
     # ---- calls --------------------------------------------------------------------------------------------------
 

@@ -5,12 +5,12 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from time import perf_counter_ns
 
-from scanbench.check.garbage import without_collection
 from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.native import inlining, jit
 from scanbench.engines.native.emit_program import emit_program
 from scanbench.engines.native.parts import Part, Parts
+from scanbench.garbage import without_collection
 
 QUICK, FAST = 0, 2
 """The levels of optimisation: built fast, and running fast."""
@@ -77,7 +77,7 @@ class Compiler:
         if first and sum(inlining.size(pou.body) for pou in program.pous) > WHOLE:
             return self._whole(program)
         build = self._emitted(program)
-        self._take_known(build)
+        self.take_known(build)
         # the first only: each run of LLVM's passes leaves some memory behind, and edits are many
         if first and sum(len(part.text) for part in build.pending) <= AT_ONCE:
             build.fast |= {part: self._compiled(part, FAST, build.timings) for part in build.pending}
@@ -87,7 +87,7 @@ class Compiler:
     def divide(self, build: Build, program: Program) -> None:
         """Finds the parts of a program that runs as a whole, and those that were optimised before."""
         build.parts = self._parts.of(program)
-        self._take_known(build)
+        self.take_known(build)
         if not build.pending:
             build.whole = None
 
@@ -100,11 +100,13 @@ class Compiler:
         build.whole = jit.compile_object(text, QUICK, build.timings)
         return build
 
-    def _take_known(self, build: Build) -> None:
+    def take_known(self, build: Build) -> None:
+        """Takes the optimised code of every part that is kept by now, whoever made it."""
         for part in build.parts:
             code = self._known(part.key(FAST))
             if code is not None:
                 build.fast[part] = code
+                build.quick.pop(part, None)
 
     def recalled(self, keys: Iterable[str]) -> list[bytes] | None:
         """Object code by its keys; None when some of it is gone."""

@@ -27,7 +27,8 @@ class Emitter:
         self._program = program
         self._effects = effects or Effects()
         self._signatures: dict[Pou, Signature] = {} if signatures is None else signatures
-        calls = Counter(each.pou for task in program.tasks for each in task.programs)
+        runs = (each for task in program.tasks for each in task.programs)
+        calls = Counter(each.pou for each in (*runs, *program.plant))
         self.housed = {pou for pou, count in calls.items() if count == 1 and inlining.shared(pou)}
         """Small programs, which stand in the module of the scan, and become part of it."""
         # a bound that all programs of about this size have

@@ -11,6 +11,7 @@ from scanbench.check.program import (
     Evaluate,
     Exit,
     For,
+    Halt,
     If,
     Jump,
     Place,
@@ -63,13 +64,13 @@ def one(body: Body, statement: Stmt) -> None:
             emit_loops.repeat_loop(body, statement)
         case Blocks(inner):
             blocks(body, inner)
-        case Exit() | Continue() | Return() | Jump():
+        case Exit() | Continue() | Return() | Jump() | Halt():
             leave(body, statement)
         case _:
             assert_never(statement)
 
 
-def leave(body: Body, statement: Exit | Continue | Return | Jump) -> None:
+def leave(body: Body, statement: Exit | Continue | Return | Jump | Halt) -> None:
     """Goes on somewhere else."""
     match statement:
         case Exit():
@@ -82,6 +83,8 @@ def leave(body: Body, statement: Exit | Continue | Return | Jump) -> None:
             if back:
                 emit_loops.take(body, "1", trap)
             label = body.labels[number]
+        case Halt(trap):
+            label = body.text.fail(str(trap))
         case _:
             assert_never(statement)
     body.text.go(label)

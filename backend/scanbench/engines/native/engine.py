@@ -3,24 +3,34 @@
 import ctypes
 from collections.abc import Sequence
 
+from scanbench.check.condition import Condition
 from scanbench.check.program import Program
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.native import jit
 from scanbench.engines.native.compiler import FAST, Compiler
-from scanbench.engines.native.emit_scan import KNOCKED, TRAP
+from scanbench.engines.native.condition_code import link_condition
+from scanbench.engines.native.emit_loop import ASKED, CONDITION, DONE, FUTEX, FUTEX_WAKE_PRIVATE, KNOCKED, TRAP
 
 
 class _Control(ctypes.Structure):
-    """What the loop shares with other threads; see `emit_scan.RUN`."""
+    """What the loop shares with other threads; see `emit_loop.RUN`."""
 
-    _fields_ = [("knock", ctypes.c_uint8), ("trap", ctypes.c_int64)]
+    _fields_ = [("knock", ctypes.c_uint32), ("trap", ctypes.c_int64), ("condition", ctypes.c_void_p)]
 
 
 class _Pace(ctypes.Structure):
     """`Pace`, as the loop reads and writes it."""
 
-    _fields_ = [(name, ctypes.c_int64) for name in ("period", "deadline", "late", "worst", "busy", "scans")]
+    _fields_ = [
+        (name, ctypes.c_int64) for name in ("period", "deadline", "late", "worst", "busy", "scans", "late_scans")
+    ]
 
+
+_REASONS = {
+    DONE: Reason.DONE, KNOCKED: Reason.KNOCKED, TRAP: Reason.TRAP, ASKED: Reason.ASKED, CONDITION: Reason.CONDITION
+}  # fmt: skip
+_LIBC = ctypes.PyDLL(None)
+"""Keeps the GIL: waking somebody takes less than giving it away and getting it back."""
 
 _RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p)
 
@@ -47,11 +57,14 @@ class NativeEngine(Engine):
         if self._address % 8:
             raise ValueError("the image must start at an address that is a multiple of 8")
         self._control = _Control()
+        self._condition: jit.Code | None = None
+        self._program = program
 
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
         """See `Engine.run`. A pace with period 0 runs as fast as possible, and measures the whole run at once."""
         measured = None if pace is None else _Pace(
-            pace.period_ns, pace.deadline_ns, pace.late_ns, pace.worst_ns, pace.busy_ns, pace.scans
+            pace.period_ns, pace.deadline_ns, pace.late_ns, pace.worst_ns, pace.busy_ns, pace.scans,
+            pace.late_scans,
         )  # fmt: skip
         self._control.trap = 0
         reason = self._run(
@@ -62,11 +75,17 @@ class NativeEngine(Engine):
         )
         if pace is not None and measured is not None:
             pace.deadline_ns, pace.late_ns, pace.worst_ns = measured.deadline, measured.late, measured.worst
-            pace.busy_ns, pace.scans = measured.busy, measured.scans
-        if reason == TRAP:
-            return Stop(Reason.TRAP, self._control.trap)
-        return Stop(Reason.KNOCKED if reason == KNOCKED else Reason.DONE)
+            pace.busy_ns, pace.scans, pace.late_scans = measured.busy, measured.scans, measured.late_scans
+        return Stop(_REASONS[reason], self._control.trap)
+
+    def stop_when(self, condition: Condition | None) -> None:
+        """See `Engine.stop_when`. Compiling takes some 10 ms, the same condition again next to nothing."""
+        code = None if condition is None else link_condition(self._program, condition)
+        self._control.condition = None if code is None else code.function("condition")
+        self._condition = code
 
     def knock(self) -> None:
         """See `Engine.knock`."""
         self._control.knock = 1
+        if FUTEX is not None:
+            _LIBC.syscall(FUTEX, ctypes.byref(self._control), FUTEX_WAKE_PRIVATE, 1)

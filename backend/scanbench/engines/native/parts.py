@@ -2,13 +2,13 @@
 
 from dataclasses import dataclass, field
 
-from scanbench.check.garbage import without_collection
 from scanbench.check.program import Pou, Program, Stmt
 from scanbench.engines.native import inlining, jit
 from scanbench.engines.native.effects import Effects, touched
 from scanbench.engines.native.emit_body import SCRATCH_LIMIT, TooLarge
 from scanbench.engines.native.emit_program import Emitter
 from scanbench.engines.native.registers import Signature, signature
+from scanbench.garbage import without_collection
 
 SMALL = 120
 """Statements up to which a program is one module: compiling it whole takes less than compiling its parts."""

@@ -158,35 +158,6 @@ lengths:
   ret i64 %rest
 }"""
 
-FIND_WIDE = """\
-define internal i64 @s.findwide(ptr %a, i64 %n, ptr %b, i64 %m) noinline #0 {
-; position from 1 of the first %b in %a, or 0; characters of two bytes
-entry:
-  %empty = icmp eq i64 %m, 0
-  %toolong = icmp ugt i64 %m, %n
-  %never = or i1 %empty, %toolong
-  br i1 %never, label %none, label %look
-look:
-  %last = sub i64 %n, %m
-  %size = shl i64 %m, 1
-  br label %try
-try:
-  %i = phi i64 [ 0, %look ], [ %next, %miss ]
-  %at = shl i64 %i, 1
-  %p = getelementptr i8, ptr %a, i64 %at
-  %same = call i1 @s.equal(ptr %p, i64 %size, ptr %b, i64 %size)
-  br i1 %same, label %found, label %miss
-miss:
-  %next = add i64 %i, 1
-  %on = icmp sle i64 %next, %last
-  br i1 %on, label %try, label %none
-found:
-  %position = add i64 %i, 1
-  ret i64 %position
-none:
-  ret i64 0
-}"""
-
 WIDEN = """\
 define internal void @s.widen(ptr noalias %to, ptr noalias %from, i64 %n) noinline #0 {
 entry:
@@ -231,15 +202,40 @@ done:
   ret void
 }"""
 
-FIND = """\
-declare ptr @memmem(ptr, i64, ptr, i64)
-define internal i64 @s.find(ptr %a, i64 %n, ptr %b, i64 %m) #0 {
-; position from 1 of the first %b in %a, or 0
+_FIND = """\
+define internal i64 @s.{name}(ptr %a, i64 %n, ptr %b, i64 %m) #0 {{
+; position from 1 of the first %b in %a, or 0; counted in characters of {char}
   %empty = icmp eq i64 %m, 0
   %toolong = icmp ugt i64 %m, %n
   %never = or i1 %empty, %toolong
   br i1 %never, label %none, label %look
 look:
+{far}near:
+  %last = sub i64 %n, %m
+  %size = shl i64 %m, {shift}
+  %first = load {char}, ptr %b, align 1
+  br label %try
+try:
+  %i = phi i64 [ 0, %near ], [ %next, %miss ]
+  %at = shl i64 %i, {shift}
+  %p = getelementptr i8, ptr %a, i64 %at
+  %c = load {char}, ptr %p, align 1
+  %start = icmp eq {char} %c, %first
+  br i1 %start, label %compare, label %miss
+compare:
+  %same = call i1 @s.equal(ptr %p, i64 %size, ptr %b, i64 %size)
+  br i1 %same, label %found, label %miss
+miss:
+  %next = add i64 %i, 1
+  %on = icmp sle i64 %next, %last
+  br i1 %on, label %try, label %none
+found:
+  %position = add i64 %i, 1
+  ret i64 %position
+none:
+  ret i64 0
+}}"""
+_FAR = """\
   %large = icmp ugt i64 %n, 64
   br i1 %large, label %far, label %near
 far:
@@ -251,29 +247,10 @@ far:
   %farposition = add i64 %distance, 1
   %farresult = select i1 %missed, i64 0, i64 %farposition
   ret i64 %farresult
-near:
-  %last = sub i64 %n, %m
-  %first = load i8, ptr %b, align 1
-  br label %try
-try:
-  %i = phi i64 [ 0, %near ], [ %next, %miss ]
-  %p = getelementptr i8, ptr %a, i64 %i
-  %c = load i8, ptr %p, align 1
-  %start = icmp eq i8 %c, %first
-  br i1 %start, label %compare, label %miss
-compare:
-  %same = call i1 @s.equal(ptr %p, i64 %m, ptr %b, i64 %m)
-  br i1 %same, label %found, label %miss
-miss:
-  %next = add i64 %i, 1
-  %on = icmp sle i64 %next, %last
-  br i1 %on, label %try, label %none
-found:
-  %position = add i64 %i, 1
-  ret i64 %position
-none:
-  ret i64 0
-}"""
+"""
+"""Long texts are a matter for the C library, which knows none of wide characters."""
+FIND = "declare ptr @memmem(ptr, i64, ptr, i64)\n" + _FIND.format(name="find", char="i8", shift=0, far=_FAR)
+FIND_WIDE = _FIND.format(name="findwide", char="i16", shift=1, far="  br label %near\n")
 
 DECIMAL = """\
 define internal i64 @s.decimal(ptr %to, i64 %value, i1 %minus) noinline #0 {

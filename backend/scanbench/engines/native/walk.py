@@ -22,6 +22,7 @@ from scanbench.check.program import (
     Exit,
     Expr,
     For,
+    Halt,
     If,
     Index,
     Intrinsic,
@@ -67,7 +68,7 @@ def bodies(statement: Stmt) -> tuple[tuple[Stmt, ...], ...]:
             return (statement.body,)
         case Blocks(blocks):
             return blocks
-        case Assign() | SetBytes() | CallBlock() | Evaluate() | Exit() | Continue() | Return() | Jump():
+        case Assign() | SetBytes() | CallBlock() | Evaluate() | Exit() | Continue() | Return() | Jump() | Halt():
             return ()
         case _:
             assert_never(statement)
@@ -129,7 +130,7 @@ def _statements(statements: Iterable[Stmt], seen: list[Seen]) -> None:
 
 
 def _rarer(
-    statement: SetBytes | Evaluate | Case | For | While | Repeat | Exit | Continue | Return | Blocks | Jump,
+    statement: SetBytes | Evaluate | Case | For | While | Repeat | Exit | Continue | Return | Blocks | Jump | Halt,
     seen: list[Seen],
 ) -> None:
     """What the statement touches, without those inside of it."""
@@ -148,7 +149,7 @@ def _rarer(
             _expression(condition, seen)
         case Repeat(_, until):
             _expression(until, seen)
-        case Exit() | Continue() | Return() | Blocks() | Jump():
+        case Exit() | Continue() | Return() | Blocks() | Jump() | Halt():
             return
         case _:
             assert_never(statement)

@@ -4,8 +4,8 @@
 four bytes and so many bytes. It ends with its input, and with its parent.
 """
 
-import ctypes
 import os
+import resource
 import signal
 import struct
 import subprocess
@@ -13,13 +13,13 @@ import sys
 from collections.abc import Callable, Iterable, Iterator
 from typing import IO
 
+from scanbench.engines.lifeline import end_with_parent
 from scanbench.engines.native import jit
 from scanbench.engines.native.compiler import FAST
 from scanbench.engines.native.parts import Part
 
 _HEAD = struct.Struct("<I")
 _NICENESS = 10
-_PR_SET_PDEATHSIG = 1
 
 
 class WorkerDied(Exception):
@@ -50,7 +50,9 @@ def optimised(parts: Iterable[Part], wanted: Callable[[], bool]) -> Iterator[tup
 
 def main() -> int:
     """Serves until the input ends."""
-    ctypes.CDLL(None).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    end_with_parent()
+    _, hard = resource.getrlimit(resource.RLIMIT_DATA)
+    resource.setrlimit(resource.RLIMIT_DATA, (hard, hard))  # what the PLC may take is not what its compiler needs
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the server's business
     os.nice(_NICENESS)
     while (text := _receive(sys.stdin.buffer)) is not None:

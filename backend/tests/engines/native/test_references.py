@@ -66,7 +66,7 @@ def test_a_write_behind_a_reference_is_seen_between_two_reads(opt_level: int) ->
 )  # fmt: skip
 def test_a_reference_must_lie_in_the_image(value: int, traps: bool) -> None:
     hand = made()
-    value = hand.program.layout.size + value if value < 0 else value
+    value = hand.program.layout.state_size + value if value < 0 else value
     body = [
         Assign(hand.at("r"), Const(ULINT, value), SPAN),
         Assign(hand.at("b"), Load(through(DINT, hand.get("r"))), SPAN),
@@ -79,7 +79,7 @@ def test_the_whole_of_a_value_must_lie_in_the_image() -> None:
     hand = made()
     array = ArrayType(((0, 3),), INT)
     for short, traps in ((8, False), (7, True)):
-        at = const(ULINT, hand.program.layout.size - short)
+        at = const(ULINT, hand.program.layout.state_size - short)
         element = Place(INT, Base.IMAGE, 0, (Index(hand.get("n"), 0, 3, 2, trap(TrapKind.BOUNDS)),),
                         reference=at, null_trap=trap(TrapKind.NULL))  # fmt: skip
         assert hand.run(Assign(hand.at("n"), Load(element), SPAN)) == (NULL if traps else Stop(Reason.DONE))
@@ -161,9 +161,9 @@ def test_a_string_whose_length_was_overwritten_has_its_capacity() -> None:
 def test_an_instance_behind_a_reference_runs_and_must_lie_in_the_image() -> None:
     counter = "FUNCTION_BLOCK Counter VAR n : INT; END_VAR n := n + 1; END_FUNCTION_BLOCK"
     hand = hand_made("r : ULINT; c : Counter;", counter, "c();")
-    callee = hand.program.pous[0]
+    callee = next(pou for pou in hand.program.pous if pou.name == "Counter")
     there = through(hand.at("c").type, hand.get("r"))
     call = CallBlock(there, callee, (), (), (), SPAN)
     assert hand.run(refer(hand, hand.at("c")), call, call).reason is Reason.DONE
     assert hand.memory[hand.offset("c")] == 2
-    assert hand.run(Assign(hand.at("r"), const(ULINT, hand.program.layout.size - 1), SPAN), call) == NULL
+    assert hand.run(Assign(hand.at("r"), const(ULINT, hand.program.layout.state_size - 1), SPAN), call) == NULL

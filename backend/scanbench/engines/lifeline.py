@@ -1,0 +1,20 @@
+"""A process that ends with its parent: the kernel sees to it, however the parent ends."""
+
+import ctypes
+import os
+import signal
+import sys
+
+_PR_SET_PDEATHSIG = 1
+
+
+def end_with_parent(parent: int | None = None) -> None:
+    """Ends this process at once when its parent ends; `parent` is its number, where it may have ended already.
+
+    The kernel means the thread of the parent that started this process, not the parent as a whole.
+    """
+    if sys.platform != "linux":
+        return
+    ctypes.CDLL(None, use_errno=True).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
+    if parent is not None and os.getppid() != parent:
+        os._exit(1)

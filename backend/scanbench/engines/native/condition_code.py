@@ -1,0 +1,53 @@
+"""A condition as machine code of its own, which the loop calls by its address."""
+
+from functools import lru_cache
+
+from scanbench.check.condition import Condition
+from scanbench.check.program import Pou, Program
+from scanbench.check.types import Kind, Record
+from scanbench.engines.native import emit_expressions, emit_statements, jit
+from scanbench.engines.native.compiler import FAST
+from scanbench.engines.native.emit_body import Body, Unit
+from scanbench.engines.native.emit_function import FunctionText
+from scanbench.problems import Span
+
+KEPT = 32
+"""Conditions whose code is kept: the same one comes again when optimised code of the program takes over."""
+SCRATCH = '@"t.condition"'
+
+ENTRY = """\
+define i32 @condition(ptr {image}) #0 {{
+; 1 where it holds. A trap is the number of a site, which is positive, and FALSE
+  %status = call i32 @evaluate(ptr %img)
+  %holds = icmp slt i32 %status, 0
+  %result = zext i1 %holds to i32
+  ret i32 %result
+}}"""
+
+
+def link_condition(program: Program, condition: Condition) -> jit.Code:
+    """The code, in this process, as `condition`."""
+    return jit.link([_compiled(emit_condition(program, condition))], jit.Timings())
+
+
+@lru_cache(KEPT)
+def _compiled(text: str) -> bytes:
+    return jit.compile_object(text, FAST, jit.Timings())
+
+
+def emit_condition(program: Program, condition: Condition) -> str:
+    """The module's text."""
+    layout = program.layout
+    image = f"nonnull noundef align 8 dereferenceable({layout.size}) %img"
+    unit = Unit(image_size=layout.size, state_size=layout.state_size)
+    empty = Record("CONDITION", Kind.STRUCT)
+    pou = Pou("CONDITION", "function", empty, empty, (), None, Span("", 0, 0, 0, 0))
+    text = FunctionText(f"define internal i32 @evaluate(ptr {image}) #0", SCRATCH)
+    body = Body(unit, pou, text, emit_expressions.scalar, emit_expressions.pieces, emit_statements.run)
+    value = body.scalar(condition.expr)
+    text.do(f"ret i32 {text.op(f'sext i1 {value.ssa} to i32')}")
+    if text.scratch_size:
+        unit.reserve(pou, SCRATCH, text.scratch_size)
+    unit.module.add(text.text())
+    unit.module.add(ENTRY.format(image=image))
+    return unit.module.text()

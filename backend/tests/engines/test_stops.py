@@ -1,0 +1,159 @@
+"""Why `run` comes back: the same reasons from each engine."""
+
+from collections.abc import Callable
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from scanbench.check.condition import Condition, compile_condition
+from scanbench.check.layout import Layout
+from scanbench.check.program import Program
+from scanbench.engines.engine import Engine, Pace, Reason, Stop
+from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.native.engine import NativeEngine
+from scanbench.engines.pair import Differs, PairEngine
+from tests.engines.native.plc import check
+
+COUNT = "PROGRAM Main VAR n : DINT; a : INT; END_VAR n := n + 1; a := DINT_TO_INT(n * 7 MOD 11); END_PROGRAM"
+TRAPS = "PROGRAM Main VAR n, a : INT; END_VAR n := n + 1; a := 1 / (3 - n); END_PROGRAM"
+ENGINES: list[Callable[[Program, bytearray], Engine]] = [NativeEngine, ReferenceEngine, PairEngine]
+
+engines = pytest.mark.parametrize("make", ENGINES, ids=["native", "reference", "both"])
+
+
+def condition(program: Program, text: str) -> Condition:
+    made = compile_condition(program, text)
+    assert isinstance(made, Condition), made
+    return made
+
+
+def scan(memory: bytearray) -> int:
+    return int.from_bytes(memory[Layout.SCAN : Layout.SCAN + 8], "little")
+
+
+def ask(memory: bytearray) -> None:
+    """Has the program ask for something in every scan: a force sets the count, behind where it is cleared."""
+    memory[Layout.FORCE_COUNT : Layout.FORCE_COUNT + 4] = (1).to_bytes(4, "little")
+    memory[Layout.FORCES : Layout.FORCES + 8] = Layout.ASKED_COUNT.to_bytes(4, "little") + bytes([0xFF, 1, 0, 0])
+
+
+@engines
+def test_a_condition_ends_every_run_until_it_is_taken_away(make: Callable[[Program, bytearray], Engine]) -> None:
+    program = check(COUNT)
+    memory = bytearray(program.initial_image)
+    engine = make(program, memory)
+    engine.stop_when(condition(program, "Main.n >= 5"))
+    assert (engine.run(100), scan(memory)) == (Stop(Reason.CONDITION), 5)
+    assert (engine.run(100), scan(memory)) == (Stop(Reason.CONDITION), 6)
+    engine.stop_when(condition(program, "Main.n = 3"))
+    assert (engine.run(10), scan(memory)) == (Stop(Reason.DONE), 16)
+    engine.stop_when(None)
+    assert (engine.run(10), scan(memory)) == (Stop(Reason.DONE), 26)
+
+
+@engines
+def test_a_condition_that_holds_after_the_last_scan_is_told(make: Callable[[Program, bytearray], Engine]) -> None:
+    program = check(COUNT)
+    memory = bytearray(program.initial_image)
+    engine = make(program, memory)
+    engine.stop_when(condition(program, "Main.n = 5"))
+    assert engine.run(5) == Stop(Reason.CONDITION)
+
+
+@engines
+def test_what_is_asked_for_ends_a_run_but_the_condition_comes_before_it(
+    make: Callable[[Program, bytearray], Engine],
+) -> None:
+    program = check(COUNT)
+    memory = bytearray(program.initial_image)
+    engine = make(program, memory)
+    engine.stop_when(condition(program, "Main.n = 2"))
+    ask(memory)
+    assert (engine.run(5), scan(memory)) == (Stop(Reason.ASKED), 1)
+    assert (engine.run(5), scan(memory)) == (Stop(Reason.CONDITION), 2)
+    assert (engine.run(5), scan(memory)) == (Stop(Reason.ASKED), 3)
+
+
+@engines
+def test_a_trap_comes_before_the_condition(make: Callable[[Program, bytearray], Engine]) -> None:
+    program = check(TRAPS)
+    memory = bytearray(program.initial_image)
+    engine = make(program, memory)
+    engine.stop_when(condition(program, "Main.n = 3"))
+    assert (engine.run(5).reason, scan(memory)) == (Reason.TRAP, 2)
+
+
+@engines
+def test_at_a_pace_and_measured_as_a_whole(make: Callable[[Program, bytearray], Engine]) -> None:
+    program = check(COUNT)
+    memory = bytearray(program.initial_image)
+    engine = make(program, memory)
+    engine.stop_when(condition(program, "Main.n MOD 4 = 0"))
+    for pace in (Pace(1000, 0), Pace(0, 0)):
+        assert engine.run(100, pace).reason is Reason.CONDITION
+        assert pace.scans == 4
+
+
+@engines
+def test_a_knock_comes_back_once(make: Callable[[Program, bytearray], Engine]) -> None:
+    program = check(COUNT)
+    memory = bytearray(program.initial_image)
+    engine = make(program, memory)
+    engine.knock()
+    assert (engine.run(5), scan(memory)) == (Stop(Reason.KNOCKED), 0)
+    assert (engine.run(5), scan(memory)) == (Stop(Reason.DONE), 5)
+
+
+@engines
+def test_a_scan_that_began_after_the_next_was_due_is_late(make: Callable[[Program, bytearray], Engine]) -> None:
+    program = check(COUNT)
+    engine = make(program, bytearray(program.initial_image))
+    pace = Pace(1_000_000_000, 1)  # decades ago: this one is moved to now, so the next is not due yet
+    engine.run(1, pace)
+    assert (pace.late_scans, pace.late_ns, pace.scans) == (1, 0, 1)
+    never = Pace(0, 0)
+    engine.run(3, never)
+    assert (never.late_scans, never.scans) == (0, 3)
+
+
+def test_other_code_of_the_same_program_takes_the_condition_over() -> None:
+    program = check(COUNT)
+    memory = bytearray(program.initial_image)
+    made = condition(program, "Main.n >= 5")
+    quick = NativeEngine(program, memory, 0)
+    quick.stop_when(made)
+    assert quick.run(3) == Stop(Reason.DONE)
+    fast = NativeEngine(program, memory, 2)
+    fast.stop_when(made)
+    assert (fast.run(100), scan(memory)) == (Stop(Reason.CONDITION), 5)
+
+
+def test_both_engines_must_agree_on_the_condition() -> None:
+    program = check(COUNT)
+    engine = PairEngine(program, bytearray(program.initial_image))
+    engine.stop_when(condition(program, "Main.n = 3"))
+    engine.reference.stop_when(condition(program, "Main.n = 4"))
+    with pytest.raises(Differs, match="native found that the condition holds, reference went on"):
+        engine.run(10)
+
+
+PROGRAM = check(COUNT)
+
+
+@settings(max_examples=30, deadline=None)
+@given(
+    st.sampled_from(["=", "<>", "<", ">="]),
+    st.integers(-3, 12),
+    st.sampled_from(["AND", "OR", "XOR"]),
+    st.integers(0, 30),
+)
+def test_native_and_reference_stop_at_the_same_scan(op: str, a: int, join: str, n: int) -> None:
+    made = condition(PROGRAM, f"Main.a {op} {a} {join} Main.n / (Main.n - {n}) > 1")
+    stopped = []
+    for make in (NativeEngine, ReferenceEngine):
+        memory = bytearray(PROGRAM.initial_image)
+        engine = make(PROGRAM, memory)
+        engine.stop_when(made)
+        stopped.append((engine.run(40), scan(memory)))
+    assert stopped[0] == stopped[1]

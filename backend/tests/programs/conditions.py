@@ -1,0 +1,47 @@
+"""Random conditions on random programs: both engines must come back after the same scans."""
+
+from scanbench.check.condition import Condition, compile_condition
+from scanbench.check.program import Program
+from scanbench.check.symbols import members
+from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.native.engine import NativeEngine
+from tests.programs.compare import SCANS, checked, limited
+from tests.programs.expressions import expression
+from tests.programs.scope import TYPES, Draw, Scope
+
+DEPTH = 3
+
+
+def text(seed: int, program: Program) -> str:
+    """A condition on the variables of Main."""
+    scope = Scope(loops=False)
+    for symbol in members(program, "Main"):
+        if symbol.type.name in TYPES:
+            scope.add(symbol.type.name, symbol.path, writable=False)
+    return expression(Draw(seed), scope, "BOOL", DEPTH)
+
+
+def difference(program: Program, condition: Condition) -> str:
+    """The first scan after which only one engine finds that it holds, or ''."""
+    images = [limited(program) for _ in range(2)]
+    engines = [ReferenceEngine(program, images[0]), NativeEngine(program, images[1], 0)]
+    for engine in engines:
+        engine.stop_when(condition)
+    for scan in range(SCANS):
+        stops = [engine.run(1) for engine in engines]
+        if stops[0] != stops[1]:
+            return f"{condition.text}\nscan {scan}: reference {stops[0]}, native {stops[1]}"
+    return ""
+
+
+def compare(source: str, words: str) -> bool | None:
+    """Whether the condition could be compared, and None where the program could not; a difference is an AssertionError."""
+    program = checked(source)
+    if program is None:
+        return None
+    condition = compile_condition(program, words)
+    if not isinstance(condition, Condition):
+        return False
+    found = difference(program, condition)
+    assert not found, found
+    return True
