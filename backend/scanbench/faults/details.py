@@ -26,8 +26,20 @@ class Chosen:
     details: tuple[tuple[str, str], ...]
     """(detail, chosen id or number as text), in the order of the catalogue."""
     code: int
-    bits: tuple[Bits, ...]
-    """Details and flag."""
+    contents: tuple[Bits, ...]
+    """What the details write."""
+    marks: tuple[Bits, ...]
+    """The flag, and what else the error writes."""
+
+    @property
+    def bits(self) -> tuple[Bits, ...]:
+        """Everything that the error writes."""
+        return self.contents + self.marks
+
+    @property
+    def code_text(self) -> str:
+        """The code as the vendor writes it."""
+        return self.error.show(self.code)
 
     def __str__(self) -> str:
         return ", ".join(f"{name}={value}" for name, value in self.details)
@@ -41,7 +53,8 @@ def choose(error: ErrorEntry, given: Mapping[str, str], layout: Layout) -> Chose
             known = f"its details are {', '.join(names)}" if names else "it has none"
             return Refusal(f"{error.id} has no detail {name}: {known}", tuple(get_close_matches(name, names)))
     decided: list[tuple[str, str]] = []
-    bits: list[Bits] = []
+    numbers: dict[str, int] = {}
+    contents: list[Bits] = []
     code = error.code
     for detail in error.details:
         found = _decide(error, detail, given.get(detail.name))
@@ -49,11 +62,15 @@ def choose(error: ErrorEntry, given: Mapping[str, str], layout: Layout) -> Chose
             return found
         address, number, text = found
         decided.append((detail.name, text))
-        bits += _bits(address, number, layout)
+        numbers[detail.name] = number
+        contents += _bits(address, number, layout)
         if address.add_to_code:
             code += number
-    bits += field_bits(error.flag, 0, 1, 1, layout)
-    return Chosen(error, tuple(decided), code & 0xFFFF, tuple(bits))
+    marks = field_bits(error.flag, 0, 1, 1, layout)
+    for address in error.also:
+        number = numbers.get(address.id, 1) if address.value is None else address.value
+        marks += _bits(address, number, layout)
+    return Chosen(error, tuple(decided), code & error.code_limit, tuple(contents), tuple(marks))
 
 
 def field_bits(location: Location, shift: int, width: int, value: int, layout: Layout) -> list[Bits]:

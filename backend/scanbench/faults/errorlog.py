@@ -1,15 +1,17 @@
 """The model's own error log: one record for each error generated, the oldest dropped when it is full."""
 
 from collections.abc import Sequence
+from datetime import UTC, datetime, timedelta
 
 from scanbench.faults.details import Chosen
 from scanbench.runtime.command import Patch, View
 
+_BEGIN = datetime(1970, 1, 1, tzinfo=UTC)
 _CODE, _CONTENTS, _MINUTE_SECOND, _DAY_HOUR, _YEAR_MONTH = range(5)
 
 
 def log_patches(view: View, generated: Sequence[Chosen]) -> list[Patch]:
-    """Patches that append a record for each error: code, first detail word, virtual time since the cold start in BCD."""
+    """Patches that append a record for each error: code, first detail word, the PLC's clock in BCD."""
     log, layout = view.model.log, view.program.layout
     if log is None or not generated:
         return []
@@ -24,24 +26,23 @@ def log_patches(view: View, generated: Sequence[Chosen]) -> list[Patch]:
 
 
 def _record(view: View, chosen: Chosen, words: int) -> bytes:
-    seconds = view.header.scan * view.program.interval_ns // 1_000_000_000
-    minutes, hours, days = seconds // 60, seconds // 3600, seconds // 86400 % 100
+    now = _BEGIN + timedelta(microseconds=(view.header.epoch_ns + view.header.clock_ns) // 1000)
     record = [0] * max(words, 5)
-    record[_CODE] = chosen.code
+    record[_CODE] = chosen.code & 0xFFFF
     record[_CONTENTS] = _contents(chosen)
-    record[_MINUTE_SECOND] = _bcd(minutes % 60) << 8 | _bcd(seconds % 60)
-    record[_DAY_HOUR] = _bcd(days) << 8 | _bcd(hours % 24)
+    record[_MINUTE_SECOND] = _bcd(now.minute) << 8 | _bcd(now.second)
+    record[_DAY_HOUR] = _bcd(now.day) << 8 | _bcd(now.hour)
+    record[_YEAR_MONTH] = _bcd(now.year % 100) << 8 | _bcd(now.month)
     return b"".join(word.to_bytes(2, "little") for word in record[:words])
 
 
 def _contents(chosen: Chosen) -> int:
     """The word that its details write, as far as they lie in the first one."""
-    details = chosen.bits[:-1]
-    if not details:
+    if not chosen.contents:
         return 0
-    word = details[0].offset & ~1
+    word = chosen.contents[0].offset & ~1
     value = 0
-    for part in details:
+    for part in chosen.contents:
         if part.offset & ~1 == word:
             value |= part.value << 8 * (part.offset & 1)
     return value

@@ -1,18 +1,17 @@
 """What was tested: one row for every error of the catalogue, folded from journal entries as they come."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from datetime import datetime
 from typing import Literal
 
 from scanbench.check.layout import Layout
 from scanbench.faults.details import choose
-from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.inject import Generate, Origin, Recover
 from scanbench.plcmodel.model import Model
 from scanbench.runtime.command import Entry, Refusal
 
 Status = Literal["never", "generated", "cleared"]
-Origin = Literal["simulator", "plc", "program"]
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,8 +42,7 @@ class History:
         # Codes and details are the same in every layout, so any will do.
         self._layout = Layout(model, {area.name: 0 for area in model.areas})
         self._rows = {
-            error.id: (kept or {}).get(error.id)
-            or ErrorRow(error.id, error.name, error.severity, code=f"{error.code:04X}")
+            error.id: (kept or {}).get(error.id) or ErrorRow(error.id, error.name, error.severity, code=error.code_text)
             for error in model.errors()
         }
 
@@ -56,16 +54,21 @@ class History:
     def fold(self, entry: Entry) -> list[ErrorRow]:
         """Takes an entry in; the rows that it changed."""
         command = entry.command
+        if entry.plan.starts_anew:
+            return self._cleared(self._present, entry.at, entry.scan)
         if isinstance(command, Generate):
             return self._generated(entry, command)
         if isinstance(command, Recover):
-            present = [row.id for row in self._rows.values() if row.status == "generated"]
-            return self._cleared(present if command.ids is None else command.ids, entry.at, entry.scan)
+            return self._cleared(self._present if command.ids is None else command.ids, entry.at, entry.scan)
         return []
 
-    def cold_start(self, at: datetime) -> list[ErrorRow]:
-        """A restart ends every error; the rows that it changed."""
-        return self._cleared([row.id for row in self._rows.values() if row.status == "generated"], at, 0)
+    def reconcile(self, present: Sequence[str], at: datetime) -> list[ErrorRow]:
+        """Only these errors are present now, whatever was heard of before; the rows that it changed."""
+        return self._cleared([id for id in self._present if id not in present], at, 0)
+
+    @property
+    def _present(self) -> list[str]:
+        return [row.id for row in self._rows.values() if row.status == "generated"]
 
     def _generated(self, entry: Entry, command: Generate) -> list[ErrorRow]:
         changed = []
@@ -77,9 +80,9 @@ class History:
             row = self._rows[error.id]
             self._rows[error.id] = replace(
                 row,
-                status="generated", code=f"{chosen.code:04X}", details=str(chosen), generated_at=entry.at,
+                status="generated", code=chosen.code_text, details=str(chosen), generated_at=entry.at,
                 recovered_at=None, generated_scan=entry.scan, recovered_scan=None, by=command.author,
-                origin="simulator", count=row.count + 1,
+                origin=command.origin, count=row.count + 1,
             )  # fmt: skip
             changed.append(self._rows[error.id])
         return changed

@@ -5,7 +5,8 @@ new value, and so does the number of an instance's class. References count bytes
 the variable of the same path, or to nothing; in-out slots start unconnected, as the next call binds them.
 """
 
-from dataclasses import dataclass
+from collections.abc import Iterator
+from dataclasses import dataclass, field
 
 from scanbench.check.classes import TYPE_NUMBER
 from scanbench.check.layout import Layout
@@ -16,6 +17,7 @@ from scanbench.check.types import (
     Elementary,
     Enumeration,
     Kind,
+    Member,
     Record,
     Reference,
     Section,
@@ -25,106 +27,156 @@ from scanbench.check.types import (
 )
 
 _BYTE_OFFSET = 0xFFFF_FFFF
-_HEADER = ((Layout.CLOCK, 8), (Layout.SCAN, 8), (Layout.BUDGET_LIMIT, 8), (Layout.MODE, 2))
+_HEADER = (
+    (Layout.CLOCK, 8), (Layout.SCAN, 8), (Layout.BUDGET_LIMIT, 8), (Layout.MODE, 2), (Layout.EPOCH, 8), (Layout.STARTED, 8),
+)  # fmt: skip
+
+NEW, REMOVED = "new", "removed"
+
+
+@dataclass(frozen=True, slots=True)
+class Lost:
+    """A variable whose value does not go over."""
+
+    path: str
+    reason: str
+    """`NEW`, `REMOVED`, or in what the new one differs: it begins with its initial value."""
 
 
 @dataclass(slots=True)
-class CarryOver:
-    """How many variables were kept, and how many were not."""
+class Change:
+    """What became, or would become, of the variables: values kept, and what was not."""
 
     kept: int = 0
-    lost: int = 0
+    lost: list[Lost] = field(default_factory=list)
 
     def __str__(self) -> str:
-        new = f", {self.lost} new or changed: initialised" if self.lost else ""
-        return f"{self.kept} variables kept{new}"
+        removed = sum(each.reason == REMOVED for each in self.lost)
+        initialised = len(self.lost) - removed
+        parts = [f"{self.kept} variables kept"]
+        parts += [f"{initialised} new or changed: initialised"] * (initialised > 0)
+        parts += [f"{removed} removed"] * (removed > 0)
+        return ", ".join(parts)
 
 
-def carry_over(old: Program, old_memory: bytearray, new: Program, new_memory: bytearray) -> CarryOver:
+def changes(old: Program, new: Program) -> Change:
+    """What would become of the variables, whatever values they have: before anybody agrees to it."""
+    memory = bytearray(old.layout.size)
+    memory[: len(old.initial_image)] = old.initial_image
+    return carry_over(old, memory, new, bytearray(new.layout.size))
+
+
+def carry_over(old: Program, old_memory: bytes | bytearray | memoryview, new: Program, new_memory: bytearray) -> Change:
     """Fills `new_memory`, a fresh image of `new`, from the running image of `old`."""
-    report = CarryOver()
+    change = Change()
     for offset, size in _HEADER:
         new_memory[offset : offset + size] = old_memory[offset : offset + size]
     for area in new.layout.model.areas:
-        start = old.layout.areas.get(area.name)
-        if start is not None:
-            target = new.layout.areas[area.name]
-            new_memory[target : target + area.size] = old_memory[start : start + area.size]
-    carrier = _Carrier(old, old_memory, new, new_memory, report)
+        was = old.layout.model.area(area.name)
+        if was is not None:
+            start, target, size = old.layout.areas[area.name], new.layout.areas[area.name], min(area.size, was.size)
+            new_memory[target : target + size] = old_memory[start : start + size]
+    carrier = _Carrier(old, old_memory, new, new_memory, change)
     if new.layout.globals is not None and old.layout.globals is not None:
-        carrier.record(old.layout.globals, 0, new.layout.globals, 0)
+        carrier.record("", old.layout.globals, 0, new.layout.globals, 0)
+    _events(old, old_memory, new, new_memory)
+    before = {instance.name.upper(): instance for instance in old.instances}
+    made = {instance.name.upper() for instance in new.common}  # from the model: nobody wants to read of it
+    for instance in new.instances:
+        name = instance.name.upper()
+        carrier.change = Change() if name in made else change
+        known = before.pop(name, None)
+        if known is None:
+            carrier.change.lost.append(Lost(instance.name, NEW))
+        else:
+            carrier.record(instance.name, known.pou.instance, known.offset, instance.pou.instance, instance.offset)
+    hidden = {instance.name.upper() for instance in old.common}
+    change.lost += [Lost(each.name, REMOVED) for name, each in before.items() if name not in hidden]
+    return change
+
+
+def _events(old: Program, old_memory: bytes | bytearray | memoryview, new: Program, new_memory: bytearray) -> None:
+    """An event that holds on is no new one."""
     flags = {task.name.upper(): task.previous for task in old.tasks if task.previous}
     for task in new.tasks:
-        was_event = flags.get(task.name.upper())
-        if task.previous is not None and was_event is not None:
-            new_memory[task.previous.offset] = old_memory[was_event.offset]  # an event that holds on is no new one
-    before = {instance.name.upper(): instance for task in old.tasks for instance in task.programs}
-    for task in new.tasks:
-        for instance in task.programs:
-            if instance.pou.kind != "program":
-                continue  # a block that a task runs: it is inside of its program
-            was = before.get(instance.name.upper())
-            if was is None:
-                report.lost += len(instance.pou.instance.members)
-            else:
-                carrier.record(was.pou.instance, was.offset, instance.pou.instance, instance.offset)
-    return report
+        was = flags.get(task.name.upper())
+        if task.previous is not None and was is not None:
+            new_memory[task.previous.offset] = old_memory[was.offset]
 
 
 class _Carrier:
     def __init__(
-        self, old_program: Program, old: bytearray, new_program: Program, new: bytearray, report: CarryOver
+        self,
+        old_program: Program,
+        old: bytes | bytearray | memoryview,
+        new_program: Program,
+        new: bytearray,
+        change: Change,
     ) -> None:
         self._old_program, self._new_program = old_program, new_program
-        self._old, self._new, self._report = old, new, report
+        self._old, self._new, self.change = old, new, change
 
-    def record(self, old: Record, old_offset: int, new: Record, new_offset: int) -> None:
+    def record(self, path: str, old: Record, old_offset: int, new: Record, new_offset: int) -> None:
+        """The members of an instance, a structure, or the globals."""
+        prefix = f"{path}." if path else ""
         for name, member in new.members.items():
-            if member.located or member.constant or member.incomplete or member.name == TYPE_NUMBER:
+            if not _carried(member):
                 continue
-            if member.section in (Section.IN_OUT, Section.EXTERNAL):
-                continue
+            here = prefix + member.name
             was = old.members.get(name)
-            if was is None or was.located or was.constant or was.section is Section.IN_OUT or not member.storage:
-                self._report.lost += 1
-                continue
-            if member.type == was.type and (member.bit is not None or was.bit is not None):
+            reason = _reason(was)
+            if was is None or reason:
+                if not member.hidden:
+                    self.change.lost.append(Lost(here, reason))
+            elif member.type == was.type and (member.bit is not None or was.bit is not None):
                 self._bit(old_offset + was.offset, was.bit or 0, new_offset + member.offset, member.bit or 0)
             else:
-                self._value(was.type, old_offset + was.offset, member.type, new_offset + member.offset)
+                self._value(here, was.type, old_offset + was.offset, member.type, new_offset + member.offset)
+        self.change.lost += [
+            Lost(prefix + was.name, REMOVED)
+            for name, was in old.members.items()
+            if name not in new.members and _carried(was) and not was.hidden
+        ]
 
-    def _value(self, old: Type, old_offset: int, new: Type, new_offset: int) -> None:
+    def _value(self, path: str, old: Type, old_offset: int, new: Type, new_offset: int) -> None:
         if isinstance(new, Reference):
-            self._reference(old, old_offset, new, new_offset)
+            self._reference(path, old, old_offset, new, new_offset)
         elif isinstance(new, Record) and isinstance(old, Record) and old.kind is new.kind and old.name == new.name:
-            self.record(old, old_offset, new, new_offset)
+            self.record(path, old, old_offset, new, new_offset)
         elif isinstance(new, ArrayType) and isinstance(old, ArrayType) and old.bounds == new.bounds:
             plain = isinstance(new.element, Elementary | StringType) and not isinstance(new.element, Reference)
             if plain and new.element == old.element:
                 self._copy(old_offset, new_offset, new.size)
+            elif plain and not _same_numbers(old.element, new.element):
+                self._lose_type(path, old, new)
             else:
-                for index in range(new.count):
+                for index, shown in enumerate(_indices(new)):
                     self._value(
-                        old.element, old_offset + index * old.element.size,
+                        f"{path}[{shown}]", old.element, old_offset + index * old.element.size,
                         new.element, new_offset + index * new.element.size,
                     )  # fmt: skip
         elif isinstance(new, Elementary | StringType) and (new == old or _same_numbers(old, new)):
             self._copy(old_offset, new_offset, new.size)
         else:
-            self._report.lost += 1
+            self._lose_type(path, old, new)
 
-    def _reference(self, old: Type, old_offset: int, new: Reference, new_offset: int) -> None:
+    def _lose_type(self, path: str, old: Type, new: Type) -> None:
+        same = old.name == new.name
+        reason = f"{new.name} is declared otherwise" if same else f"type changed from {old.name} to {new.name}"
+        self.change.lost.append(Lost(path, reason))
+
+    def _reference(self, path: str, old: Type, old_offset: int, new: Reference, new_offset: int) -> None:
         """Leads it to the variable that has the path of the old one."""
         value = int.from_bytes(self._old[old_offset : old_offset + new.size], "little")
         if not isinstance(old, Reference) or old.name != new.name:
-            self._report.lost += 1
+            self._lose_type(path, old, new)
             return
         found = value if value == 0 else self._moved(value & _BYTE_OFFSET, old)
         if found is None:
-            self._report.lost += 1
+            self.change.lost.append(Lost(path, "what it referred to is no more: NULL"))
             return
         self._new[new_offset : new_offset + new.size] = (value & ~_BYTE_OFFSET | found).to_bytes(new.size, "little")
-        self._report.kept += 1
+        self.change.kept += 1
 
     def _moved(self, offset: int, reference: Reference) -> int | None:
         """Where in the new image that is what the old one has at this byte; None when it is no more."""
@@ -146,11 +198,39 @@ class _Carrier:
         """A BOOL that shares its byte with others, before or after."""
         value = self._old[old_offset] >> old_bit & 1
         self._new[new_offset] = self._new[new_offset] & ~(1 << new_bit) | value << new_bit
-        self._report.kept += 1
+        self.change.kept += 1
 
     def _copy(self, old_offset: int, new_offset: int, size: int) -> None:
         self._new[new_offset : new_offset + size] = self._old[old_offset : old_offset + size]
-        self._report.kept += 1
+        self.change.kept += 1
+
+
+def _carried(member: Member) -> bool:
+    """Whether the variable has a value of its own that can go over."""
+    if member.located or member.constant or member.incomplete or member.name == TYPE_NUMBER or not member.storage:
+        return False
+    return member.section not in (Section.IN_OUT, Section.EXTERNAL)
+
+
+def _reason(was: Member | None) -> str:
+    """Why a variable cannot take the value of this one; '' when it can, as far as the types fit."""
+    if was is None:
+        return NEW
+    if was.located:
+        return f"was at {was.address} before"
+    if was.constant:
+        return "was a constant before"
+    return "" if _carried(was) else f"was in {was.section.value} before"
+
+
+def _indices(array: ArrayType) -> Iterator[str]:
+    """The indices of its elements, in their order in memory."""
+    for number in range(array.count):
+        parts = []
+        for low, high in reversed(array.bounds):
+            number, at = divmod(number, high - low + 1)
+            parts.append(str(low + at))
+        yield ",".join(reversed(parts))
 
 
 def _refers_to(reference: Reference, type: Type) -> bool:

@@ -5,13 +5,17 @@ why nothing will. The seam applies the plan and keeps both: the command for peop
 """
 
 from abc import ABC, abstractmethod
-from collections.abc import Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from datetime import datetime
+from typing import Literal, TypeVar
 
 from scanbench.check.program import Program
 from scanbench.plcmodel.model import Model
 from scanbench.runtime.header import Header
+from scanbench.runtime.journal import Fold, Journal
+from scanbench.runtime.programs import Programs, Shelf
+
+T = TypeVar("T")
 
 
 @dataclass(frozen=True, slots=True)
@@ -33,12 +37,45 @@ class Patch:
         return Patch(offset, bytes((1 << bit,)), bytes((on << bit,)))
 
 
+RestartKind = Literal["cold", "warm", "power"]
+"""cold: everything initial. warm: what is retained is kept, forces too. power: as the device does when it is switched
+off and on: what is retained is kept, forces are gone."""
+
+
+@dataclass(frozen=True, slots=True)
+class Restarted:
+    """The program begins anew, with memory as this kind of restart leaves it. Scans and virtual time go on."""
+
+    kind: RestartKind
+
+
+@dataclass(frozen=True, slots=True)
+class Swapped:
+    """Program `version` takes over, with the variables that it has in common with the old one."""
+
+    version: int
+    fresh: bool
+    """Nothing is kept: the new program starts cold."""
+    released: tuple[str, ...] = ()
+    """Forces that the new program has no place for, as they were entered."""
+
+
+Effect = Restarted | Swapped
+"""What a plan does that no patch can say."""
+
+
 @dataclass(frozen=True, slots=True)
 class Plan:
-    """What a command changes, and a sentence that says so."""
+    """What a command changes, and a sentence that says so. The effect comes first, then the patches."""
 
     patches: tuple[Patch, ...]
     message: str
+    effect: Effect | None = None
+
+    @property
+    def starts_anew(self) -> bool:
+        """Whether the program begins as if nothing had happened: no error is present behind it, no trap stops it."""
+        return isinstance(self.effect, Restarted) or (isinstance(self.effect, Swapped) and self.effect.fresh)
 
 
 @dataclass(frozen=True, slots=True)
@@ -72,11 +109,13 @@ class Entry:
 
 @dataclass(frozen=True, slots=True)
 class View:
-    """What a planner may read: the program, the image between two scans, and what happened before."""
+    """What a planner may read: the program, the image between two scans, what happened before, and the programs there are."""
 
     program: Program
     memory: bytearray | bytes | memoryview
-    entries: Sequence[Entry] = ()
+    journal: Journal = field(default_factory=Journal)
+    programs: Programs = field(default_factory=Shelf)
+    version: int = 1
 
     @property
     def model(self) -> Model:
@@ -87,3 +126,7 @@ class View:
     def header(self) -> Header:
         """The header of the image."""
         return Header(self.memory)
+
+    def derived(self, fold: Fold[T]) -> T:
+        """What the journal adds up to."""
+        return self.journal.derived(fold)

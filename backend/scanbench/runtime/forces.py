@@ -5,14 +5,14 @@ bits in one byte share an entry.
 """
 
 import struct
-from collections.abc import Sequence
+from collections.abc import Mapping
 from dataclasses import dataclass
 
 from scanbench.check.layout import Layout
 from scanbench.check.types import Elementary
-from scanbench.runtime.command import Command, Entry, Patch, Plan, Refusal, View
-from scanbench.runtime.header import Mode
-from scanbench.runtime.program_change import ProgramChange
+from scanbench.runtime.command import Command, Entry, Patch, Plan, Refusal, Restarted, Swapped, View
+from scanbench.runtime.journal import Fold
+from scanbench.runtime.rights import Right, may
 from scanbench.runtime.target import find, writable_target
 
 _ENTRY = struct.Struct("<IBBH")
@@ -28,21 +28,25 @@ class Force(Command):
 
     def plan(self, view: View) -> Plan | Refusal:
         """The new force table, and the value at once, so that a paused PLC shows it."""
-        target = writable_target(view, self.path, "force")
+        patch = self.bits(view)
+        if isinstance(patch, Refusal):
+            return patch
+        table = read_table(view.memory)
+        hold(table, patch)
+        if len(table) > Layout.FORCE_LIMIT:
+            return Refusal(f"no room for more forces: at most {Layout.FORCE_LIMIT} bytes. Release some first")
+        symbol = find(view, self.path)
+        shown = self.path if isinstance(symbol, Refusal) else symbol.path
+        return Plan((*table_patches(view, table), patch), f"{shown} forced to {self.value.strip()}")
+
+    def bits(self, view: View) -> Patch | Refusal:
+        """Which bits of this image it holds, at which values."""
+        target = writable_target(view, self.path, Right.FORCE)
         if isinstance(target, Refusal):
             return target
         if not isinstance(target.type, Elementary):
             return Refusal(f"{target.symbol.path} is a {target.type.name}: only values of up to 8 bytes can be forced")
-        patch = target.patch(self.value)
-        if not isinstance(patch, Patch):
-            return patch
-        table = read_table(view.memory)
-        for index, (mask, value) in enumerate(zip(patch.mask, patch.data, strict=True), patch.offset):
-            old_mask, old_value = table.get(index, (0, 0))
-            table[index] = (old_mask | mask, old_value & ~mask | value & mask)
-        if len(table) > Layout.FORCE_LIMIT:
-            return Refusal(f"no room for more forces: at most {Layout.FORCE_LIMIT} bytes. Release some first")
-        return Plan((*table_patches(view, table), patch), f"{target.symbol.path} forced to {self.value.strip()}")
+        return target.patch(self.value)
 
 
 @dataclass(frozen=True, slots=True)
@@ -53,10 +57,12 @@ class Release(Command):
 
     def plan(self, view: View) -> Plan | Refusal:
         """The force table without these bits."""
-        if view.header.mode is Mode.RUN:
-            return Refusal("in RUN mode forces cannot be changed: change to MONITOR first")
+        refused = may(view.header.mode, Right.FORCE, self.path or "")
+        if refused is not None:
+            return refused
+        forces = view.derived(FORCED)
         if self.path is None:
-            count = len(forced(view.entries))
+            count = len(forces)
             return Plan(table_patches(view, {}), f"{count} force{'s' * (count != 1)} released")
         symbol = find(view, self.path)
         if isinstance(symbol, Refusal):
@@ -73,7 +79,7 @@ class Release(Command):
                 if keep:
                     table[index] = (keep, value & keep)
         if not held:
-            return Refusal(f"{symbol.path} is not forced", tuple(forced(view.entries)))
+            return Refusal(f"{symbol.path} is not forced", tuple(forces))
         return Plan(table_patches(view, table), f"{symbol.path} released")
 
 
@@ -87,6 +93,13 @@ def read_table(memory: bytearray | bytes | memoryview) -> dict[int, tuple[int, i
     return table
 
 
+def hold(table: dict[int, tuple[int, int]], patch: Patch) -> None:
+    """Adds the bits of a patch to a force table."""
+    for index, (mask, value) in enumerate(zip(patch.mask, patch.data, strict=True), patch.offset):
+        old_mask, old_value = table.get(index, (0, 0))
+        table[index] = (old_mask | mask, old_value & ~mask | value & mask)
+
+
 def table_patches(view: View, table: dict[int, tuple[int, int]]) -> tuple[Patch, ...]:
     """Patches that make this the force table; rows that fall free are cleared, so that equal forces give equal images."""
     rows = b"".join(_ENTRY.pack(offset, mask, value, 0) for offset, (mask, value) in sorted(table.items()))
@@ -94,18 +107,26 @@ def table_patches(view: View, table: dict[int, tuple[int, int]]) -> tuple[Patch,
     return (Patch.whole(Layout.FORCE_COUNT, _COUNT.pack(len(table))), Patch.whole(Layout.FORCES, rows))
 
 
-def forced(entries: Sequence[Entry]) -> dict[str, Force]:
-    """The forces that hold after these entries, by path in upper case."""
-    held: dict[str, Force] = {}
-    for entry in entries:
-        command = entry.command
-        if isinstance(command, Force):
-            held[command.path.strip().upper()] = command
-        elif isinstance(command, ProgramChange):
-            held.clear()  # those that fit the new program follow in the journal
-        elif isinstance(command, Release):
-            if command.path is None:
-                held.clear()
-            else:
-                held.pop(command.path.strip().upper(), None)
-    return held
+def _step(held: Mapping[str, Force], entry: Entry) -> Mapping[str, Force]:
+    command, effect = entry.command, entry.plan.effect
+    if entry.plan.starts_anew and effect != Restarted("warm"):
+        return {}
+    if isinstance(command, Force):
+        return {**held, _key(command.path): command}
+    gone: tuple[str, ...] = ()
+    if isinstance(effect, Swapped):
+        gone = effect.released
+    elif isinstance(command, Release):
+        if command.path is None:
+            return {}
+        gone = (command.path,)
+    keys = {_key(path) for path in gone}
+    return {key: force for key, force in held.items() if key not in keys} if keys else held
+
+
+def _key(path: str) -> str:
+    return path.strip().upper()
+
+
+FORCED: Fold[Mapping[str, Force]] = Fold({}, _step)
+"""The forces that hold, by path in upper case."""

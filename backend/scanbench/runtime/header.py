@@ -11,6 +11,10 @@ _U64 = struct.Struct("<Q")
 _U32 = struct.Struct("<I")
 
 
+DEFAULT_EPOCH = 946_684_800_000_000_000
+"""2000-01-01T00:00:00Z: what the clock of a PLC shows in scan 0 unless somebody sets it, so that equal runs are equal."""
+
+
 class Mode(IntEnum):
     """Operating mode of the PLC, as in `Layout.MODE`."""
 
@@ -44,6 +48,16 @@ class Header:
         return int(_I64.unpack_from(self._memory, Layout.CLOCK)[0])
 
     @property
+    def epoch_ns(self) -> int:
+        """What the PLC's clock showed at virtual time 0."""
+        return int(_I64.unpack_from(self._memory, Layout.EPOCH)[0])
+
+    @property
+    def started(self) -> int:
+        """Number of the first scan since the program last started."""
+        return int(_U64.unpack_from(self._memory, Layout.STARTED)[0])
+
+    @property
     def mode(self) -> Mode:
         """Operating mode."""
         return Mode(self._memory[Layout.MODE])
@@ -70,10 +84,11 @@ class Header:
 
 
 def fresh_image(program: Program, mode: Mode) -> bytearray:
-    """The image after a cold start in this mode."""
+    """The image of a new run in this mode."""
     memory = bytearray(program.layout.size)
     memory[: len(program.initial_image)] = program.initial_image
     memory[Layout.MODE] = mode
+    _I64.pack_into(memory, Layout.EPOCH, DEFAULT_EPOCH)
     return memory
 
 

@@ -4,9 +4,14 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
+from scanbench.check.condition import Condition
 from scanbench.check.program import Program
+from scanbench.engines.engine import Reason
 from scanbench.runtime.command import Command, Entry, Refusal
-from scanbench.runtime.resource import EngineFactory, Resource
+from scanbench.runtime.detect import Detect
+from scanbench.runtime.programs import EngineFactory, Loaded, Programs
+from scanbench.runtime.recorder import Recorder
+from scanbench.runtime.resource import Resource
 
 T = TypeVar("T")
 
@@ -30,6 +35,8 @@ class HeadlessRun(Generic[T]):
     refused: tuple[Refused, ...]
     rows: tuple[tuple[int, T], ...]
     """(scans run so far, what `sample` saw), every `every` scans."""
+    met: bool = False
+    """The run ended because the condition held."""
 
 
 def run_headless(
@@ -39,14 +46,23 @@ def run_headless(
     commands_at: Sequence[tuple[int, Command]] = (),
     every: int = 0,
     sample: Callable[[Resource], T] | None = None,
+    *,
+    detect: Detect | None = None,
+    recorder: Recorder | None = None,
+    programs: Programs | None = None,
+    until: Condition | None = None,
 ) -> HeadlessRun[T]:
     """Runs `scans` scans from a cold start in MONITOR mode.
 
     A command (n, c) is entered in the seam before scan n, counting from 0; several for one seam in the order given.
     n == `scans` is the seam behind the last scan; what is later does not come to pass. While the program is stopped (a fatal
-    error, mode PROGRAM) scans pass without it. A trap ends the run at once.
+    error, mode PROGRAM) scans pass without it. A trap ends the run at once, and so does the first scan after which `until`
+    holds, a condition for the program that the run begins with.
     """
-    resource = Resource(program, engine_factory)
+    loaded = Loaded.make(program, engine_factory)
+    resource = Resource(loaded, programs=programs, detect=detect, recorder=recorder)
+    resource.engine.stop_when(until)
+    met = False
     refused: list[Refused] = []
     rows: list[tuple[int, T]] = []
     waiting = sorted(commands_at, key=lambda pair: pair[0])
@@ -57,22 +73,23 @@ def run_headless(
             outcome = resource.submit(command)
             if isinstance(outcome, Refusal):
                 refused.append(Refused(at, command, outcome))
-        if now >= scans:
+        if now >= scans or met:
             break
         stops = [scans]
         if waiting:
             stops.append(waiting[0][0])
         if every:
             stops.append(now - now % every + every)
-        _advance(resource, min(stops) - now)
+        met = _advance(resource, min(stops) - now)  # perhaps less: it comes back for what the program asks for
         done = resource.header.scan
         if every and sample is not None and done % every == 0 and done > now and resource.trap is None:
             rows.append((done, sample(resource)))
-    return HeadlessRun(resource, resource.header.scan, tuple(resource.journal), tuple(refused), tuple(rows))
+    return HeadlessRun(resource, resource.header.scan, tuple(resource.journal), tuple(refused), tuple(rows), met)
 
 
-def _advance(resource: Resource, scans: int) -> None:
+def _advance(resource: Resource, scans: int) -> bool:
+    """Whether the condition holds now."""
     if resource.runnable:
-        resource.run(scans)
-    else:
-        resource.pass_time(scans)
+        return resource.run(scans).reason is Reason.CONDITION
+    resource.pass_time(scans)
+    return False

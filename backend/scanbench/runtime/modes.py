@@ -1,9 +1,11 @@
-"""SetMode, and what stopping does to the outputs."""
+"""SetMode, and what starting and stopping do to memory. What a mode permits is in `rights.py`."""
 
+from collections.abc import Iterator
 from dataclasses import dataclass
 
 from scanbench.check.layout import Layout
 from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
+from scanbench.runtime.forces import read_table
 from scanbench.runtime.header import Halt, Mode
 
 
@@ -14,25 +16,55 @@ class SetMode(Command):
     mode: str
 
     def plan(self, view: View) -> Plan | Refusal:
-        """The mode byte; on the way to PROGRAM also the outputs, and the trap that it ends."""
+        """The mode byte; between PROGRAM and the others also memory, outputs, and the trap that PROGRAM ends."""
         if self.mode not in Mode.__members__:
             return Refusal(f"{self.mode} is not a mode", tuple(Mode.__members__))
         mode, header = Mode[self.mode], view.header
-        if mode is header.mode and not (mode is Mode.PROGRAM and header.halt):
+        if mode is header.mode and not header.halt:
             return Plan((), f"already in {mode.name}")
         patch = Patch.whole(Layout.MODE, bytes((mode,)))
         if mode is Mode.PROGRAM:
-            halt = header.halt & ~Halt.TRAP
-            halt_patch = Patch.whole(Layout.FATAL, bytes((halt,)))
-            return Plan((patch, halt_patch, *outputs_off(view)), "mode PROGRAM: the program is stopped")
+            halt = Patch.whole(Layout.FATAL, bytes((header.halt & ~Halt.TRAP,)))
+            return Plan((patch, halt, *stopped(view)), "mode PROGRAM: the program is stopped")
         if header.halt & Halt.FATAL_ERROR:
-            return Refusal(f"cannot change to {mode.name}: a fatal error is present. Recover it, then set {mode.name}")
+            return Refusal(f"cannot run in {mode.name}: a fatal error is present. Recover it, then set {mode.name}")
         if header.halt & Halt.TRAP:
             return Refusal(
-                f"cannot change to {mode.name}: the program stopped by a run-time error. "
+                f"cannot run in {mode.name}: the program stopped by a run-time error. "
                 "Correct it and build, or restart, or change to PROGRAM first"
             )
-        return Plan((patch,), f"mode {mode.name}: the program runs")
+        if header.mode is Mode.PROGRAM:
+            return Plan((patch, *volatile_cleared(view), started(view)), f"mode {mode.name}: the program runs")
+        return Plan((patch,), f"mode {mode.name}: the program goes on")
+
+
+def started(view: View) -> Patch:
+    """The patch that makes the next scan the program's first one."""
+    return Patch.whole(Layout.STARTED, view.header.scan.to_bytes(8, "little"))
+
+
+def stopped(view: View) -> tuple[Patch, ...]:
+    """What a change to PROGRAM does to memory: volatile areas and outputs go to 0, unless the hold bit is on."""
+    if held(view):
+        return ()
+    return (*volatile_cleared(view), *outputs_off(view), *_forced_values(view))
+
+
+def volatile_cleared(view: View) -> tuple[Patch, ...]:
+    """Clears what the device clears when its program starts or stops; nothing while the model's hold bit is on.
+
+    Input words stay: they are what is wired to the PLC, and the device would read them again at once. What is forced
+    keeps its value.
+    """
+    if held(view):
+        return ()
+    areas = view.program.layout.areas
+    zeros = tuple(
+        Patch.whole(areas[area.name] + 2 * first, bytes(2 * (end - first)))
+        for area in view.model.fatal.cleared
+        for first, end in _between(0, area.words, _inputs(view, area.name))
+    )
+    return (*zeros, *_forced_values(view)) if zeros else ()
 
 
 def outputs_off(view: View) -> tuple[Patch, ...]:
@@ -44,9 +76,31 @@ def outputs_off(view: View) -> tuple[Patch, ...]:
     )
 
 
-def memory_cleared(view: View) -> tuple[Patch, ...]:
-    """Patches that clear what a fatal error clears; none when the model's hold bit is on."""
-    areas, hold = view.program.layout.areas, view.model.fatal.hold
-    if hold is not None and hold.bit is not None and view.memory[areas[hold.area.name] + hold.byte] >> hold.bit & 1:
-        return ()
-    return tuple(Patch.whole(areas[area.name], bytes(area.size)) for area in view.model.fatal.cleared)
+def held(view: View) -> bool:
+    """Whether the model's hold bit is on: its memory survives a start, a stop, and a fatal error."""
+    hold = view.model.fatal.hold
+    if hold is None or hold.bit is None:
+        return False
+    return bool(view.memory[view.program.layout.areas[hold.area.name] + hold.byte] >> hold.bit & 1)
+
+
+def _forced_values(view: View) -> tuple[Patch, ...]:
+    """The force table does not act while nothing runs, so a patch has to."""
+    table = read_table(view.memory)
+    return tuple(Patch(offset, bytes((mask,)), bytes((value,))) for offset, (mask, value) in sorted(table.items()))
+
+
+def _inputs(view: View, area: str) -> list[tuple[int, int]]:
+    """The words of an area that are inputs: (first, behind the last), ascending."""
+    maps = (each for each in view.model.iec_maps if each.letter == "I" and each.area.name == area)
+    return sorted((each.first, each.first + each.words) for each in maps)
+
+
+def _between(first: int, end: int, holes: list[tuple[int, int]]) -> Iterator[tuple[int, int]]:
+    """The parts of first..end that are in no hole."""
+    for start, behind in holes:
+        if start > first:
+            yield first, min(start, end)
+        first = max(first, behind)
+    if first < end:
+        yield first, end

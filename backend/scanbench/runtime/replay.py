@@ -1,37 +1,44 @@
-"""Replay: an image and a journal determine every later byte."""
+"""Replay: the journal's plans entered again at their scans give the same image, byte for byte."""
 
 from collections.abc import Iterable
 
+from scanbench.engines.engine import Reason
 from scanbench.runtime.command import Entry
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.trap import Trapped
 
 
 class Diverged(Exception):
-    """The replay did not do what the journal says: the program or the engine is not the one that was recorded."""
+    """The run did not go as the journal says: the program or the engine is not the one that was recorded."""
 
 
 def replay(resource: Resource, entries: Iterable[Entry], until: int) -> None:
     """Runs to scan `until` as fast as possible, entering each entry's plan where it was entered first."""
     for entry in entries:
-        _run_to(resource, entry.scan)
+        run_to(resource, entry.scan)
         if isinstance(entry.command, Trapped):
-            resource.rerun_trap(entry)
-        else:
-            resource.reenter(entry)
-    if resource.runnable:
-        _run_to(resource, until)
+            _break_off(resource)
+        resource.reenter(entry)
+    if not resource.header.halted_by_trap:
+        run_to(resource, until)
 
 
-def _run_to(resource: Resource, scan: int) -> None:
-    missing = scan - resource.header.scan
-    if missing < 0:
-        raise Diverged(f"the journal goes on at scan {scan}, the image is at {resource.header.scan}")
-    if missing == 0:
-        return
-    if resource.runnable:
-        resource.run(missing)
-    if not resource.runnable and resource.trap is None:
-        resource.pass_time(scan - resource.header.scan)
-    if resource.header.scan != scan:
-        raise Diverged(f"the replay stopped in scan {resource.header.scan}, before scan {scan}: {resource.trap}")
+def run_to(resource: Resource, scan: int) -> None:
+    """Runs up to this scan, in which nothing is entered on the way; time alone passes while the program is stopped."""
+    now = resource.header.scan
+    if scan < now:
+        raise Diverged(f"the journal goes on at scan {scan}, the image is at {now}")
+    if not resource.runnable and not resource.header.halted_by_trap:
+        resource.pass_time(scan - now)
+    while (now := resource.header.scan) < scan:
+        if not resource.runnable or resource.rerun(scan - now).reason is Reason.TRAP:
+            raise Diverged(f"the replay stopped in scan {now}, before scan {scan}, where the journal goes on")
+
+
+def _break_off(resource: Resource) -> None:
+    """The part of a scan that ran before a trap."""
+    scan = resource.header.scan
+    while resource.runnable and resource.header.scan == scan:
+        if resource.rerun(1).reason is Reason.TRAP:
+            return
+    raise Diverged(f"scan {scan} ended by a run-time error when it was recorded, and does not now")

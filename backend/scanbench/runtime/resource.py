@@ -1,22 +1,19 @@
-"""The virtual PLC: engine, image, seam and journal in one. No threads, no wall clock: whoever owns it says when to run."""
+"""The virtual PLC: engine, image, seam and journal in one. No threads: whoever owns it says when to run."""
 
-from collections.abc import Callable
+import errno
 from dataclasses import dataclass
 
-from scanbench.check.layout import Layout
 from scanbench.check.program import Program
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.runtime import seam
-from scanbench.runtime.carry_over import carry_over
-from scanbench.runtime.clock import monotonic_ns
+from scanbench.runtime.clock import monotonic_ns, wall_time
 from scanbench.runtime.command import Command, Entry, Refusal, View
-from scanbench.runtime.forces import forced
+from scanbench.runtime.detect import Detect, read_asked
 from scanbench.runtime.header import Header, Mode, fresh_image, pass_time
 from scanbench.runtime.journal import Journal
-from scanbench.runtime.program_change import ProgramChange
-from scanbench.runtime.trap import TrapInfo, Trapped, trap_info
-
-EngineFactory = Callable[[Program, bytearray], Engine]
+from scanbench.runtime.programs import Loaded, Programs, Shelf
+from scanbench.runtime.recorder import Recorder
+from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped, trap_info
 
 
 @dataclass(slots=True)
@@ -36,23 +33,50 @@ class Resource:
     """One PLC with one program."""
 
     def __init__(
-        self, program: Program, engine_factory: EngineFactory, mode: Mode = Mode.MONITOR, state: bytes | None = None
-    ) -> None:
-        """Cold start in `mode`, or from `state`, the first `Layout.state_size` bytes of an image of this program."""
-        self.program = program
-        self.memory = fresh_image(program, mode)
-        if state is not None:
-            self.memory[: len(state)] = state
-        self.header = Header(self.memory)
-        self.engine = engine_factory(program, self.memory)
+        self, loaded: Loaded, mode: Mode = Mode.MONITOR, state: bytes | None = None, *,
+        programs: Programs | None = None, detect: Detect | None = None, recorder: Recorder | None = None,
+    ) -> None:  # fmt: skip
+        """A new run in `mode`, or from `state`, the first `Layout.state_size` bytes of an image of this program."""
+        self.loaded = loaded
+        self.programs = programs if programs is not None else Shelf(loaded)
+        self.recorder = recorder
         self.journal = Journal()
-        self.trap: TrapInfo | None = None
         self.measured = Measured()
+        self.detect = detect
+        loaded.memory[:] = fresh_image(loaded.program, mode)
+        if state is not None:
+            loaded.memory[: len(state)] = state
+        self.header = Header(loaded.memory)
+
+    @property
+    def program(self) -> Program:
+        """The program that runs."""
+        return self.loaded.program
+
+    @property
+    def version(self) -> int:
+        """The version of the program that runs."""
+        return self.loaded.version
+
+    @property
+    def memory(self) -> bytearray:
+        """The image. A change of the program brings another one."""
+        return self.loaded.memory
+
+    @property
+    def engine(self) -> Engine:
+        """What runs the program."""
+        return self.loaded.engine
+
+    @engine.setter
+    def engine(self, engine: Engine) -> None:
+        """Other code of the same program, on the same memory."""
+        self.loaded.engine = engine
 
     @property
     def view(self) -> View:
         """What planners may read."""
-        return View(self.program, self.memory, self.journal)
+        return View(self.program, self.memory, self.journal, self.programs, self.version)
 
     @property
     def runnable(self) -> bool:
@@ -60,76 +84,48 @@ class Resource:
         return self.header.runnable
 
     @property
+    def trap(self) -> TrapInfo | None:
+        """The trap that keeps the program stopped, if one does."""
+        return self.journal.derived(TRAPPED) if self.header.halted_by_trap else None
+
+    @property
     def state(self) -> bytes:
         """A copy of what is compared, hashed and recorded."""
         return bytes(memoryview(self.memory)[: self.program.layout.state_size])
 
+    # ---- live -----------------------------------------------------------------------------------------------------
+
     def submit(self, command: Command) -> Entry | Refusal:
-        """Enters a command in the seam, now."""
-        entry = seam.enter(command, self.view, self.memory, self.journal)
-        self._see_trap()
-        return entry
+        """Enters a command in the seam, now: planned, kept, then applied. What cannot be kept is refused."""
+        return self._enter(command, must=False)
 
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
-        """Runs up to `scans` scans; a trap is entered in the journal and stops the program."""
-        if not self.runnable:
-            raise RuntimeError("the program is stopped: run() must not be called")
-        stop = self._measured_run(scans, pace)
+        """Runs up to `scans` scans. Comes back early for a trap, which stops the program, and for what it asked for."""
+        first = self.header.scan
+        stop = self.rerun(scans, pace)
         if stop.reason is Reason.TRAP:
-            self.submit(Trapped("PLC", trap_info(self.program, stop.trap, self.header.scan)))
+            self._trapped(stop.trap)
+        elif self.header.scan > first:
+            self._answer()
         return stop
-
-    def restart(self) -> None:
-        """Cold start: a fresh image, a new journal. It runs, in RUN if it was in RUN, else in MONITOR."""
-        mode = Mode.RUN if self.header.mode is Mode.RUN else Mode.MONITOR
-        self.memory[:] = fresh_image(self.program, mode)
-        self.journal, self.trap, self.measured = Journal(), None, Measured()
-
-    def swap(self, program: Program, engine: Engine, memory: bytearray, author: str, version: int) -> str:
-        """Goes on with a new program; `engine` was made for it on `memory`. Returns what became of the variables.
-
-        After a trap there is nothing to go on with: the new program starts cold.
-        """
-        old_program, old_memory, trapped = self.program, self.memory, self.trap is not None
-        memory[:] = fresh_image(program, Mode.MONITOR)
-        held = forced(self.journal)
-        self.program, self.memory, self.engine, self.header = program, memory, engine, Header(memory)
-        self.measured = Measured()
-        if trapped:
-            self.journal, self.trap = Journal(), None
-            report = "cold start, as the old program had stopped by a run-time error"
-            self.submit(ProgramChange(author, version, report))
-            return report
-        mode = old_memory[Layout.MODE]
-        report = str(carry_over(old_program, old_memory, program, memory))
-        memory[Layout.MODE] = Mode.MONITOR  # forces are entered anew, in any mode
-        self.submit(ProgramChange(author, version, report))
-        lost = [force.path for force in held.values() if isinstance(self.submit(force), Refusal)]
-        memory[Layout.MODE] = mode
-        return report + (f"; forces released: {', '.join(lost)}" if lost else "")
 
     def pass_time(self, scans: int) -> None:
         """Virtual time goes on while the program is stopped."""
         if scans > 0:
             pass_time(self.memory, scans, self.program.interval_ns)
 
-    def adopt(self, journal: Journal) -> None:
-        """Takes the journal that led to this image, as read from a checkpoint."""
-        self.journal = journal
-        self._see_trap()
+    def settle(self) -> None:
+        """Behind a recovery: answers what the last scan asked for, unless that was entered before all ended."""
+        last = self.journal[-1].scan if self.journal else -1
+        if last < self.header.scan:
+            self._answer()
 
-    def reenter(self, entry: Entry) -> None:
-        """Replay of an entry: its plan, not its command, so that the planner need not be the same any more."""
-        seam.apply(self.memory, entry.plan)
-        self.journal.append(entry)
-        self._see_trap()
+    # ---- replay ---------------------------------------------------------------------------------------------------
 
-    def rerun_trap(self, entry: Entry) -> None:
-        """Replay of a trap: the part of the scan that ran before it, then its entry."""
-        self._measured_run(1, None)
-        self.reenter(entry)
-
-    def _measured_run(self, scans: int, pace: Pace | None) -> Stop:
+    def rerun(self, scans: int, pace: Pace | None = None) -> Stop:
+        """Runs up to `scans` scans, and enters nothing: what was noticed then is in the journal."""
+        if not self.runnable:
+            raise RuntimeError("the program is stopped: it must not be run")
         first, start = self.header.scan, monotonic_ns()
         busy = pace.busy_ns if pace is not None else 0
         stop = self.engine.run(scans, pace)
@@ -137,12 +133,61 @@ class Resource:
         self.measured.busy_ns += pace.busy_ns - busy if pace is not None else monotonic_ns() - start
         return stop
 
-    def _see_trap(self) -> None:
-        """The trap that keeps the program stopped, if one does: the journal knows."""
-        if not self.header.halted_by_trap:
-            self.trap = None
-            return
-        for entry in reversed(self.journal):
-            if isinstance(entry.command, Trapped):
-                self.trap = entry.command.info
-                return
+    def reenter(self, entry: Entry) -> None:
+        """Replay of an entry: its plan, not its command, so that the planner need not be the same any more."""
+        self._apply(entry)
+
+    def restore(self, version: int, state: bytes, journal: Journal) -> None:
+        """The PLC as it was: the program, its image, and the journal that led to it."""
+        if version != self.version:
+            self._load(self.programs.get(version))
+        self.memory[: len(state)] = state
+        self.journal = journal
+
+    # ---- the seam -------------------------------------------------------------------------------------------------
+
+    def _enter(self, command: Command, must: bool) -> Entry | Refusal:
+        plan = command.plan(self.view)
+        if isinstance(plan, Refusal):
+            return plan
+        entry = Entry(self.header.scan, wall_time(), command, plan)
+        if self.recorder is not None:
+            try:
+                self.recorder.entry(entry, must)
+            except OSError as error:
+                return _not_kept(error)
+        self._apply(entry)
+        return entry
+
+    def _apply(self, entry: Entry) -> None:
+        loaded = seam.apply(self.loaded, self.programs, entry.plan)
+        if loaded is not self.loaded:
+            self._load(loaded)
+        self.journal.append(entry)
+
+    def _load(self, loaded: Loaded) -> None:
+        self.loaded = loaded
+        self.header = Header(loaded.memory)
+        self.measured = Measured()
+
+    def _trapped(self, trap: int) -> None:
+        info = trap_info(self.program, trap, self.header.scan)
+        self._enter(Trapped("PLC", info), must=True)
+        self._answer()
+        command = self.detect.on_trap(info, self.view) if self.detect is not None else None
+        if command is not None:
+            self._enter(command, must=True)
+
+    def _answer(self) -> None:
+        asked = read_asked(self.memory)
+        if asked and self.detect is not None:
+            for command in self.detect.on_asked(asked, self.view):
+                self._enter(command, must=True)
+
+
+def _not_kept(error: OSError) -> Refusal:
+    if error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
+        return Refusal(
+            "the disk is full, so the run cannot be recorded, and nothing was changed: make room, then try again"
+        )
+    return Refusal(f"the run cannot be recorded ({error}), so nothing was changed")

@@ -1,25 +1,27 @@
 """The seam between two scans: the only place where anything from outside enters the image."""
 
-from scanbench.runtime.clock import wall_time
-from scanbench.runtime.command import Command, Entry, Patch, Plan, Refusal, View
-from scanbench.runtime.journal import Journal
+from scanbench.runtime.command import Effect, Patch, Plan, Restarted
+from scanbench.runtime.programs import Loaded, Programs
+from scanbench.runtime.restart import restarted
+from scanbench.runtime.swap import swapped
 
 
-def apply(memory: bytearray, plan: Plan) -> None:
-    """Applies a plan whole."""
+def apply(loaded: Loaded, programs: Programs, plan: Plan) -> Loaded:
+    """Applies a plan whole; the program that runs behind it."""
+    if plan.effect is not None:
+        loaded = _take_effect(loaded, programs, plan.effect)
     for patch in plan.patches:
-        _apply(memory, patch)
+        _apply(loaded.memory, patch)
+    return loaded
 
 
-def enter(command: Command, view: View, memory: bytearray, journal: Journal) -> Entry | Refusal:
-    """Plans a command, applies the plan, and keeps both in the journal under the number of the next scan."""
-    plan = command.plan(view)
-    if isinstance(plan, Refusal):
-        return plan
-    entry = Entry(view.header.scan, wall_time(), command, plan)
-    apply(memory, plan)
-    journal.append(entry)
-    return entry
+def _take_effect(loaded: Loaded, programs: Programs, effect: Effect) -> Loaded:
+    if isinstance(effect, Restarted):
+        loaded.memory[:] = restarted(loaded.program, loaded.memory, effect.kind)
+        return loaded
+    new = programs.get(effect.version)
+    new.memory[:], _ = swapped(loaded.program, loaded.memory, new.program, effect.fresh)
+    return new
 
 
 def _apply(memory: bytearray, patch: Patch) -> None:

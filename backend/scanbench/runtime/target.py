@@ -6,7 +6,7 @@ from scanbench.check.symbols import Symbol, UnknownPath, resolve
 from scanbench.check.types import Elementary, StringType
 from scanbench.check.values import parse_value
 from scanbench.runtime.command import Patch, Refusal, View
-from scanbench.runtime.header import Mode
+from scanbench.runtime.rights import Right, may
 
 
 @dataclass(frozen=True, slots=True)
@@ -37,7 +37,7 @@ def find(view: View, path: str) -> Symbol | Refusal:
         return Refusal(error.message, tuple(error.near))
 
 
-def writable_target(view: View, path: str, verb: str) -> Target | Refusal:
+def writable_target(view: View, path: str, verb: Right) -> Target | Refusal:
     """The place behind `path` if a tool may write (force ...) there now; `verb` is for the refusal."""
     symbol = find(view, path)
     if isinstance(symbol, Refusal):
@@ -51,9 +51,7 @@ def writable_target(view: View, path: str, verb: str) -> Target | Refusal:
     reason = read_only_reason(view, symbol, offset, bit)
     if reason is not None:
         return Refusal(reason)
-    if view.header.mode is Mode.RUN:
-        return Refusal(f"in RUN mode nothing can be written from outside: change to MONITOR to {verb} {symbol.path}")
-    return Target(symbol, offset, bit, symbol.type)
+    return may(view.header.mode, verb, symbol.path) or Target(symbol, offset, bit, symbol.type)
 
 
 def read_only_reason(view: View, symbol: Symbol, offset: int, bit: int | None) -> str | None:

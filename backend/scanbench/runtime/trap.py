@@ -4,8 +4,9 @@ from dataclasses import dataclass
 
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program, TrapSite
-from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
+from scanbench.runtime.command import Command, Entry, Patch, Plan, Refusal, View
 from scanbench.runtime.header import Halt
+from scanbench.runtime.journal import Fold
 from scanbench.runtime.modes import outputs_off
 
 
@@ -41,3 +42,11 @@ def trap_info(program: Program, trap: int, scan: int) -> TrapInfo:
     site: TrapSite = program.traps[trap - 1]
     span = site.span
     return TrapInfo(site.kind.value, site.message, span.file, span.line, span.column, scan)
+
+
+def _step(info: TrapInfo | None, entry: Entry) -> TrapInfo | None:
+    return entry.command.info if isinstance(entry.command, Trapped) else info
+
+
+TRAPPED: Fold[TrapInfo | None] = Fold(None, _step)
+"""The last trap, whether it is over or not."""

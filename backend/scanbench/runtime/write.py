@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import read_table
+from scanbench.runtime.rights import Right
 from scanbench.runtime.target import writable_target
 
 
@@ -16,7 +17,7 @@ class Write(Command):
 
     def plan(self, view: View) -> Plan | Refusal:
         """One patch of the value's bytes."""
-        target = writable_target(view, self.path, "write")
+        target = writable_target(view, self.path, Right.WRITE)
         if isinstance(target, Refusal):
             return target
         patch = target.patch(self.value)

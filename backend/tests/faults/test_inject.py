@@ -1,16 +1,20 @@
 """Generate and Recover, to the bit."""
 
+from datetime import UTC, datetime
+
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
 from scanbench.faults.history import History
-from scanbench.faults.inject import Generate, Recover, active
+from scanbench.faults.inject import ACTIVE, Generate, Recover
 from scanbench.faults.reference import ErrorRef, parse_reference
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.forces import Force
 from scanbench.runtime.modes import SetMode
-from scanbench.runtime.resource import EngineFactory, Resource
+from scanbench.runtime.programs import EngineFactory
+from scanbench.runtime.resource import Resource
+from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.write import Write
 from tests.runtime.bench import ENGINES, model, plc, value
 
@@ -113,7 +117,7 @@ def test_again_changes_details_only_when_they_differ() -> None:
     assert value(resource, "A402") == 1 << 7  # the battery of the same batch neither
     assert isinstance(generate(resource, "cpu-bus-unit-error:unit=9", by="Bob"), Entry)
     assert (value(resource, "A400"), value(resource, "A417")) == (0x0209, 1 << 9)
-    assert active(resource.journal)["cpu-bus-unit-error"].by == "Bob"
+    assert resource.view.derived(ACTIVE)["cpu-bus-unit-error"].by == "Bob"
 
 
 def test_errors_that_share_a_word_do_not_take_each_other_back() -> None:
@@ -164,6 +168,17 @@ def test_the_models_error_log_drops_the_oldest() -> None:
     assert value(resource, "A300") == 20
     assert value(resource, "A100") == 0x4100 + 4
     assert value(resource, "A195") == 0x4100 + 23
+
+
+def test_a_record_of_the_log_shows_the_clock_of_the_plc() -> None:
+    resource = plc(SOURCE)
+    resource.submit(SetClock("Ada", datetime(2024, 2, 28, 23, 59, 58, tzinfo=UTC)))
+    resource.run(301)  # 10 ms each
+    generate(resource, "battery-error", "cpu-bus-unit-error:unit=3")
+    first, second = ([value(resource, f"A{start + word}") for word in range(5)] for start in (100, 105))
+    assert first == [0x00F7, 0, 0x0001, 0x2900, 0x2402]
+    assert second == [0x0203, 1 << 3, 0x0001, 0x2900, 0x2402]
+    assert first[2:] == [value(resource, f"A{word}") for word in (351, 352, 353)]
 
 
 IDS = [error.id for error in model().errors()]

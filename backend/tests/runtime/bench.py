@@ -10,7 +10,10 @@ from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
-from scanbench.runtime.resource import EngineFactory, Resource
+from scanbench.runtime.command import Entry
+from scanbench.runtime.program_change import ProgramChange
+from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
+from scanbench.runtime.resource import Resource
 
 ENGINES: tuple[EngineFactory, ...] = (ReferenceEngine, NativeEngine)
 
@@ -29,7 +32,7 @@ def program(source: str, model_name: str = "CJ1M-CPU63") -> Program:
 
 
 def plc(source: str, engine: EngineFactory = ReferenceEngine, model_name: str = "CJ1M-CPU63") -> Resource:
-    return Resource(program(source, model_name), engine)
+    return Resource(Loaded.make(program(source, model_name), engine))
 
 
 def value(resource: Resource, path: str) -> bool | int | float | str | None:
@@ -39,3 +42,11 @@ def value(resource: Resource, path: str) -> bool | int | float | str | None:
     offset, bit = place
     data = bytes(resource.memory[offset : offset + symbol.type.size])
     return bool(data[0] >> bit & 1) if bit is not None else python_value(symbol.type, data)
+
+
+def change(resource: Resource, new: Program, engine: EngineFactory = ReferenceEngine, version: int = 2) -> str:
+    """Swaps a new program in; what became of the variables."""
+    resource.programs = Shelf(resource.loaded, Loaded.make(new, engine, version))
+    entry = resource.submit(ProgramChange("Ada", version))
+    assert isinstance(entry, Entry), entry
+    return entry.plan.message

@@ -6,7 +6,8 @@ from scanbench.check.layout import Layout
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.modes import SetMode
-from scanbench.runtime.resource import EngineFactory, Resource
+from scanbench.runtime.programs import EngineFactory
+from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
 from tests.runtime.bench import ENGINES, plc, value
 

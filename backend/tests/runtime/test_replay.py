@@ -2,6 +2,8 @@
 
 import pytest
 
+from scanbench.check.condition import Condition, compile_condition
+from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.command import Command
@@ -9,8 +11,9 @@ from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.headless import HeadlessRun, run_headless
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.modes import SetMode
+from scanbench.runtime.programs import EngineFactory, Loaded
 from scanbench.runtime.replay import Diverged, replay
-from scanbench.runtime.resource import EngineFactory, Resource
+from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
 from tests.runtime.bench import ENGINES, program, value
 
@@ -42,8 +45,8 @@ def test_a_run_can_be_gone_on_with_from_any_checkpoint(engine: EngineFactory, ch
     code = program(SOURCE)
     whole = run_headless(code, 30, engine, COMMANDS).resource
     part = run_headless(code, checkpoint, engine, [each for each in COMMANDS if each[0] <= checkpoint]).resource
-    again = Resource(code, engine, state=part.state)
-    again.adopt(Journal(part.journal))
+    again = Resource(Loaded.make(code, engine))
+    again.restore(1, part.state, Journal(part.journal))
     replay(again, whole.journal[len(part.journal) :], 30)
     assert again.state == whole.state
     assert [(each.scan, each.command, each.plan) for each in again.journal] == [
@@ -65,7 +68,7 @@ def test_a_trap_is_replayed_with_what_ran_before_it(engine: EngineFactory) -> No
     assert run.scans == 25
     run.resource.submit(SetMode("Ada", "PROGRAM"))
     run.resource.submit(Write("Ada", "Main.d", "1"))
-    again = Resource(code, engine)
+    again = Resource(Loaded.make(code, engine))
     replay(again, run.resource.journal, 25)
     assert again.state == run.resource.state
     assert value(again, "Main.q") == value(run.resource, "Main.q")
@@ -75,7 +78,7 @@ def test_a_journal_of_another_program_is_noticed() -> None:
     trapping = program("PROGRAM Main\nVAR d : INT; q : INT; END_VAR\n  q := 1 / d;\nEND_PROGRAM\n")
     run: HeadlessRun[None] = run_headless(program(SOURCE), 10, ENGINES[0], [(5, Write("Ada", "D0", "1"))])
     with pytest.raises(Diverged, match="scan 0"):
-        replay(Resource(trapping, ENGINES[0]), run.resource.journal, 10)
+        replay(Resource(Loaded.make(trapping, ENGINES[0])), run.resource.journal, 10)
 
 
 def test_rows_refusals_and_scans_of_a_headless_run() -> None:
@@ -85,3 +88,14 @@ def test_rows_refusals_and_scans_of_a_headless_run() -> None:
     assert [(each.scan, each.command.author) for each in run.refused] == [(2, "Ada")]
     assert value(run.resource, "D0") == 7  # for the seam behind the last scan
     assert run.scans == 10
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_headless_run_ends_where_the_condition_holds(engine: EngineFactory) -> None:
+    code = program("PROGRAM Main\nVAR n : INT; END_VAR\n  n := n + 1; IF n = 7 THEN FAL(5); END_IF;\nEND_PROGRAM\n")
+    for text, scans, met in (("Main.n >= 12", 12, True), ("A402.15", 7, True), ("Main.n < 0", 30, False)):
+        until = compile_condition(code, text)
+        assert isinstance(until, Condition)
+        run: HeadlessRun[None] = run_headless(code, 30, engine, detect=Detection(), until=until)
+        assert (run.scans, run.met) == (scans, met)
+        assert value(run.resource, "A400") == 0x4105  # asked for and answered, also in the last scan

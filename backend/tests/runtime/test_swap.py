@@ -2,11 +2,13 @@
 
 import pytest
 
+from scanbench.runtime.command import Refusal
 from scanbench.runtime.forces import Force
 from scanbench.runtime.modes import SetMode
-from scanbench.runtime.resource import EngineFactory
+from scanbench.runtime.program_change import ProgramChange
+from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
 from scanbench.runtime.write import Write
-from tests.runtime.bench import ENGINES, plc, program, value
+from tests.runtime.bench import ENGINES, change, plc, program, value
 
 OLD = """
 TYPE Point : STRUCT x : INT; y : REAL; END_STRUCT; END_TYPE
@@ -41,8 +43,7 @@ def test_values_of_the_same_path_and_type_are_kept(engine: EngineFactory) -> Non
     resource.submit(Force("Ada", "Main.gone", "1"))
     resource.run(7)
     new = program(NEW)
-    memory = bytearray(new.layout.size)
-    report = resource.swap(new, engine(new, memory), memory, "Ada", 2)
+    report = change(resource, new, engine)
     assert "Main.gone" in report  # its force has nowhere to go
     for path, expected in (
         ("Main.n", 7), ("Main.first", 8), ("Main.list[1]", 7), ("Main.p[1].x", 7), ("Main.p[1].z", 0), ("g", 44),
@@ -56,15 +57,14 @@ def test_values_of_the_same_path_and_type_are_kept(engine: EngineFactory) -> Non
     assert (value(resource, "Main.n"), value(resource, "Main.r"), value(resource, "Main.b.v")) == (17, 1.5, 17)
 
 
-def test_a_forced_plc_in_run_mode_keeps_its_forces() -> None:
+def test_in_run_mode_the_program_stays() -> None:
     resource = plc(OLD)
-    resource.submit(Force("Ada", "Main.r", "1.5"))
     resource.submit(SetMode("Ada", "RUN"))
-    new = program(NEW)
-    memory = bytearray(new.layout.size)
-    resource.swap(new, ENGINES[0](new, memory), memory, "Ada", 2)
-    assert resource.header.mode.name == "RUN"
-    assert resource.header.force_count == 4
+    resource.programs = Shelf(Loaded.make(program(NEW), ENGINES[0], 2))
+    refusal = resource.submit(ProgramChange("Ada", 2))
+    assert isinstance(refusal, Refusal)
+    assert "MONITOR" in refusal.message
+    assert resource.version == 1
 
 
 def test_after_a_trap_the_new_program_starts_cold() -> None:
@@ -72,8 +72,7 @@ def test_after_a_trap_the_new_program_starts_cold() -> None:
     resource.run(1)
     assert resource.trap is not None
     new = program("PROGRAM Main\nVAR n : INT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n")
-    memory = bytearray(new.layout.size)
-    assert "cold" in resource.swap(new, ENGINES[0](new, memory), memory, "Ada", 2)
+    assert "cold" in change(resource, new)
     resource.run(2)
     assert value(resource, "Main.n") == 2
 
@@ -104,8 +103,7 @@ def test_an_event_that_holds_on_is_no_new_one_after_the_swap(engine: EngineFacto
     resource.submit(Write("Ada", "go", "TRUE"))
     resource.run(3)
     new = program(EVENT.replace("n := n + 1", "n := n + 10").replace("%QX0.0", "%QX0.1"))
-    memory = bytearray(new.layout.size)
-    resource.swap(new, engine(new, memory), memory, "Ada", 2)
+    change(resource, new, engine)
     resource.run(2)
     assert value(resource, "Main.n") == 1
     resource.submit(Write("Ada", "go", "FALSE"))
@@ -142,8 +140,7 @@ def test_references_are_led_to_the_same_variables(engine: EngineFactory) -> None
     resource = plc(REFERENCES, engine)
     resource.run(3)
     new = program(REFERENCES.replace("VAR a, b", "VAR first : LINT; more : Pump; a, b"))
-    memory = bytearray(new.layout.size)
-    resource.swap(new, engine(new, memory), memory, "Ada", 2)
+    change(resource, new, engine)
     assert resource.run(2).reason == "done"
     found = [value(resource, path) for path in ("Main.a.runs", "Main.b.runs", "Main.list[2]", "Main.n")]
     assert found == [0, 5, 5, 5]
@@ -156,8 +153,7 @@ def test_a_reference_to_what_is_gone_is_null(engine: EngineFactory) -> None:
     new = program(
         REFERENCES.replace("list : ARRAY[0..3] OF INT", "list : ARRAY[0..2] OF DINT").replace("REF(list[2])", "REF(n)")
     )
-    memory = bytearray(new.layout.size)
-    resource.swap(new, engine(new, memory), memory, "Ada", 2)
+    change(resource, new, engine)
     resource.run(1)
     assert resource.trap is not None
     assert resource.trap.kind == "null"
@@ -192,8 +188,7 @@ def test_an_edge_that_was_seen_is_not_seen_again_and_classes_take_their_new_numb
     resource = plc(EDGES, engine)
     resource.run(2)
     new = program(FIRST + EDGES.replace("VAR c : Count", "VAR a : Another; c : Count"))
-    memory = bytearray(new.layout.size)
-    resource.swap(new, engine(new, memory), memory, "Ada", 2)
+    change(resource, new, engine)
     resource.run(2)
     assert (value(resource, "Main.c.n"), value(resource, "Main.shown")) == (1, 2)
 
@@ -206,6 +201,5 @@ def test_bits_of_a_structure_are_kept_wherever_they_lie_now() -> None:
         "c : BOOL", "c AT %X2.7 : BOOL"
     )
     new = program(moved.replace("v.a := TRUE; v.c := TRUE;", ";"))
-    memory = bytearray(new.layout.size)
-    resource.swap(new, ENGINES[0](new, memory), memory, "Ada", 2)
+    change(resource, new)
     assert [value(resource, f"Main.v.{name}") for name in "abc"] == [True, False, True]

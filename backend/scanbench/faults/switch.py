@@ -1,0 +1,35 @@
+"""The bits of errors that come and go, as patches: flags, details and the code word of what is left."""
+
+from collections.abc import Iterable, Iterator, Sequence
+
+from scanbench.faults.details import Bits, Chosen, field_bits
+from scanbench.runtime.command import Patch, View
+
+
+def switch(view: View, off: Sequence[Chosen], on: Sequence[Chosen], others: Sequence[Chosen]) -> Iterator[Patch]:
+    """The bits of `off` cleared, but for those that `others` share; the bits of `on` set; the code word of all."""
+    bits: dict[int, tuple[int, int]] = {}
+    for one in off:
+        _merge(bits, (Bits(part.offset, part.mask, 0) for part in one.bits))
+    cleared = {offset: mask for offset, (mask, _) in bits.items()}
+    for one in others:
+        shared = (Bits(part.offset, part.mask & cleared.get(part.offset, 0), part.value) for part in one.bits)
+        _merge(bits, shared)
+    for one in on:
+        _merge(bits, one.bits)
+    word = view.model.code_word
+    if word is not None:
+        _merge(bits, field_bits(word, 0, word.bits, shown_code([*others, *on]), view.program.layout))
+    for offset, (mask, value) in sorted(bits.items()):
+        yield Patch(offset, bytes((mask,)), bytes((value,)))
+
+
+def shown_code(present: Sequence[Chosen]) -> int:
+    """The code of the most serious error; of one that is present with several numbers the lowest; 0 where none is."""
+    return min(((one.error.priority, one.code) for one in present), default=(0, 0))[1]
+
+
+def _merge(bits: dict[int, tuple[int, int]], more: Iterable[Bits]) -> None:
+    for part in more:
+        mask, value = bits.get(part.offset, (0, 0))
+        bits[part.offset] = (mask | part.mask, value & ~part.mask | part.value & part.mask)

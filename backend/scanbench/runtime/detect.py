@@ -1,0 +1,38 @@
+"""The contract of who turns what the PLC notices in itself into commands: errors of the program, and what it asks for."""
+
+from typing import NamedTuple, Protocol
+
+from scanbench.check.layout import Layout
+from scanbench.runtime.command import Command, View
+from scanbench.runtime.trap import TrapInfo
+
+
+class Asked(NamedTuple):
+    """One entry of `Layout.ASKED`: the program called an instruction of the model."""
+
+    instruction: int
+    """Index into `Model.instructions`."""
+    number: int
+
+
+class Detect(Protocol):
+    """Its commands are entered in the same seam, and journaled: a replay never asks again.
+
+    A command that is refused is dropped, as nobody is there to read why.
+    """
+
+    def on_trap(self, info: TrapInfo, view: View) -> Command | None:
+        """The error that stands for a trap, of any kind; `Trapped` and the answers to `on_asked` were entered before."""
+
+    def on_asked(self, asked: tuple[Asked, ...], view: View) -> tuple[Command, ...]:
+        """What becomes of what the program asked for in the scan that just ended, or trapped."""
+
+
+def read_asked(memory: bytearray | bytes | memoryview) -> tuple[Asked, ...]:
+    """What the program asked for in the last scan."""
+    count = min(int.from_bytes(memory[Layout.ASKED_COUNT : Layout.ASKED_COUNT + 4], "little"), Layout.ASKED_LIMIT)
+    starts = range(Layout.ASKED, Layout.ASKED + 8 * count, 8)
+    return tuple(
+        Asked(int.from_bytes(memory[at : at + 2], "little"), int.from_bytes(memory[at + 4 : at + 8], "little"))
+        for at in starts
+    )

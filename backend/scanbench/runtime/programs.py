@@ -1,0 +1,52 @@
+"""Programs by version, each with the memory and the engine it runs on: what a change of the program chooses from."""
+
+from collections.abc import Callable
+from dataclasses import dataclass
+from typing import Protocol
+
+from scanbench.check.program import Program
+from scanbench.engines.engine import Engine
+
+EngineFactory = Callable[[Program, bytearray], Engine]
+
+
+@dataclass(eq=False, slots=True)
+class Loaded:
+    """A program that can run at once. `engine` works on `memory` and may be replaced by one that computes the same."""
+
+    version: int
+    program: Program
+    memory: bytearray
+    engine: Engine
+
+    @staticmethod
+    def make(program: Program, engine_factory: EngineFactory, version: int = 1) -> "Loaded":
+        """With memory of its own."""
+        memory = bytearray(program.layout.size)
+        return Loaded(version, program, memory, engine_factory(program, memory))
+
+
+class Programs(Protocol):
+    """Knows every program that a run used or may change to."""
+
+    def get(self, version: int) -> Loaded:
+        """The same object as long as it is in use; LookupError with a sentence when there is no such version."""
+
+
+class Shelf:
+    """Programs that are all loaded."""
+
+    def __init__(self, *loaded: Loaded) -> None:
+        self._loaded = {each.version: each for each in loaded}
+
+    def add(self, loaded: Loaded) -> None:
+        """One more."""
+        self._loaded[loaded.version] = loaded
+
+    def get(self, version: int) -> Loaded:
+        """The program of this version."""
+        found = self._loaded.get(version)
+        if found is None:
+            known = ", ".join(map(str, sorted(self._loaded))) or "none"
+            raise LookupError(f"there is no program version {version}; known: {known}")
+        return found

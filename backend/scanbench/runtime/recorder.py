@@ -1,0 +1,16 @@
+"""The contract of who keeps the entries of a run, ahead of the change."""
+
+from typing import Protocol
+
+from scanbench.runtime.command import Entry
+
+
+class Recorder(Protocol):
+    """A command counts as done when its entry is in here."""
+
+    def entry(self, entry: Entry, must: bool) -> None:
+        """Keeps it; OSError when it cannot, and then nothing is changed.
+
+        `must`: what the PLC did itself (a trap, an error it found) has happened in any case. This never raises: what
+        cannot be written now is written later, before anything else.
+        """

@@ -1,0 +1,76 @@
+"""A run file replayed from its beginning, with every checkpoint on the way compared: the proof that it determines its run."""
+
+import hashlib
+from dataclasses import dataclass
+from pathlib import Path
+
+from scanbench.runtime.recording import Codec, Recording
+from scanbench.runtime.replay import Diverged, replay
+from scanbench.runtime.resource import Resource
+from scanbench.runtime.runfile import RunFileError
+from scanbench.runtime.thinning import Checkpoint
+from scanbench.runtime.timeline import KeptPrograms, ProgramsOf, open_at
+
+
+@dataclass(frozen=True, slots=True)
+class Replayed:
+    """What came out: the state before `scan`."""
+
+    first_scan: int
+    scan: int
+    hash: str
+    """SHA-256 of the state."""
+    entries: int
+    checkpoints: int
+    """So many agreed."""
+    damage: str
+
+    @property
+    def scans(self) -> int:
+        """Scans that were run."""
+        return self.scan - self.first_scan
+
+
+def replay_file(path: Path, programs_of: ProgramsOf, codec: Codec, until: int | None = None) -> Replayed:
+    """Replays up to the last scan that the file knows of, or to the end of scan `until` - 1.
+
+    `Diverged` when the run does not go as recorded, with the scan; `RunFileError` when the file cannot be used.
+    """
+    recording = Recording.open(path, codec, read_only=True)
+    try:
+        resource = open_at(recording, KeptPrograms(recording, programs_of(recording.programs)), 0)
+        first, end = recording.first_scan, recording.last_scan
+        if until is not None:
+            if not first <= until <= end:
+                raise RunFileError(f"{path.name} holds scans {first} to {end}: scan {until} is none of them")
+            end = until
+        agreed = _compare(recording, resource, end)
+        upto = [entry for entry in recording.entries[len(resource.journal) :] if entry.scan <= end]
+        replay(resource, upto, end)
+        digest = hashlib.sha256(resource.state).hexdigest()
+        return Replayed(first, resource.header.scan, digest, len(resource.journal), agreed, recording.damage)
+    finally:
+        recording.close()
+
+
+def _compare(recording: Recording, resource: Resource, end: int) -> int:
+    """Runs from checkpoint to checkpoint; how many there are up to `end`."""
+    agreed = 0
+    for checkpoint in recording.checkpoints:
+        if checkpoint.scan > end:
+            break
+        replay(resource, recording.entries[len(resource.journal) : checkpoint.entries], checkpoint.scan)
+        if resource.version != checkpoint.version or resource.state != recording.state(checkpoint):
+            raise Diverged(_difference(recording, resource, checkpoint))
+        agreed += 1
+    return agreed
+
+
+def _difference(recording: Recording, resource: Resource, checkpoint: Checkpoint) -> str:
+    if resource.version != checkpoint.version:
+        return f"before scan {checkpoint.scan} program {resource.version} runs, and {checkpoint.version} was recorded"
+    recorded, found = recording.state(checkpoint), resource.state
+    at = next(index for index, (one, other) in enumerate(zip(recorded, found, strict=True)) if one != other)
+    return (
+        f"before scan {checkpoint.scan} byte {at} of the image is {found[at]:02X}, and {recorded[at]:02X} was recorded"
+    )

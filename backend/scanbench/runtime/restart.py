@@ -1,0 +1,110 @@
+"""Restart: the program begins anew. Scans and virtual time go on, and so does the PLC's clock.
+
+What is retained (warm, power): VAR RETAIN, words of retained areas that the program may write, the device's error log;
+while the model's hold bit is on, words of the other areas too. Input words stay, as the device would read them again at
+once. All other words of the system begin anew, so no error is present behind a restart.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+from scanbench.check.classes import TYPE_NUMBER
+from scanbench.check.layout import Layout
+from scanbench.check.program import Program
+from scanbench.check.types import ArrayType, Kind, Member, Record, Section, Type
+from scanbench.runtime.command import Command, Plan, Refusal, Restarted, RestartKind, View
+from scanbench.runtime.forces import read_table
+from scanbench.runtime.header import Header, Mode, fresh_image
+from scanbench.runtime.modes import held
+
+_FORCES_END = Layout.FORCES + 8 * Layout.FORCE_LIMIT
+Image = bytes | bytearray | memoryview
+
+_MESSAGES: dict[RestartKind, str] = {
+    "cold": "cold start: everything has its initial value",
+    "warm": "warm start: what is retained is kept",
+    "power": "power off and on: what is retained is kept",
+}
+
+
+@dataclass(frozen=True, slots=True)
+class Restart(Command):
+    """In every mode. It runs afterwards: in RUN if it was in RUN, else in MONITOR."""
+
+    kind: RestartKind
+
+    def plan(self, view: View) -> Plan | Refusal:
+        """All of it is the effect."""
+        if self.kind not in _MESSAGES:
+            return Refusal(f"{self.kind} is not a kind of restart", tuple(_MESSAGES))
+        return Plan((), _MESSAGES[self.kind], Restarted(self.kind))
+
+
+def restarted(program: Program, memory: Image, kind: RestartKind) -> bytearray:
+    """The image behind a restart of this kind."""
+    image = fresh_image(program, Mode.MONITOR)
+    go_on(memory, image)
+    if kind == "cold":
+        return image
+    spans = [*_words(program, memory), *_variables(program)]
+    for offset, size in spans:
+        image[offset : offset + size] = memory[offset : offset + size]
+    if kind == "warm":
+        image[Layout.FORCE_COUNT : _FORCES_END] = memory[Layout.FORCE_COUNT : _FORCES_END]
+        for offset, (mask, value) in read_table(memory).items():
+            image[offset] = image[offset] & ~mask | value & mask
+    return image
+
+
+def go_on(memory: Image, image: bytearray) -> None:
+    """What no restart begins anew: the count of scans, time, and RUN mode. The next scan is the program's first."""
+    for offset, size in ((Layout.CLOCK, 8), (Layout.SCAN, 8), (Layout.BUDGET_LIMIT, 8), (Layout.EPOCH, 8)):
+        image[offset : offset + size] = memory[offset : offset + size]
+    image[Layout.MODE] = Mode.RUN if Header(memory).mode is Mode.RUN else Mode.MONITOR
+    image[Layout.STARTED : Layout.STARTED + 8] = memory[Layout.SCAN : Layout.SCAN + 8]
+
+
+def _words(program: Program, memory: Image) -> Iterator[tuple[int, int]]:
+    """What is kept of the areas: offset and size."""
+    model, areas = program.layout.model, program.layout.areas
+    hold = held(View(program, memory))
+    for area in model.areas:
+        for part in area.ranges if area.retain or hold else ():
+            if part.program == "write":
+                yield areas[area.name] + 2 * part.first, 2 * (part.last - part.first + 1)
+    for each in model.iec_maps:
+        if each.letter == "I":
+            yield areas[each.area.name] + 2 * each.first, 2 * each.words
+    if model.log is not None:
+        first, counter = model.log.first, model.log.counter
+        yield areas[first.area.name] + first.byte, 2 * model.log.words * model.log.records
+        yield areas[counter.area.name] + counter.byte, counter.bits // 8
+
+
+def _variables(program: Program) -> Iterator[tuple[int, int]]:
+    """Where the retained variables lie: offset and size."""
+    if program.layout.globals is not None:
+        yield from _members(program.layout.globals, 0, False)
+    for instance in program.instances:
+        yield from _members(instance.pou.instance, instance.offset, instance.retain)
+
+
+def _members(record: Record, offset: int, retained: bool) -> Iterator[tuple[int, int]]:
+    """`retained` is what the instance is declared as: it holds for members that say nothing else themselves."""
+    for member in record.members.values():
+        if member.located or member.constant or member.section in (Section.IN_OUT, Section.EXTERNAL):
+            continue
+        if member.name != TYPE_NUMBER:
+            said = member.retain or member.non_retain
+            yield from _value(member.type, offset + member.offset, member, member.retain if said else retained)
+
+
+def _value(type: Type, offset: int, member: Member, retained: bool) -> Iterator[tuple[int, int]]:
+    if isinstance(type, Record) and type.kind is Kind.BLOCK:
+        # a block inside of a retained one behaves as its own type says (IEC 61131-3, 6.5.6)
+        yield from _members(type, offset, retained and member.retain)
+    elif isinstance(type, ArrayType) and isinstance(type.element, Record | ArrayType):
+        for index in range(type.count):
+            yield from _value(type.element, offset + index * type.element.size, member, retained)
+    elif retained:
+        yield offset, type.size

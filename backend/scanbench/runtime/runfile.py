@@ -1,0 +1,274 @@
+"""The bytes of a run file: blocks with checksums, one behind the other. What they mean is `recording.py`'s.
+
+    0   14 bytes  "scanbench run\\n"
+    14  u16       format version, 1
+    16  blocks
+
+A block, little endian:
+
+    0   4 bytes   F5 'R' 'B' 0A, so that the next good block is found behind damage
+    4   u8        kind, see `Kind`
+    5   u8        packing of the payload: 0 as it is, 1 Zstandard
+    6   u16       0
+    8   u32       bytes of the payload as stored
+    12  u64       scan that the block belongs to
+    20  u32       CRC-32 of bytes 0 to 19 and the payload
+    24  payload
+
+Blocks are only ever appended, but for one: a mark (the last known scan) at the very end is overwritten by what comes
+next. So a write that did not come to its end costs the block that was written, and nothing before it.
+"""
+
+import os
+import zlib
+from collections.abc import Iterator
+from contextlib import suppress
+from dataclasses import dataclass
+from enum import IntEnum
+from pathlib import Path
+from struct import Struct
+
+import zstandard
+
+FORMAT = 1
+_MAGIC = b"scanbench run\n"
+_HEAD = Struct("<14sH")
+_SYNC = b"\xf5RB\n"
+_BLOCK = Struct("<4sBBHIQI")
+_CRC = Struct("<I")
+_PACKED = 1
+_WORTH_PACKING = 200
+_LARGEST = 1 << 30
+"""Bytes of a payload once unpacked: no image is larger, and a file from elsewhere must not fill the memory."""
+
+
+class RunFileError(Exception):
+    """This run file cannot be used; the message says why, and what to do."""
+
+
+class Kind(IntEnum):
+    """What a block holds."""
+
+    ABOUT = 1
+    PROGRAM = 2
+    ENTRY = 3
+    KEYFRAME = 4
+    DELTA = 5
+    MARK = 6
+
+
+@dataclass(frozen=True, slots=True)
+class Block:
+    """Where a block lies in the file."""
+
+    kind: Kind
+    scan: int
+    offset: int
+    length: int
+    """Of the stored payload."""
+    packing: int
+
+    @property
+    def payload_offset(self) -> int:
+        """Where the payload begins."""
+        return self.offset + _BLOCK.size
+
+    @property
+    def end(self) -> int:
+        """Where the next block begins."""
+        return self.offset + _BLOCK.size + self.length
+
+    @property
+    def size(self) -> int:
+        """Bytes in the file."""
+        return _BLOCK.size + self.length
+
+
+@dataclass(frozen=True, slots=True)
+class Damage:
+    """Where the good blocks end. `last_scan` is the last scan that the rest still names, -1 when it names none."""
+
+    offset: int
+    torn: bool
+    """The file ends inside this block: its writer was ended while writing it."""
+    last_scan: int
+
+
+class RunFile:
+    """A run file open for reading, or for reading and appending. One thread at a time, but for `fileno`."""
+
+    def __init__(self, path: Path, fd: int, end: int) -> None:
+        self.path, self.fd = path, fd
+        self.end = end
+        """Behind the last block that is no trailing mark."""
+        self._marked: int | None = None
+        self._packer = zstandard.ZstdCompressor(level=1)
+
+    @classmethod
+    def create(cls, path: Path) -> "RunFile":
+        """A new file with no blocks; `FileExistsError` if there is one."""
+        fd = os.open(path, os.O_RDWR | os.O_CREAT | os.O_EXCL | os.O_CLOEXEC, 0o644)
+        try:
+            _write(fd, _HEAD.pack(_MAGIC, FORMAT), 0)
+        except OSError:
+            os.close(fd)
+            path.unlink()
+            raise
+        return cls(path, fd, _HEAD.size)
+
+    @classmethod
+    def open(cls, path: Path, read_only: bool = False) -> "RunFile":
+        """An existing file. Nothing is read but its first bytes: see `scan_blocks`."""
+        fd = os.open(path, (os.O_RDONLY if read_only else os.O_RDWR) | os.O_CLOEXEC)
+        try:
+            _check_head(path, os.pread(fd, _HEAD.size, 0))
+        except RunFileError:
+            os.close(fd)
+            raise
+        return cls(path, fd, _HEAD.size)
+
+    def close(self) -> None:
+        """Closes the file."""
+        os.close(self.fd)
+
+    def append(self, kind: Kind, scan: int, payload: bytes) -> Block:
+        """Writes a block behind all others. On `OSError` the file is as it was."""
+        packing = 0
+        if len(payload) >= _WORTH_PACKING:
+            payload, packing = self._packer.compress(payload), _PACKED
+        self._put(_encode(kind, packing, scan, payload))
+        block = Block(kind, scan, self.end, len(payload), packing)
+        self.end, self._marked = block.end, None
+        return block
+
+    def append_raw(self, data: bytes) -> None:
+        """Appends whole blocks, copied from another run file."""
+        self._put(data)
+        self.end += len(data)
+        self._marked = None
+
+    def mark(self, scan: int) -> None:
+        """Writes the last known scan at the end, over the mark that may be there."""
+        if scan != self._marked:
+            self._put(_encode(Kind.MARK, 0, scan, b""))
+            self._marked = scan
+
+    def payload(self, block: Block) -> bytes:
+        """What a block holds, unpacked."""
+        return _unpacked(os.pread(self.fd, block.length, block.payload_offset), block.packing)
+
+    def read(self, offset: int, length: int) -> bytes:
+        """Bytes as they are stored."""
+        return os.pread(self.fd, length, offset)
+
+    def walk(self, end: int) -> Iterator[Block]:
+        """The blocks from the first up to the byte `end`, which are known to be good."""
+        offset = _HEAD.size
+        while offset < end:
+            block = _decode(os.pread(self.fd, _BLOCK.size, offset), offset)
+            assert block is not None, f"no block at byte {offset} of {self.path}"
+            yield block
+            offset = block.end
+
+    def scan_blocks(self) -> tuple[list[Block], Damage | None]:
+        """Every good block from the beginning, each with a right checksum; `end` moves behind the last of them."""
+        size = os.fstat(self.fd).st_size
+        blocks, offset, damage = [], _HEAD.size, None
+        while offset < size:
+            block = self._good_block(offset, size)
+            if block is None:
+                damage = Damage(offset, self._is_torn(offset, size), self._last_scan(offset + 1, size))
+                break
+            blocks.append(block)
+            offset = block.end
+        self.end, self._marked = offset, None
+        if blocks and blocks[-1].kind is Kind.MARK:
+            self.end, self._marked = blocks[-1].offset, blocks[-1].scan
+        return blocks, damage
+
+    def cut(self, offset: int, aside: Path | None) -> None:
+        """Ends the file at `offset`; what was behind it is moved to `aside`."""
+        if aside is not None:
+            size = os.fstat(self.fd).st_size
+            with aside.open("wb") as file:
+                file.writelines(os.pread(self.fd, min(1 << 20, size - at), at) for at in range(offset, size, 1 << 20))
+        os.ftruncate(self.fd, offset)
+
+    def _put(self, data: bytes) -> None:
+        try:
+            _write(self.fd, data, self.end)
+        except OSError:
+            with suppress(OSError):
+                os.ftruncate(self.fd, self.end)
+                if self._marked is not None:
+                    _write(self.fd, _encode(Kind.MARK, 0, self._marked, b""), self.end)
+            raise
+
+    def _good_block(self, offset: int, size: int) -> Block | None:
+        head = os.pread(self.fd, _BLOCK.size, offset)
+        block = _decode(head, offset)
+        if block is None or block.end > size:
+            return None
+        crc = zlib.crc32(os.pread(self.fd, block.length, block.payload_offset), zlib.crc32(head[: -_CRC.size]))
+        return block if crc == _CRC.unpack_from(head, _BLOCK.size - _CRC.size)[0] else None
+
+    def _is_torn(self, offset: int, size: int) -> bool:
+        head = os.pread(self.fd, _BLOCK.size, offset)
+        if len(head) < _BLOCK.size:
+            return True
+        block = _decode(head, offset)
+        return block is not None and block.end > size and self._last_scan(offset + 1, size) < 0
+
+    def _last_scan(self, offset: int, size: int) -> int:
+        """The last scan that a good block behind the damage names."""
+        rest, last, at = os.pread(self.fd, size - offset, offset), -1, 0
+        while (at := rest.find(_SYNC, at)) >= 0:
+            block = self._good_block(offset + at, size)
+            if block is None:
+                at += 1
+            else:
+                last, at = max(last, block.scan), block.end - offset
+        return last
+
+
+def _check_head(path: Path, head: bytes) -> None:
+    if len(head) < _HEAD.size or head[: len(_MAGIC)] != _MAGIC:
+        raise RunFileError(f"{path.name} is not a run file: its first bytes are not those of one")
+    _, version = _HEAD.unpack(head)
+    if version != FORMAT:
+        raise RunFileError(
+            f"{path.name} is a run file of format {version}; this scanbench reads format {FORMAT}: "
+            "open it with the version of scanbench that wrote it"
+        )
+
+
+def _encode(kind: Kind, packing: int, scan: int, payload: bytes) -> bytes:
+    head = _BLOCK.pack(_SYNC, kind, packing, 0, len(payload), scan, 0)[: -_CRC.size]
+    return head + _CRC.pack(zlib.crc32(payload, zlib.crc32(head))) + payload
+
+
+def _decode(head: bytes, offset: int) -> Block | None:
+    """The block that begins with these bytes, or None where none can begin."""
+    if len(head) < _BLOCK.size:
+        return None
+    sync, kind, packing, reserved, length, scan, _ = _BLOCK.unpack(head)
+    if sync != _SYNC or reserved or packing > _PACKED or not Kind.ABOUT <= kind <= Kind.MARK:
+        return None
+    return Block(Kind(kind), scan, offset, length, packing)
+
+
+def _unpacked(data: bytes, packing: int) -> bytes:
+    if packing != _PACKED:
+        return data
+    size = zstandard.frame_content_size(data)
+    if not 0 <= size <= _LARGEST:
+        raise RunFileError(f"a block says that it holds {size} bytes: more than any image has")
+    return zstandard.ZstdDecompressor().decompress(data)
+
+
+def _write(fd: int, data: bytes, offset: int) -> None:
+    """Writes all of it; `OSError` when it does not fit."""
+    view = memoryview(data)
+    while view:
+        done = os.pwrite(fd, view, offset)
+        view, offset = view[done:], offset + done

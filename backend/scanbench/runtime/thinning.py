@@ -1,0 +1,86 @@
+"""Which checkpoints go when a run file is over its limit: the older, the fewer are left."""
+
+from collections.abc import Sequence
+from dataclasses import dataclass
+
+from scanbench.runtime.runfile import Block
+
+FLOOR = 64
+"""So many checkpoints are always left to be gone back to quickly: rather than thin them the oldest part is dropped."""
+FRESH = 8
+"""The latest are never thinned."""
+
+
+@dataclass(frozen=True, slots=True)
+class Checkpoint:
+    """The state before `scan`, behind the first `entries` entries of the file."""
+
+    scan: int
+    entries: int
+    version: int
+    block: Block
+    base: Block
+    """The keyframe that a delta refers to; of a keyframe, itself."""
+
+    @property
+    def whole(self) -> bool:
+        """Whether it is a keyframe."""
+        return self.block.offset == self.base.offset
+
+
+@dataclass(frozen=True, slots=True)
+class Thinning:
+    """What has to go: checkpoints one by one, and everything in front of `cut`."""
+
+    dropped: frozenset[int]
+    """Offsets of checkpoints."""
+    thinned_before: int
+    cut: Checkpoint | None
+
+
+def plan_thinning(checkpoints: Sequence[Checkpoint], excess: int, excess_entries: int) -> Thinning:
+    """Frees `excess` bytes: every other checkpoint of the older half, again and again; then the oldest part.
+
+    `excess_entries` of the entries must go as well, which only dropping can do.
+    """
+    left = list(checkpoints)
+    dropped: set[int] = set()
+    freed, thinned_before = 0, 0
+    while freed < excess and len(left) > FLOOR:
+        gone = _thin_once(left, len(left) - FLOOR)
+        if not gone:
+            break
+        for each in gone:
+            freed += each.block.size
+            dropped.add(each.block.offset)
+            thinned_before = max(thinned_before, each.scan)
+        left = [each for each in left if each.block.offset not in dropped]
+    cut = None
+    if freed < excess or excess_entries > 0:
+        cut = _place_of_cut(left, excess - freed, excess_entries)
+    return Thinning(frozenset(dropped), thinned_before, cut)
+
+
+def _thin_once(left: Sequence[Checkpoint], most: int) -> list[Checkpoint]:
+    """Every other one of the older half. The first stays, and so does a keyframe that something refers to."""
+    older = left[: max(0, min(len(left) // 2, len(left) - FRESH))]
+    needed = {each.base.offset for each in left if not each.whole} | {left[-1].base.offset}
+    gone: list[Checkpoint] = []
+    previous_stays = True
+    for each in older[1:]:
+        stays = not previous_stays or (each.whole and each.base.offset in needed) or len(gone) == most
+        if not stays:
+            gone.append(each)
+        previous_stays = stays
+    return gone
+
+
+def _place_of_cut(left: Sequence[Checkpoint], excess: int, excess_entries: int) -> Checkpoint | None:
+    """The first keyframe with enough in front of it; else the last one. None when that is the first checkpoint."""
+    begin, passed = left[0], 0
+    keyframes = [each for each in left if each.whole]
+    for each in keyframes:
+        passed = each.block.offset - begin.block.offset
+        if each is not begin and passed >= excess and each.entries - begin.entries >= excess_entries:
+            return each
+    return keyframes[-1] if keyframes and keyframes[-1] is not begin else None

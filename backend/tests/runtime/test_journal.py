@@ -1,0 +1,118 @@
+"""Entries are kept before they act, and what they add up to is not added up again and again."""
+
+import errno
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from datetime import UTC, datetime
+
+import pytest
+
+from scanbench.runtime.command import Command, Entry, Patch, Plan, Refusal
+from scanbench.runtime.forces import FORCED, Force
+from scanbench.runtime.journal import Fold, Journal
+from scanbench.runtime.modes import SetMode
+from scanbench.runtime.programs import Loaded
+from scanbench.runtime.resource import Resource
+from scanbench.runtime.restart import Restart
+from scanbench.runtime.trap import Trapped
+from scanbench.runtime.write import Write
+from tests.runtime.bench import ENGINES, program, value
+
+SOURCE = "PROGRAM Main\nVAR n : INT; d : INT := 1; END_VAR\n  n := n + 1; n := n / d;\nEND_PROGRAM\n"
+AT = datetime(2026, 1, 1, tzinfo=UTC)
+
+
+def entry(scan: int, command: Command | None = None) -> Entry:
+    return Entry(scan, AT, command or Write("Ada", "D0", "1"), Plan((Patch.whole(8192, b"\1"),), "D0 := 1"))
+
+
+def test_a_fold_steps_over_every_entry_once() -> None:
+    stepped: list[int] = []
+
+    def step(total: int, one: Entry) -> int:
+        stepped.append(one.scan)
+        return total + one.scan
+
+    fold = Fold(0, step)
+    journal = Journal([entry(1), entry(2)])
+    assert journal.derived(fold) == 3
+    journal.append(entry(4))
+    assert (journal.derived(fold), journal.derived(fold)) == (7, 7)
+    assert stepped == [1, 2, 4]
+    assert fold.over(journal[1:]) == 6
+
+
+def test_the_state_of_a_fold_can_be_kept() -> None:
+    journal = Journal([entry(0, Force("Ada", "a", "1"))])
+    before: Mapping[str, Force] = journal.derived(FORCED)
+    journal.append(entry(1, Force("Ada", "b", "1")))
+    assert before.keys() == {"A"}
+    assert journal.derived(FORCED).keys() == {"A", "B"}
+
+
+def test_scans_never_go_back() -> None:
+    journal = Journal([entry(7)])
+    with pytest.raises(ValueError, match="scan 6"):
+        journal.append(entry(6))
+
+
+@dataclass
+class Kept:
+    """A recorder; with `trouble` it cannot keep what need not be kept."""
+
+    resource: Resource | None = None
+    trouble: OSError | None = None
+    entries: list[tuple[Entry, bool]] = field(default_factory=list)
+    states: list[bytes] = field(default_factory=list)
+
+    def entry(self, entry: Entry, must: bool) -> None:
+        if self.trouble is not None and not must:
+            raise self.trouble
+        assert self.resource is not None
+        self.entries.append((entry, must))
+        self.states.append(self.resource.state)
+
+
+def recorded() -> tuple[Resource, Kept]:
+    kept = Kept()
+    kept.resource = Resource(Loaded.make(program(SOURCE), ENGINES[0]), recorder=kept)
+    return kept.resource, kept
+
+
+def test_an_entry_is_kept_ahead_of_the_change() -> None:
+    resource, kept = recorded()
+    before = resource.state
+    outcome = resource.submit(Write("Ada", "Main.n", "7"))
+    assert kept.entries == [(outcome, False)]
+    assert kept.states == [before]
+    assert resource.state != before
+
+
+@pytest.mark.parametrize(
+    ("trouble", "words"), [(errno.ENOSPC, "disk is full"), (errno.EFBIG, "disk is full"), (errno.EIO, "Input/output")]
+)
+def test_what_cannot_be_kept_does_not_happen(trouble: int, words: str) -> None:
+    resource, kept = recorded()
+    resource.run(3)
+    kept.trouble = OSError(trouble, "Input/output error")
+    before = resource.state
+    for command in (Write("Ada", "Main.n", "7"), Restart("Ada", "cold"), SetMode("Ada", "PROGRAM")):
+        refusal = resource.submit(command)
+        assert isinstance(refusal, Refusal)
+        assert words in refusal.message
+    assert (resource.state, len(resource.journal)) == (before, 0)
+    kept.trouble = None
+    assert isinstance(resource.submit(Write("Ada", "Main.n", "7")), Entry)
+    assert value(resource, "Main.n") == 7
+
+
+def test_a_trap_stops_the_program_whether_it_can_be_kept_or_not() -> None:
+    resource, kept = recorded()
+    resource.submit(Write("Ada", "Main.d", "0"))
+    kept.trouble = OSError(errno.ENOSPC, "full")
+    resource.run(3)
+    assert not resource.runnable
+    last, must = kept.entries[-1]
+    assert isinstance(last.command, Trapped)
+    assert must
+    assert last is resource.journal[-1]

@@ -1,0 +1,149 @@
+"""Online change: what it says before, what it refuses, what follows the variables, and the way back."""
+
+from datetime import UTC, datetime
+
+import pytest
+
+from scanbench.check.program import Program
+from scanbench.runtime.carry_over import changes
+from scanbench.runtime.command import Command, Entry, Refusal, Swapped
+from scanbench.runtime.forces import FORCED, Force, read_table
+from scanbench.runtime.modes import SetMode
+from scanbench.runtime.program_change import ProgramChange
+from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
+from scanbench.runtime.resource import Resource
+from scanbench.runtime.set_clock import SetClock
+from scanbench.runtime.write import Write
+from tests.runtime.bench import ENGINES, change, plc, program, value
+
+OLD = """
+TYPE Point : STRUCT x : INT; y : INT; END_STRUCT; END_TYPE
+VAR_GLOBAL total : DINT; at_d AT D7 : INT; END_VAR
+VAR_GLOBAL CONSTANT LIMIT : INT := 5; END_VAR
+FUNCTION_BLOCK Count VAR calls : INT; END_VAR calls := calls + 1; END_FUNCTION_BLOCK
+PROGRAM Main
+VAR n : INT; gone : INT; wide : INT; p : ARRAY[0..1, 2..3] OF Point; list : ARRAY[0..3] OF INT; c : Count; temp : BOOL; END_VAR
+  n := n + 1; c();
+END_PROGRAM
+"""
+NEW = (
+    OLD.replace("gone : INT; wide : INT", "wide : DINT; fresh : Count")
+    .replace("x : INT; y : INT", "x : INT; y : REAL")
+    .replace("list : ARRAY[0..3]", "list : ARRAY[0..4]")
+    .replace("n := n + 1", "n := n + 10")
+    .replace("LIMIT : INT := 5", "LIMIT : INT := 6")
+    .replace("at_d AT D7 : INT", "at_d : INT")
+)
+
+
+def refused(resource: Resource, command: Command) -> str:
+    before = resource.state
+    outcome = resource.submit(command)
+    assert isinstance(outcome, Refusal), outcome
+    assert resource.state == before
+    return outcome.message
+
+
+def test_what_would_be_lost_is_known_before() -> None:
+    found = changes(program(OLD), program(NEW))
+    assert {each.path: each.reason for each in found.lost} == {
+        "at_d": "was at D7 before",
+        "Main.wide": "type changed from INT to DINT",
+        "Main.fresh": "new",
+        "Main.gone": "removed",
+        "Main.list": "type changed from ARRAY[0..3] OF INT to ARRAY[0..4] OF INT",
+        **{f"Main.p[{i},{j}].y": "type changed from INT to REAL" for i in (0, 1) for j in (2, 3)},
+    }
+    assert found.kept == 8  # total, n, c.calls, temp, four x
+    assert str(found) == "8 variables kept, 8 new or changed: initialised, 1 removed"
+    assert not changes(program(OLD), program(OLD)).lost
+
+
+def test_a_program_more_or_less() -> None:
+    two = OLD + "PROGRAM Other VAR k : INT; END_VAR k := k + 1; END_PROGRAM\n"
+    assert [(each.path, each.reason) for each in changes(program(OLD), program(two)).lost] == [("Other", "new")]
+    assert [(each.path, each.reason) for each in changes(program(two), program(OLD)).lost] == [("Other", "removed")]
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_there_is_a_way_back(engine: EngineFactory) -> None:
+    resource = plc(OLD, engine)
+    resource.run(3)
+    change(resource, program(NEW), engine)
+    resource.run(2)
+    assert (value(resource, "Main.n"), value(resource, "LIMIT"), resource.version) == (23, 6, 2)
+    back = resource.submit(ProgramChange("Ada", 1))
+    assert isinstance(back, Entry)
+    resource.run(1)
+    assert (value(resource, "Main.n"), value(resource, "LIMIT"), resource.version) == (24, 5, 1)
+    assert value(resource, "Main.c.calls") == 6
+    assert resource.header.scan == 6
+    assert [entry.scan for entry in resource.journal] == [3, 5]
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_forces_follow_their_variables(engine: EngineFactory) -> None:
+    resource = plc(OLD, engine)
+    for path, text in (("Main.temp", "TRUE"), ("Main.gone", "3"), ("D9", "4"), ("Main.n", "100")):
+        assert isinstance(resource.submit(Force("Ada", path, text)), Entry)
+    resource.run(1)
+    message = change(resource, program(NEW), engine)
+    assert message.endswith("forces released: Main.gone")
+    effect = resource.journal[-1].plan.effect
+    assert isinstance(effect, Swapped)
+    assert effect.released == ("Main.gone",)
+    assert resource.journal.derived(FORCED).keys() == {"MAIN.TEMP", "D9", "MAIN.N"}
+    assert len(read_table(resource.memory)) == 5
+    resource.run(2)
+    assert [value(resource, path) for path in ("Main.temp", "D9", "Main.n")] == [True, 4, 100]
+
+
+def test_what_cannot_be_changed_to() -> None:
+    resource = plc(OLD)
+    other = program(OLD.replace(" AT D7", ""), "GENERIC-IEC")
+    resource.programs = Shelf(
+        resource.loaded, Loaded.make(program(NEW), ENGINES[0], 2), Loaded.make(other, ENGINES[0], 3)
+    )
+    assert "runs already" in refused(resource, ProgramChange("Ada", 1))
+    assert "no program version 9; known: 1, 2, 3" in refused(resource, ProgramChange("Ada", 9))
+    message = refused(resource, ProgramChange("Ada", 3))
+    assert "GENERIC-IEC" in message
+    assert "CJ1M-CPU63" in message
+    resource.submit(SetMode("Ada", "RUN"))
+    assert "MONITOR" in refused(resource, ProgramChange("Ada", 2))
+    for mode in ("PROGRAM", "MONITOR"):
+        resource.submit(SetMode("Ada", mode))
+        assert isinstance(resource.submit(ProgramChange("Ada", 3 - resource.version)), Entry)
+        assert resource.header.mode.name == mode
+
+
+def test_a_trapped_program_is_replaced_in_every_mode_and_starts_cold() -> None:
+    resource = plc("PROGRAM Main\nVAR n : INT; q : INT; d : INT; END_VAR\n  n := n + 1; q := 1 / d;\nEND_PROGRAM\n")
+    resource.submit(Force("Ada", "Main.n", "3"))
+    resource.submit(Write("Ada", "H3", "3"))
+    resource.submit(SetMode("Ada", "RUN"))
+    resource.run(1)
+    assert resource.header.halted_by_trap
+    change(resource, program("PROGRAM Main\nVAR n : INT := 7; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"))
+    assert resource.trap is None
+    assert (resource.header.mode.name, resource.header.force_count, value(resource, "H3")) == ("RUN", 0, 0)
+    assert not resource.journal.derived(FORCED)
+    resource.run(2)
+    assert value(resource, "Main.n") == 9
+
+
+def test_the_clock_of_the_plc_goes_on_when_a_scan_takes_longer() -> None:
+    def every(interval: str) -> Program:
+        configuration = f"TASK T (INTERVAL := {interval}); PROGRAM Main WITH T : Main;"
+        return program(f"{OLD}\nCONFIGURATION C\nRESOURCE R ON P\n{configuration}\nEND_RESOURCE\nEND_CONFIGURATION\n")
+
+    resource = Resource(Loaded.make(every("T#10ms"), ENGINES[0]))
+    resource.run(100)
+    resource.submit(SetClock("Ada", datetime(2024, 1, 1, tzinfo=UTC)))
+    resource.run(1)
+    change(resource, every("T#1s"))
+    resource.run(1)
+    start = 1_704_067_200_000_000_000
+    assert resource.header.epoch_ns + resource.header.clock_ns == start + 10_000_000
+    resource.run(1)
+    assert resource.header.epoch_ns + resource.header.clock_ns == start + 1_010_000_000
