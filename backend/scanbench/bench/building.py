@@ -11,14 +11,18 @@ import sys
 import tempfile
 import threading
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 from statistics import median
 from time import perf_counter_ns
 
 from scanbench.check.incremental import Checks
 from scanbench.engines.cache import BlobCache
+from scanbench.runtime.program_change import ProgramChange
+from scanbench.runtime.programs import Loaded, Shelf
 from scanbench.runtime.resource import Resource
 from scanbench.session.host.build import Builder, find_model
+from scanbench.session.host.shelf import HostPrograms
 from scanbench.session.host.swaps import Recode
 from scanbench.session.known import keep, key_of
 from scanbench.session.protocol import Sources
@@ -94,7 +98,7 @@ def _host(program: str, cache: Path) -> tuple[Figures, Builder, Resource]:
     start = perf_counter_ns()
     builder = Builder(cache)
     built = builder.build(sources)
-    plc = Resource(built.program, built.engine)
+    plc = Resource(Loaded.make(built.program, built.engine))
     plc.run(1)
     figures = {"start": _ms(start)}
     figures["optimised"], together_kb = _optimise(builder, plc)
@@ -175,9 +179,9 @@ def _optimise(builder: Builder, plc: Resource) -> tuple[float, int]:
 def _change(builder: Builder, plc: Resource, sources: Sources) -> float:
     """From the text of a build to the first scan of the new program, variables carried over."""
     start = perf_counter_ns()
-    built = builder.build(sources)
-    memory = bytearray(built.program.layout.size)
-    plc.swap(built.program, built.engine(built.program, memory), memory, "bench", 2)
+    version = plc.version + 1
+    plc.programs = Shelf(plc.loaded, HostPrograms(builder, {}).make(replace(sources, version=version)))
+    plc.submit(ProgramChange("bench", version))
     plc.run(1)
     return _ms(start)
 

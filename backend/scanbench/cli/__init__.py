@@ -5,6 +5,8 @@ import typer
 from scanbench import __version__
 from scanbench.cli.bench import bench
 from scanbench.cli.check import check
+from scanbench.cli.model import model
+from scanbench.cli.replay import replay
 from scanbench.cli.run import run
 from scanbench.cli.serve import serve
 
@@ -15,8 +17,11 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     help="A bench for debugging PLC programs (IEC 61131-3) on virtual PLCs of real models.",
 )
-for command in (serve, check, run, bench):
+for command in (serve, check, run, replay):
     app.command()(command)
+# its subjects have options of their own
+app.command(context_settings={"allow_extra_args": True, "ignore_unknown_options": True})(bench)
+app.add_typer(model, name="model")
 
 
 @app.callback(invoke_without_command=True)

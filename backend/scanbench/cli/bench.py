@@ -1,6 +1,8 @@
 """`scanbench bench`: how fast the native engine is, as a ratio to C compiled in the same run, and what builds take."""
 
 import json
+import subprocess
+import sys
 from typing import TYPE_CHECKING
 
 import typer
@@ -10,6 +12,7 @@ from scanbench.cli.inputs import usage
 if TYPE_CHECKING:
     from scanbench.bench.run import Result
 
+SUBJECTS = ("instances", "pace", "goto", "watch")
 BUILDING = (
     ("cold", "text to first scan, cold", "ms"),
     ("cached", "text to first scan, from the disk cache", "ms"),
@@ -23,12 +26,24 @@ BUILDING = (
 
 
 def bench(
-    programs: list[str] | None = typer.Argument(None, metavar="[PROGRAM]...", help="Names; all when none is given."),
+    context: typer.Context,
+    programs: list[str] | None = typer.Argument(
+        None, metavar="[PROGRAM|SUBJECT]...", help="Names of programs, all when none is given; or one subject."
+    ),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
 ) -> None:
-    """Measure the bench programs: ns per scan, ratio to hand-written C (gcc -O3), what peers reach, what builds take."""
+    """Measure the bench programs: ns per scan, ratio to hand-written C (gcc -O3), what peers reach, what builds take.
+
+    Or a subject: instances (many PLCs at once), pace (lateness, scans a second), goto (time travel), watch (live values);
+    `bench SUBJECT --help` explains its own options.
+    """
     from scanbench.bench.run import BenchError, run_bench
 
+    if programs and programs[0] in SUBJECTS:
+        arguments = [*programs[1:], *context.args, *(["--json"] if as_json else [])]
+        raise typer.Exit(subprocess.call([sys.executable, "-m", f"scanbench.bench.{programs[0]}", *arguments]))
+    if context.args:
+        usage(f"bench has no option {context.args[0]}")
     try:
         result = run_bench(programs or None)
     except BenchError as error:

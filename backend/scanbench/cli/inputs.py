@@ -38,7 +38,9 @@ def read_sources(paths: list[Path]) -> Sources:
     model = None
     for path in paths:
         if path.is_dir():
-            found = sorted(each for each in path.rglob("*") if is_program_file(each.name) and each.is_file())
+            found = sorted(
+                each for each in path.rglob("*") if is_program_file(str(each.relative_to(path))) and each.is_file()
+            )
             if not found:
                 usage(f"there is no program file ({', '.join(ENDINGS)}) in {path}")
             model = model or _project_model(path / PROJECT_FILE)
@@ -71,7 +73,11 @@ def _project_model(path: Path) -> str | None:
 
 def find_model(name: str | None, sources: Sources) -> Model:
     """The model asked for, else the project's, else the plain one."""
-    wanted = name or sources.model or DEFAULT_MODEL
+    return find_model_named(name or sources.model or DEFAULT_MODEL)
+
+
+def find_model_named(wanted: str) -> Model:
+    """The model of this name, in any case."""
     try:
         models, problems = load_all(model_directory())
     except NoModels as error:

@@ -9,13 +9,15 @@ import typer
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
 from scanbench.cli.inputs import find_model, problem_json, read_sources, usage
-from scanbench.cli.run_options import Options, find_symbol, read_commands, read_interval
+from scanbench.cli.record import begin, end
+from scanbench.cli.run_options import Options, find_symbol, read_commands, read_condition, read_interval
 from scanbench.cli.run_report import Result, nothing_ran, report_json, report_text, values
 from scanbench.engines.engine import Engine
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.emit_body import TooLarge
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.pair import Differs, PairEngine
+from scanbench.faults.detect import Detection
 from scanbench.runtime.headless import run_headless
 
 
@@ -44,6 +46,10 @@ def run(
     generate: list[str] = typer.Option([], "--raise", metavar="ERROR[@SCAN]", help="Raise an error of the model, e.g. io-bus-error:rack=1,slot=3@5"),
     clear: list[str] = typer.Option([], "--clear", metavar="ERROR|all[@SCAN]", help="Recover an error."),
     show: list[str] = typer.Option([], "--print", metavar="PATH", help="Print this variable or address at the end."),
+    mode: list[str] = typer.Option([], "--mode", metavar="MODE[@SCAN]", help="Change to PROGRAM, MONITOR or RUN."),
+    restart: list[str] = typer.Option([], "--restart", metavar="KIND[@SCAN]", help="Restart: cold, warm or power."),
+    until: str | None = typer.Option(None, metavar="CONDITION", help="End after the first scan after which it holds, e.g. 'Main.n > 10'."),
+    record: Path | None = typer.Option(None, metavar="FILE", help="Record the run, for `replay` or to import in the browser."),
     every: int = typer.Option(0, min=0, metavar="K", help="Print the variables every K scans too."),
     engine: EngineChoice = typer.Option(EngineChoice.NATIVE, help="both: run both and compare whole images every scan."),
     hash: bool = typer.Option(False, "--hash", help="Print the SHA-256 of the image."),
@@ -51,8 +57,8 @@ def run(
 ) -> None:  # fmt: skip
     """Run a program. A command @SCAN is applied before that scan; scans count from 0.
 
-    Exit 0 when it ran; 1: it does not compile; 2: wrong usage, or a command was refused; 3: the engines differ;
-    4: the PLC trapped.
+    Exit 0 when it ran; 1: it does not compile; 2: wrong usage, a command was refused, or --until was never met; 3: the
+    engines differ; 4: the PLC trapped.
     """
     sources = read_sources([path])
     plc = find_model(model, sources)
@@ -65,10 +71,17 @@ def run(
             typer.echo(str(problem), err=True)
         raise typer.Exit(1)
     program = checked.program
-    commands = read_commands(program, Options(set, force, generate, clear))
+    commands = read_commands(program, Options(set, force, generate, clear, mode, restart))
     shown = [(each, find_symbol(program, each)) for each in show]
+    condition = None if until is None else read_condition(program, until)
+    recording = None if record is None else begin(record, program, sources.texts, read_interval(interval))
     try:
-        result = run_headless(program, scans, ENGINES[engine], commands, every, lambda plc: values(plc, shown))
+        result = run_headless(
+            program, scans, ENGINES[engine], commands, every, lambda plc: values(plc, shown),
+            detect=Detection(), recorder=recording, until=condition,
+        )  # fmt: skip
+        if recording is not None:
+            end(recording, result.resource)
     except TooLarge as error:
         usage(f"{path}: {error}")
     except Differs as difference:
@@ -83,10 +96,10 @@ def run(
     for scan, _ in commands:
         if scan > result.scans:
             typer.echo(f"scanbench: the command for scan {scan} was not applied: the run ended before it", err=True)
-    _end(result)
+    _end(result, until)
 
 
-def _end(result: Result) -> None:
+def _end(result: Result, until: str | None) -> None:
     for refused in result.refused:
         near = f" Near: {', '.join(refused.refusal.near)}." if refused.refusal.near else ""
         typer.echo(f"scanbench: refused before scan {refused.scan}: {refused.refusal.message}.{near}", err=True)
@@ -96,5 +109,8 @@ def _end(result: Result) -> None:
             f"{trap.file}:{trap.line}:{trap.column}: trap {trap.kind}: {trap.message} in scan {trap.scan}", err=True
         )
         raise typer.Exit(4)
+    if until is not None and not result.met:
+        typer.echo(f"scanbench: after {result.scans} scans it was not so that {until}", err=True)
+        raise typer.Exit(2)
     if result.refused:
         raise typer.Exit(2)

@@ -2,14 +2,18 @@
 
 import re
 from dataclasses import dataclass
+from typing import get_args
 
+from scanbench.check.condition import Condition, compile_condition
 from scanbench.check.program import Program
 from scanbench.check.symbols import Symbol, UnknownPath, resolve
 from scanbench.cli.inputs import usage
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import parse_reference
-from scanbench.runtime.command import Command, Refusal
+from scanbench.runtime.command import Command, Refusal, RestartKind
 from scanbench.runtime.forces import Force
+from scanbench.runtime.modes import SetMode
+from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.syntax.literals import duration
 
@@ -25,6 +29,8 @@ class Options:
     force: list[str]
     generate: list[str]
     clear: list[str]
+    mode: list[str]
+    restart: list[str]
 
 
 def read_interval(text: str) -> int:
@@ -61,7 +67,29 @@ def read_commands(program: Program, options: Options) -> list[tuple[int, Command
         if isinstance(error, Refusal):
             usage(f"--clear {text}: {error.message}")
         made.append((scan, Recover(AUTHOR, (error.id,))))
+    for text in options.mode:
+        wanted, scan = _at(text)
+        made.append((scan, SetMode(AUTHOR, wanted.upper())))
+    for text in options.restart:
+        made.append(_restart(text))
     return made
+
+
+def read_condition(program: Program, text: str) -> Condition:
+    """The condition of --until."""
+    condition = compile_condition(program, text)
+    if not isinstance(condition, Condition):
+        near = f" Near: {', '.join(condition.near)}." if condition.near else ""
+        usage(f"--until {text}: {condition.message}{near}")
+    return condition
+
+
+def _restart(text: str) -> tuple[int, Command]:
+    wanted, scan = _at(text)
+    kinds: dict[str, RestartKind] = {kind: kind for kind in get_args(RestartKind)}
+    if wanted.lower() not in kinds:
+        usage(f"--restart {text}: there are {', '.join(kinds)}")
+    return scan, Restart(AUTHOR, kinds[wanted.lower()])
 
 
 def _at(text: str) -> tuple[str, int]:

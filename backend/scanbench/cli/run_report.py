@@ -5,6 +5,7 @@ import json
 
 import typer
 
+from scanbench.check.program import TrapKind
 from scanbench.check.symbols import Symbol, members
 from scanbench.check.types import ArrayType, Record
 from scanbench.check.values import format_value, python_value
@@ -78,7 +79,7 @@ def _hash(resource: Resource) -> str:
 
 def _state(resource: Resource) -> str:
     """`running`, `stopped` (mode PROGRAM), `fatal` or `trapped`."""
-    if resource.trap is not None:
+    if resource.trap is not None and resource.trap.kind != TrapKind.FATAL:
         return "trapped"
     if resource.header.halt:
         return "fatal"

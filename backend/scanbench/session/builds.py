@@ -1,7 +1,6 @@
 """Checking and building projects: in a process of its own, so that a long check never delays live values."""
 
 import asyncio
-import ctypes
 import multiprocessing
 import os
 import signal
@@ -14,10 +13,11 @@ from scanbench.check.build import PouInfo
 from scanbench.check.incremental import Checks
 from scanbench.check.program import CheckSite
 from scanbench.engines.cache import BlobCache
+from scanbench.engines.lifeline import end_with_parent
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem, Severity
 from scanbench.session.known import keep, key_of
-from scanbench.session.protocol import Sources
+from scanbench.session.protocol import Previewed, Sources
 from scanbench.store.records import ProjectRow
 
 INTERVAL_NS = 10_000_000
@@ -43,6 +43,15 @@ class CheckOutcome:
 
 
 @dataclass(frozen=True, slots=True)
+class Change:
+    """What a swap does to the variables of one running PLC."""
+
+    instance: int
+    name: str
+    previewed: Previewed
+
+
+@dataclass(frozen=True, slots=True)
 class BuildOutcome:
     """What became of a build, and the project after it."""
 
@@ -50,6 +59,9 @@ class BuildOutcome:
     message: str
     found: CheckOutcome
     project: ProjectRow
+    changes: tuple[Change, ...] = ()
+    needs_agreement: bool = False
+    """Nothing was swapped yet: variables would begin anew."""
 
 
 class Checker:
@@ -98,6 +110,6 @@ def _keep(sources: Sources, model: Model, cache: BlobCache) -> None:
 
 def _prepare() -> None:
     """The checker ends with its parent, leaves Ctrl-C to it, and does not ask how copies of it ended."""
-    ctypes.CDLL(None).prctl(1, signal.SIGKILL)
+    end_with_parent()
     signal.signal(signal.SIGCHLD, signal.SIG_IGN)
     signal.signal(signal.SIGINT, signal.SIG_IGN)

@@ -13,11 +13,15 @@ from scanbench.check.violations import Violation, Violations
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef
 from scanbench.problems import Span
+from scanbench.runtime.carry_over import Lost
 from scanbench.runtime.clear_violations import ClearViolations
-from scanbench.runtime.command import Entry, Patch, Plan
+from scanbench.runtime.command import Entry, Patch, Plan, Restarted, Swapped
 from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
+from scanbench.runtime.recording import RecordingInfo
+from scanbench.runtime.restart import Restart
+from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.trap import TrapInfo, Trapped
 from scanbench.runtime.write import Write
 from scanbench.session import protocol
@@ -31,10 +35,13 @@ _CLASSES: dict[str, type] = {
     for cls in (
         ClearViolations, Entry, Force, Generate, Patch, Plan, ErrorRef, ProgramChange, Recover, Release, SetMode, Span, TrapInfo, Trapped,
         Violation, Violations, Write,
-        protocol.Ack, protocol.Build, protocol.Checkpoint, protocol.ColdStart, protocol.Diagnosed, protocol.Drive, protocol.Entered, protocol.Found,
-        protocol.Frame, protocol.HostState, protocol.Lookup, protocol.Quit, protocol.Ready, protocol.Sources,
-        protocol.Start, protocol.StartFailed, protocol.Submit, protocol.SymbolInfo, protocol.UnwatchIds,
-        protocol.WantSnapshot, protocol.WatchItem, protocol.WatchPaths, protocol.Watching,
+        Lost, RecordingInfo, Restart, Restarted, SetClock, Swapped,
+        protocol.Ack, protocol.Attend, protocol.Build, protocol.Cut, protocol.Diagnosed, protocol.Drive,
+        protocol.Entered, protocol.Found, protocol.Frame, protocol.HostState, protocol.Lookup, protocol.Preview,
+        protocol.Previewed, protocol.Quit, protocol.Ready, protocol.RollBack, protocol.RunMark, protocol.RunMarks,
+        protocol.SetLimits, protocol.Sources, protocol.Standing, protocol.Start, protocol.StartFailed,
+        protocol.Submit, protocol.SymbolInfo, protocol.Travel, protocol.UnwatchIds, protocol.WantSnapshot,
+        protocol.WatchItem, protocol.WatchPaths, protocol.Watching,
     )
 }  # fmt: skip
 _FIELDS = {name: tuple(field.name for field in fields(cls)) for name, cls in _CLASSES.items()}
@@ -46,7 +53,7 @@ class BadMessage(Exception):
 
 def pack(message: object) -> bytes:
     """A message with its length in front."""
-    body = _body(message)
+    body = pack_body(message)
     return LENGTH.pack(len(body)) + body
 
 
@@ -79,7 +86,26 @@ class Splitter:
             yield unpack(body)
 
 
-def _body(message: object) -> bytes:
+class EntryCodec:
+    """How a run file keeps journal entries."""
+
+    def pack(self, entry: Entry) -> bytes:
+        """The bytes of an entry."""
+        return pack_body(entry)
+
+    def unpack(self, data: bytes) -> Entry:
+        """The entry in these bytes; `BadMessage` when there is none."""
+        entry = unpack(data)
+        if not isinstance(entry, Entry):
+            raise BadMessage(f"{type(entry).__name__} where a journal entry should be")
+        return entry
+
+
+ENTRIES = EntryCodec()
+
+
+def pack_body(message: object) -> bytes:
+    """A message without its length."""
     packed = msgpack.packb(message, default=_write, datetime=True)
     assert isinstance(packed, bytes)
     return packed
@@ -89,7 +115,7 @@ def _write(value: object) -> msgpack.ExtType:
     name = type(value).__name__
     if not is_dataclass(value) or name not in _FIELDS:
         raise TypeError(f"{name} is not in the protocol")
-    return msgpack.ExtType(_OBJECT, _body([name, *(getattr(value, field) for field in _FIELDS[name])]))
+    return msgpack.ExtType(_OBJECT, pack_body([name, *(getattr(value, field) for field in _FIELDS[name])]))
 
 
 def _read(code: int, data: bytes) -> object:

@@ -7,9 +7,10 @@ from typing import Protocol
 from scanbench.check.violations import Violations
 from scanbench.faults.history import ErrorRow
 from scanbench.runtime.forces import Force
+from scanbench.runtime.recording import RecordingInfo
 from scanbench.runtime.trap import TrapInfo
 from scanbench.session.builds import BuildOutcome
-from scanbench.session.protocol import WatchItem
+from scanbench.session.protocol import RunMark, WatchItem
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,16 +27,24 @@ class PlcState:
     state: str
     mode: str
     message: str
-    scan: int
-    time_ns: int
-    interval_ns: int
-    cycle_us: float
-    speed: float
-    pid: int | None
-    restarts: int
-    trap: TrapInfo | None
-    forces: int
-    version: int
+    scan: int = 0
+    time_ns: int = 0
+    interval_ns: int = 0
+    cycle_us: float = 0.0
+    speed: float = 1.0
+    pid: int | None = None
+    restarts: int = 0
+    trap: TrapInfo | None = None
+    forces: int = 0
+    version: int = 0
+    live_scan: int = 0
+    past_by: str = ""
+    """Who shows the past; empty when it is live."""
+    target: str = ""
+    late_percent: float = 0.0
+    late_us: float = 0.0
+    """Mean lateness of scans since the pace was set; `worst_us` is the most."""
+    worst_us: float = 0.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -127,6 +136,15 @@ class DiagnosticsChanged:
 
 
 @dataclass(frozen=True, slots=True)
+class TimelineChanged:
+    """The run file or its marks changed; `fresh`: these are all the marks there are."""
+
+    info: RecordingInfo
+    marks: tuple[RunMark, ...]
+    fresh: bool
+
+
+@dataclass(frozen=True, slots=True)
 class Watching:
     """Answer to the `watch` of a subscriber; with ref None what all ids mean now that the variables moved."""
 
@@ -145,6 +163,7 @@ Event = (
     | ValueWritten
     | ForcesChanged
     | DiagnosticsChanged
+    | TimelineChanged
     | Watching
 )
 

@@ -1,29 +1,36 @@
 """One virtual PLC, seen from the parent: starts its process, speaks to it, notices its death and starts it again.
 
-The host may die at any moment (a fault in generated code, `kill -9`): the parent keeps the last checkpoint, the journal
-and the last known scan, and a new host goes on from there.
+The host may die at any moment (a fault in generated code, `kill -9`): everything is in the run file, and a new host goes
+on from there, up to the last scan that was heard of.
 """
 
 import asyncio
 import logging
+import signal
 import socket
-import subprocess
-import sys
-from collections.abc import Callable, Sequence
-from dataclasses import dataclass, field, replace
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, replace
 from pathlib import Path
 
 from scanbench.runtime.clock import monotonic_ns
-from scanbench.runtime.command import Command, Entry
+from scanbench.runtime.command import Command
 from scanbench.session import protocol
 from scanbench.session.codec import LENGTH, BadMessage, pack, unpack
 from scanbench.session.events import PlcState
+from scanbench.session.nursery import NoProcess, Process, nursery
+from scanbench.store.records import Limits
 
 log = logging.getLogger("scanbench")
 
 QUICK_DEATH_NS = 10_000_000_000
+_REACHED_S = 10
 QUICK_DEATHS = 4
 """So many deaths, each within `QUICK_DEATH_NS` of its start, and it is not started again."""
+
+
+OFF = "switched off; its run is kept"
+Telling = protocol.WatchPaths | protocol.UnwatchIds | protocol.WantSnapshot | protocol.Attend | protocol.SetLimits
 
 
 class Unavailable(Exception):
@@ -32,65 +39,70 @@ class Unavailable(Exception):
 
 @dataclass(slots=True)
 class Memory:
-    """What a new host needs to go on where the last one stopped."""
+    """What a new host is told, so that it goes on where the last one stopped."""
 
+    name: str
     sources: protocol.Sources
+    run: Path
+    limits: Limits
     speed: float = 1.0
     paused: bool = False
-    checkpoint: protocol.Checkpoint | None = None
-    journal: list[Entry] = field(default_factory=list)
     scan: int = 0
+    restarted: bool = False
 
     def start(self) -> protocol.Start:
         """The first message to a new host."""
-        journal = tuple(self.journal) if self.checkpoint is not None else ()
-        return protocol.Start(self.sources, self.speed, self.paused, self.checkpoint, journal, self.scan)
-
-    def forget_run(self) -> None:
-        """A cold start: nothing of what was has any meaning."""
-        self.journal.clear()
-        self.checkpoint, self.scan = None, 0
-
-    def keep(self, checkpoint: protocol.Checkpoint, offered: protocol.Sources | None) -> None:
-        """Takes a checkpoint; the first one of a new program takes over its sources too."""
-        if offered is not None and offered.version == checkpoint.version:
-            self.sources = offered
-        self.checkpoint = checkpoint
-        self.scan = max(self.scan, checkpoint.scan)
+        limits = self.limits
+        return protocol.Start(
+            self.name, self.sources, str(self.run), limits.run_mib, limits.memory_mib, limits.cpu_percent,
+            self.speed, self.paused, self.scan, self.restarted,
+        )  # fmt: skip
 
 
 class Instance:
     """Supervises the process of one PLC. `on_message` gets what the host says, in order."""
 
     def __init__(
-        self, sources: protocol.Sources, on_state: Callable[[PlcState], None], on_message: Callable[[object], None],
+        self, memory: Memory, on_state: Callable[[PlcState], None], on_message: Callable[[object], None],
         cache: Path | None = None,
     ) -> None:  # fmt: skip
         """`cache` is a directory where hosts keep what they built."""
         self._cache = cache
         self.state = PlcState(
-            "starting", "MONITOR", "starting", 0, 0, sources.interval_ns, 0.0, 1.0, None, 0, None, 0, sources.version
+            "off", "MONITOR", OFF, interval_ns=memory.sources.interval_ns, version=memory.sources.version
         )
-        self._memory = Memory(sources)
+        self._memory = memory
         self._on_state, self._on_message = on_state, on_message
-        self._offered: protocol.Sources | None = None
-        self._process: subprocess.Popen[bytes] | None = None
+        self._process: Process | None = None
         self._writer: asyncio.StreamWriter | None = None
         self._task: asyncio.Task[None] | None = None
+        self._connected = asyncio.Event()
         self._answers: dict[int, asyncio.Future[object]] = {}
         self._next_ref = 1
         self._deaths = 0
         self._stopping = False
 
     @property
-    def entries(self) -> Sequence[Entry]:
-        """The journal of this run, as far as it is acknowledged."""
-        return self._memory.journal
+    def sources(self) -> protocol.Sources:
+        """What the program that runs is made of."""
+        return self._memory.sources
+
+    @property
+    def run_file(self) -> Path:
+        """Where the run is recorded."""
+        return self._memory.run
+
+    @property
+    def on(self) -> bool:
+        """Whether it has a process, or will have one again in a moment."""
+        return self._task is not None and not self._task.done()
 
     # ---- life -----------------------------------------------------------------------------------------------------
 
     def start(self) -> None:
         """Starts the process, and keeps it alive until `stop`."""
+        self._stopping = False
+        self._set_state(state="starting", message="starting")
         self._task = asyncio.get_running_loop().create_task(self._supervise())
 
     async def stop(self) -> None:
@@ -105,6 +117,7 @@ class Instance:
                 if self._process is not None:
                     self._process.kill()
                 await self._task
+        self._set_state(state="off", message=OFF, pid=None)
 
     async def _supervise(self) -> None:
         while True:
@@ -120,23 +133,30 @@ class Instance:
                 self._set_state(
                     state="failed",
                     message=f"the PLC's process died {self._deaths} times in a row: it is not started again. "
-                    "Correct the program and build, or restart",
+                    "Correct the program and build, or begin a new run",
                     pid=None,
                 )
                 return
             self._set_state(
-                state="restarting", message="the PLC's process died; it goes on from its journal",
+                state="restarting", message="the PLC's process died; it goes on from its run file",
                 pid=None, restarts=self.state.restarts + 1,
             )  # fmt: skip
 
     async def _live(self) -> str | None:
         """One life of the process; returns why it must not be started again, or None."""
         ours, theirs = socket.socketpair()
-        self._process = process = _spawn(theirs, self._cache)
-        theirs.close()
+        try:
+            with theirs:
+                self._process = process = await asyncio.to_thread(nursery().spawn, theirs, self._cache)
+        except NoProcess as error:
+            ours.close()
+            return str(error)
         reader, writer = await asyncio.open_unix_connection(sock=ours, limit=1 << 20)
         self._writer = writer
         writer.write(pack(self._memory.start()))
+        self._connected.set()
+        if self._stopping:  # while the process was on its way
+            writer.write(pack(protocol.Quit()))
         if self.state.state != "restarting":
             self._set_state(state="starting", message="starting", pid=process.pid)
         failure: str | None = None
@@ -155,37 +175,40 @@ class Instance:
             process.kill()
         finally:
             self._writer = None
+            self._connected.clear()
             self._fail_answers()
             writer.close()
-            await asyncio.to_thread(_reap, process)
-        return failure
+            code = await asyncio.to_thread(_reap, process)
+        return failure or _failure_of(code, self._memory.limits.memory_mib)
 
     def _take(self, message: object) -> None:
         match message:
             case protocol.HostState():
                 self._see(message)
             case protocol.Entered():
-                self._memory.journal.append(message.entry)
                 self._memory.scan = max(self._memory.scan, message.entry.scan)
                 self._on_message(message)
-            case protocol.ColdStart():
-                self._memory.forget_run()
+            case protocol.Ready():
+                self._memory.sources = message.sources
+                self._memory.restarted = False
+                if message.fresh:
+                    self._memory.scan = 0
                 self._on_message(message)
-            case protocol.Checkpoint():
-                self._memory.keep(message, self._offered)
-            case protocol.Ack() | protocol.Found():
+            case protocol.Ack() | protocol.Found() | protocol.Previewed():
                 self._answer(message.ref, message)
             case _:
                 self._on_message(message)
 
     def _see(self, state: protocol.HostState) -> None:
         self._memory.speed, self._memory.paused = state.speed, state.paused
-        self._memory.scan = max(self._memory.scan, state.scan)
+        self._memory.scan = state.live_scan
         pid = self._process.pid if self._process is not None else None
         self._set_state(
             state=state.state, mode=state.mode, message=state.message, scan=state.scan, time_ns=state.time_ns,
             interval_ns=state.interval_ns, cycle_us=state.cycle_us, speed=state.speed, pid=pid, trap=state.trap,
-            forces=state.forces, version=state.version,
+            forces=state.forces, version=state.version, live_scan=state.live_scan, past_by=state.past_by,
+            target=state.target, late_percent=state.late_percent,
+            late_us=state.late_us, worst_us=state.worst_us,
         )  # fmt: skip
 
     def _set_state(self, **changes: object) -> None:
@@ -198,27 +221,51 @@ class Instance:
         """Enters a command in the seam."""
         return self._ack(await self._ask(lambda ref: protocol.Submit(ref, command)))
 
-    async def drive(self, action: str, speed: float | None, author: str) -> protocol.Ack:
-        """Changes pace, pauses, restarts. A PLC that failed is started again by `restart`."""
-        if action == "restart" and self.state.state == "failed":
-            return await self.revive(None)
-        return self._ack(await self._ask(lambda ref: protocol.Drive(ref, action, speed, author)))
+    async def drive(self, drive: protocol.Drive) -> protocol.Ack:
+        """Changes pace, pauses, goes on."""
+        return self._ack(await self._ask(lambda ref: replace(drive, ref=ref)))
+
+    async def travel(self, scan: int | None, author: str) -> protocol.Ack:
+        """Shows the past, or live again."""
+        return self._ack(await self._ask(lambda ref: protocol.Travel(ref, scan, author)))
+
+    async def cut(self, path: Path, scan: int | None) -> protocol.Ack:
+        """A run file of its own."""
+        return self._ack(await self._ask(lambda ref: protocol.Cut(ref, str(path), scan)))
+
+    async def preview(self, sources: protocol.Sources) -> protocol.Previewed:
+        """What a swap would do."""
+        answer = await self._ask(lambda ref: protocol.Preview(ref, sources))
+        assert isinstance(answer, protocol.Previewed)
+        return answer
 
     async def build(self, sources: protocol.Sources, author: str) -> protocol.Ack:
-        """Swaps the program; a PLC that failed is started again with it."""
+        """Swaps the program; a PLC that failed begins a new run with it."""
         if self.state.state == "failed":
-            return await self.revive(sources)
-        self._offered = sources
+            return await self.begin_anew(sources)
         return self._ack(await self._ask(lambda ref: protocol.Build(ref, sources, author)))
 
-    async def revive(self, sources: protocol.Sources | None) -> protocol.Ack:
-        """A cold start after the process was given up."""
-        self._memory = Memory(sources or self._memory.sources)
-        self._on_message(protocol.ColdStart())
-        self._deaths = 0
-        self._set_state(state="starting", message="starting", trap=None, version=self._memory.sources.version)
+    async def roll_back(self, author: str) -> protocol.Ack:
+        """Swaps the last program back in."""
+        return self._ack(await self._ask(lambda ref: protocol.RollBack(ref, author)))
+
+    async def begin_anew(self, sources: protocol.Sources | None = None) -> protocol.Ack:
+        """A new run, at scan 0; the old run file is kept aside."""
+        if self.on:
+            await self.stop()
+        memory = self._memory
+        memory.sources = sources or memory.sources
+        memory.scan, memory.restarted, self._deaths = 0, True, 0
+        self._set_state(
+            scan=0, live_scan=0, time_ns=0, trap=None, past_by="", target="", version=memory.sources.version
+        )
         self.start()
-        return protocol.Ack(0, True, "started again, cold", 0)
+        return protocol.Ack(0, True, "a new run begins at scan 0", 0)
+
+    def limit(self, limits: Limits) -> None:
+        """New limits; that of memory holds from the next start of the process."""
+        self._memory.limits = limits
+        self.tell(protocol.SetLimits(limits.run_mib, limits.cpu_percent))
 
     async def look_up(self, kind: str, text: str) -> protocol.Found:
         """Members of a path, completions of a text."""
@@ -226,7 +273,7 @@ class Instance:
         assert isinstance(answer, protocol.Found)
         return answer
 
-    def tell(self, message: protocol.WatchPaths | protocol.UnwatchIds | protocol.WantSnapshot) -> bool:
+    def tell(self, message: Telling) -> bool:
         """Something whose answer, if any, comes as a message; false when the process is away."""
         if self._writer is None:
             return False
@@ -234,13 +281,22 @@ class Instance:
         return True
 
     async def _ask(self, make: Callable[[int], object]) -> object:
+        if self._writer is None and self.state.state == "starting":
+            await self._reached()
         if self._writer is None:
-            raise Unavailable(f"the PLC is {self.state.state}: {self.state.message}. Try again in a moment")
+            hint = "Switch it on first" if self.state.state == "off" else "Try again in a moment"
+            raise Unavailable(f"the PLC is {self.state.state}: {self.state.message}. {hint}")
         ref, self._next_ref = self._next_ref, self._next_ref + 1
         future: asyncio.Future[object] = asyncio.get_running_loop().create_future()
         self._answers[ref] = future
         self._writer.write(pack(make(ref)))
         return await future
+
+    async def _reached(self) -> None:
+        """Waits a while for a process that is on its way."""
+        with suppress(TimeoutError):
+            async with asyncio.timeout(_REACHED_S):
+                await self._connected.wait()
 
     @staticmethod
     def _ack(answer: object) -> protocol.Ack:
@@ -259,16 +315,20 @@ class Instance:
         self._answers.clear()
 
 
-def _spawn(sock: socket.socket, cache: Path | None) -> "subprocess.Popen[bytes]":
-    fd = sock.fileno()
-    command = [sys.executable, "-m", "scanbench.session.host", str(fd), *([str(cache)] if cache is not None else [])]
-    return subprocess.Popen(command, pass_fds=(fd,), stdin=subprocess.DEVNULL)
-
-
-def _reap(process: "subprocess.Popen[bytes]") -> None:
-    """Collects a process whose socket is closed: it ends by itself, or is ended."""
-    try:
-        process.wait(3)
-    except subprocess.TimeoutExpired:
+def _reap(process: Process) -> int | None:
+    """Collects a process whose socket is closed: it ends by itself, or is ended. Returns how it ended."""
+    code = process.wait(3)
+    if code is None:
         process.kill()
-        process.wait()
+        code = process.wait()
+    return code
+
+
+def _failure_of(code: int | None, memory_mib: int | None) -> str | None:
+    """Why a process that ended so must not be started again: LLVM aborts where it gets no memory."""
+    if code == -signal.SIGABRT and memory_mib is not None:
+        return (
+            f"out of memory: limit {memory_mib} MiB; the compiler got no more. "
+            "Raise the limit of the instance, or use a smaller program"
+        )
+    return None

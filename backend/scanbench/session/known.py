@@ -8,9 +8,9 @@ from functools import cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 
-from scanbench.check.garbage import without_collection
 from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
+from scanbench.garbage import without_collection
 from scanbench.plcmodel.model import Model
 from scanbench.session.protocol import Sources
 

@@ -4,7 +4,8 @@ import asyncio
 from collections.abc import Callable, Mapping, Sequence
 
 from scanbench.plcmodel.model import Model
-from scanbench.session.builds import INTERVAL_NS, BuildOutcome, Checker, CheckOutcome
+from scanbench.session.builds import INTERVAL_NS, BuildOutcome, Change, Checker, CheckOutcome
+from scanbench.session.instance import Unavailable
 from scanbench.session.protocol import Sources
 from scanbench.session.session import Session
 from scanbench.store.records import FileInfo, FileRow, ProjectRow
@@ -98,15 +99,27 @@ class Projects:
         files = await asyncio.to_thread(self._store.last_build, id)
         return None if files is None else Sources(project.model, files, INTERVAL_NS, project.version)
 
-    async def build(self, id: int, author: str) -> BuildOutcome:
-        """Builds what is saved, and swaps it into the project's PLCs, each in its seam. One build at a time."""
+    async def build(self, id: int, author: str, agreed: bool = True) -> BuildOutcome:
+        """Builds what is saved, and swaps it into the project's PLCs, each in its seam. One build at a time.
+
+        Not `agreed`: where variables of a running PLC would begin anew, it only says which.
+        """
         async with self._building.setdefault(id, asyncio.Lock()):
-            outcome = await self._build(id, author)
-        for session in self._sessions_of(id):
-            session.told_built(author, outcome)
+            outcome = await self._build(id, author, agreed)
+        if not outcome.needs_agreement:
+            for session in self._sessions_of(id):
+                session.told_built(author, outcome)
         return outcome
 
-    async def _build(self, id: int, author: str) -> BuildOutcome:
+    async def from_sources(self, name: str, sources: Sources, author: str) -> ProjectRow:
+        """A project with these files, as if they had been built as this version."""
+        project = await self.create(name, sources.model)
+        for path, text in sources.files.items():
+            await asyncio.to_thread(self._store.save_file, project.id, path, text, 0, author)
+        await asyncio.to_thread(self._store.accept_build, project.id, sources.files, author, sources.version)
+        return await self.get(project.id)
+
+    async def _build(self, id: int, author: str, agreed: bool) -> BuildOutcome:
         project = await self.get(id)
         sources = await self.sources(id)
         found = await self._checker.check(sources, self.model(project.model))
@@ -115,17 +128,40 @@ class Projects:
             first = next(problem for problem in found.problems if problem.severity == "error")
             message = f"{count}, nothing was changed: {first}"
             return BuildOutcome(False, message, found, project)
-        version = await asyncio.to_thread(self._store.accept_build, id, sources, author)
-        build = Sources(project.model, sources, INTERVAL_NS, version)
-        sessions = self._sessions_of(id)
-        acks = await asyncio.gather(*(session.build(build, author) for session in sessions))
+        sessions = [session for session in self._sessions_of(id) if session.state.state != "off"]
+        build = Sources(project.model, sources, INTERVAL_NS, project.version + 1)
         self._checker.keep(build, self.model(project.model))
+        changes = await self._changes(sessions, build)
+        lost = sum(change.previewed.forgets for change in changes)
+        refused = [change.name for change in changes if change.previewed.refusal]
+        if (lost or refused) and not agreed:
+            parts = [f"{lost} variable{'s' * (lost != 1)} would begin anew"] if lost else []
+            parts += [f"{', '.join(refused)} cannot be changed now"] if refused else []
+            message = f"{'; '.join(parts)}: nothing was changed yet"
+            return BuildOutcome(False, message, found, project, changes, needs_agreement=True)
+        await asyncio.to_thread(self._store.accept_build, id, sources, author)
+        acks = await asyncio.gather(*(session.build(build, author) for session in sessions))
         lines = [f"{session.name}: {ack.message}" for session, ack in zip(sessions, acks, strict=True)]
-        message = "; ".join([f"version {version} built", *lines])
-        return BuildOutcome(all(ack.ok for ack in acks), message, found, await self.get(id))
+        message = "; ".join([f"version {build.version} built", *lines])
+        return BuildOutcome(all(ack.ok for ack in acks), message, found, await self.get(id), changes)
+
+    @staticmethod
+    async def _changes(sessions: Sequence[Session], build: Sources) -> tuple[Change, ...]:
+        """What the build would do to each PLC; one that cannot answer now says so when it is changed."""
+
+        async def change(session: Session) -> Change | None:
+            try:
+                return Change(session.id, session.name, await session.preview(build))
+            except Unavailable:
+                return None
+
+        found = await asyncio.gather(*map(change, sessions))
+        return tuple(each for each in found if each is not None)
 
 
 def _check_path(path: str) -> None:
     parts = path.split("/")
     if not is_program_file(path) or len(path) > 200 or any(part.strip(". ") == "" for part in parts):
-        raise Refused(f"{path!r} cannot be a file of a project: name it like motor.st, or {', '.join(ENDINGS[1:])}")
+        raise Refused(
+            f"{path!r} cannot be a file of a project: name it like motor.st, or {', '.join(ENDINGS[1:])}, or plant/inputs.csv"
+        )

@@ -1,14 +1,17 @@
 """What the parent and the host of a PLC say to each other. Frozen data, packed by `codec.py`.
 
 Parent to host: `Start` first, then the others in any order. A `ref` is chosen by the parent and comes back in the answer.
-Host to parent: `Ready` or `StartFailed` first. `Entered` comes for every journal entry, in order, before the `Ack` of its
-command; `Checkpoint` says from which entry on a replay needs the journal.
+Host to parent: `Ready` or `StartFailed` first. `Entered` comes for every new journal entry, in order, before the `Ack` of
+its command; `Standing` and `RunMarks` say what holds after all entries so far, also those of earlier lives.
 """
 
 from dataclasses import dataclass
 
 from scanbench.check.violations import Violations
+from scanbench.runtime.carry_over import Lost
 from scanbench.runtime.command import Command, Entry
+from scanbench.runtime.forces import Force
+from scanbench.runtime.recording import RecordingInfo
 from scanbench.runtime.trap import TrapInfo
 
 # ---- parent to host ------------------------------------------------------------------------------------------------
@@ -25,26 +28,21 @@ class Sources:
 
 
 @dataclass(frozen=True, slots=True)
-class Checkpoint:
-    """A copy of the state before `scan` of program `version`; the journal's first `entries` entries are in it."""
-
-    scan: int
-    entries: int
-    version: int
-    image: bytes
-    """Zstandard."""
-
-
-@dataclass(frozen=True, slots=True)
 class Start:
-    """Builds and runs. With a checkpoint: goes back to it and replays the journal up to scan `until`."""
+    """Goes on with the run in the file `run`, up to scan `until` without waiting; begins one where there is none."""
 
+    name: str
     sources: Sources
+    """The program of a run that begins; a run that goes on has its own."""
+    run: str
+    run_mib: int | None
+    memory_mib: int | None
+    cpu_percent: int | None
     speed: float
     paused: bool
-    checkpoint: Checkpoint | None
-    journal: tuple[Entry, ...]
     until: int
+    restarted: bool
+    """Begins a new run even where there is a file: the old one is kept aside."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -57,12 +55,64 @@ class Submit:
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """Pace: `continue`, `pause`, `scan` (one), `restart` (cold start), or only a new speed; answered with `Ack`."""
+    """Pace: `continue` (for `scans`, or until a condition holds), `pause`, `scan` (one), or only a new speed; answered
+    with `Ack`."""
 
     ref: int
     action: str
     speed: float | None
     author: str
+    scans: int | None = None
+    until: str | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class Travel:
+    """Shows the PLC as it was before `scan`; None returns to live. Answered with `Ack`."""
+
+    ref: int
+    scan: int | None
+    author: str
+
+
+@dataclass(frozen=True, slots=True)
+class Cut:
+    """Writes a run file of its own that ends before `scan`, or now; answered with `Ack`."""
+
+    ref: int
+    path: str
+    scan: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Preview:
+    """What a swap to these sources would do to the variables; answered with `Previewed`."""
+
+    ref: int
+    sources: Sources
+
+
+@dataclass(frozen=True, slots=True)
+class RollBack:
+    """Swaps back in what ran before the last change of the program; answered with `Ack`."""
+
+    ref: int
+    author: str
+
+
+@dataclass(frozen=True, slots=True)
+class SetLimits:
+    """New limits of the run file and of the CPU; those of memory hold from the next start."""
+
+    run_mib: int | None
+    cpu_percent: int | None
+
+
+@dataclass(frozen=True, slots=True)
+class Attend:
+    """Whether somebody looks: nobody gets frames, and the state comes seldom."""
+
+    anybody: bool
 
 
 @dataclass(frozen=True, slots=True)
@@ -115,9 +165,12 @@ class Quit:
 
 @dataclass(frozen=True, slots=True)
 class Ready:
-    """The program runs (or stands); `message` says on what."""
+    """The program runs (or stands); `message` says on what, `sources` what it is made of."""
 
     message: str
+    sources: Sources
+    fresh: bool
+    """A new run has begun; else one goes on."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -143,6 +196,57 @@ class HostState:
     trap: TrapInfo | None
     forces: int
     version: int
+    live_scan: int
+    """Where the PLC waits while the past is shown; else `scan`."""
+    past_by: str
+    """Who went to the past; empty when what is shown is live."""
+    target: str
+    late_percent: float
+    late_us: float = 0.0
+    """Mean lateness of scans since the pace was set."""
+    worst_us: float = 0.0
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """What holds at the scan that is shown: forces, and the errors that are present."""
+
+    forces: tuple[Force, ...]
+    errors: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class RunMark:
+    """An entry of the run's journal, in short."""
+
+    scan: int
+    kind: str
+    author: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class RunMarks:
+    """What the run file holds. `marks` are the new ones, or with `fresh` all of them, the last 5,000."""
+
+    info: RecordingInfo
+    marks: tuple[RunMark, ...]
+    fresh: bool
+
+
+@dataclass(frozen=True, slots=True)
+class Previewed:
+    """Answer to `Preview`. `lost` is bounded, `lost_count` is not; a `refusal` says why nothing can be swapped now.
+
+    `forgets` counts those that have a value now and begin anew: variables that are new or removed lose nothing.
+    """
+
+    ref: int
+    kept: int
+    lost: tuple[Lost, ...]
+    lost_count: int
+    forgets: int
+    refusal: str
 
 
 @dataclass(frozen=True, slots=True)
@@ -168,13 +272,8 @@ class Entered:
 
 
 @dataclass(frozen=True, slots=True)
-class ColdStart:
-    """A new run begins: fresh image, empty journal, no error present, no force. Its first `Checkpoint` follows."""
-
-
-@dataclass(frozen=True, slots=True)
 class Ack:
-    """Answer to `Submit`, `Drive`, `Build`: done before `scan`, or refused."""
+    """Answer to what wants something of the PLC: done before `scan`, or refused."""
 
     ref: int
     ok: bool
@@ -228,9 +327,3 @@ class Found:
     symbols: tuple[SymbolInfo, ...]
     message: str = ""
     near: tuple[str, ...] = ()
-
-
-ToHost = Start | Submit | Drive | Build | WatchPaths | UnwatchIds | WantSnapshot | Lookup | Quit
-FromHost = (
-    Ready | StartFailed | HostState | Frame | Diagnosed | Entered | ColdStart | Checkpoint | Ack | Watching | Found
-)

@@ -4,6 +4,7 @@ import json
 from collections.abc import Iterator
 from dataclasses import dataclass
 from importlib.resources import files
+from importlib.resources.abc import Traversable
 
 from scanbench.syntax.parse_file import is_program_file
 
@@ -25,9 +26,14 @@ def samples() -> Iterator[Sample]:
         if not folder.is_dir() or not folder.joinpath("project.json").is_file():
             continue
         about = json.loads(folder.joinpath("project.json").read_text("utf-8"))
-        texts = {
-            file.name: file.read_text("utf-8")
-            for file in sorted(folder.iterdir(), key=lambda each: each.name)
-            if is_program_file(file.name)
-        }
+        texts = dict(_texts(folder, ""))
         yield Sample(about["name"], about["model"], tuple(about.get("watch", ())), texts)
+
+
+def _texts(folder: Traversable, path: str) -> Iterator[tuple[str, str]]:
+    """Path and text of each program file, also of those in folders (`plant/`)."""
+    for each in sorted(folder.iterdir(), key=lambda each: each.name):
+        if each.is_dir():
+            yield from _texts(each, f"{path}{each.name}/")
+        elif is_program_file(f"{path}{each.name}"):
+            yield f"{path}{each.name}", each.read_text("utf-8")

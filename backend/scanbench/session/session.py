@@ -5,53 +5,85 @@ from pathlib import Path
 
 from scanbench.check.violations import Violations
 from scanbench.faults.history import ErrorRow, History
-from scanbench.faults.inject import Generate, Recover
 from scanbench.plcmodel.model import Model
-from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Command, Entry
-from scanbench.runtime.forces import Force, Release, forced
-from scanbench.runtime.modes import SetMode
-from scanbench.runtime.program_change import ProgramChange
-from scanbench.runtime.trap import Trapped
+from scanbench.runtime.forces import Force
 from scanbench.runtime.write import Write
 from scanbench.session import events, protocol
 from scanbench.session.builds import BuildOutcome
 from scanbench.session.events import Event, LogEntry, PlcState, Subscriber, User
-from scanbench.session.instance import Instance, Unavailable
+from scanbench.session.instance import Instance, Memory, Unavailable
 from scanbench.session.keeper import Keeper
+from scanbench.session.load import Load, Loads
+from scanbench.session.marks import Marks, kind_of
 from scanbench.session.watches import Watches
+from scanbench.store.records import InstanceRow
 
 LOG_LINES = 500
 _EVERYBODY = 0
-_LOG_KINDS: dict[type, str] = {
-    Write: "write", Force: "force", Release: "force", Generate: "error", Recover: "recover", SetMode: "mode",
-    ProgramChange: "build", Trapped: "system", ClearViolations: "run",
-}  # fmt: skip
 
 
 class Session:
     """Everything that one instance is to the rest of the server."""
 
     def __init__(
-        self, id: int, name: str, project_id: int, model: Model, sources: protocol.Sources, keeper: Keeper,
-        rows: dict[str, ErrorRow], lines: Sequence[LogEntry], cache: Path | None = None,
+        self, row: InstanceRow, model: Model, memory: Memory, keeper: Keeper,
+        rows: dict[str, ErrorRow], lines: Sequence[LogEntry], loads: Loads, cache: Path | None = None,
     ) -> None:  # fmt: skip
-        self.id, self.name, self.project_id, self.model = id, name, project_id, model
+        self.row, self.model = row, model
+        self._loads = loads
         self._keeper = keeper
         self._history = History(model, rows)
         self._lines = list(lines)[-LOG_LINES:]
         self._subscribers: dict[int, Subscriber] = {}
         self._next_subscriber = 1
         self._watches = Watches()
-        self._questions: dict[int, tuple[int, int]] = {}
+        self._questions: dict[int, tuple[int, int, tuple[tuple[int, str], ...]]] = {}
         self._next_question = _EVERYBODY + 1
         self._unwatched = False  # what is watched must be told to the next host
         self._violations = Violations()
-        self._instance = Instance(sources, self._on_state, self._on_message, cache)
+        self._forces: tuple[Force, ...] = ()
+        self._timeline = Marks()
+        self._instance = Instance(memory, self._on_state, self._on_message, cache)
         self._last_state = self._instance.state
 
     # ---- what it is -----------------------------------------------------------------------------------------------
+
+    @property
+    def id(self) -> int:
+        """The instance's number."""
+        return self.row.id
+
+    @property
+    def name(self) -> str:
+        """The instance's name."""
+        return self.row.name
+
+    @property
+    def project_id(self) -> int:
+        """The project that it runs."""
+        return self.row.project
+
+    @property
+    def load(self) -> Load:
+        """What the process cost lately; zeros while there is none."""
+        return self._loads.of(self.state.pid)
+
+    @property
+    def sources(self) -> protocol.Sources:
+        """What the program that runs is made of."""
+        return self._instance.sources
+
+    @property
+    def run_file(self) -> Path:
+        """Where the run is recorded."""
+        return self._instance.run_file
+
+    @property
+    def timeline(self) -> events.TimelineChanged:
+        """The run file and all marks."""
+        return self._timeline.all
 
     @property
     def state(self) -> PlcState:
@@ -71,7 +103,7 @@ class Session:
     @property
     def forces(self) -> tuple[Force, ...]:
         """The forces that hold, in the order in which they were made."""
-        return tuple(forced(self._instance.entries).values())
+        return self._forces
 
     @property
     def violations(self) -> Violations:
@@ -86,14 +118,27 @@ class Session:
     # ---- life -----------------------------------------------------------------------------------------------------
 
     def start(self) -> None:
-        """Starts the PLC. Errors that the last server left generated are gone: the start is a cold one."""
-        self._cleared_by_cold_start()
-        self._add_line(LogEntry(wall_time(), 0, "server", "the server started: cold start at scan 0", "system"))
+        """Starts the PLC where its run file ends."""
         self._instance.start()
 
     async def stop(self) -> None:
-        """Ends the PLC's process."""
+        """Ends the PLC's process; its run is kept."""
         await self._instance.stop()
+
+    async def change(self, row: InstanceRow, author: str) -> None:
+        """Takes over a new name, new limits, and whether it is on."""
+        before, self.row = self.row, row
+        if row.limits != before.limits:
+            self._instance.limit(row.limits)
+        if row.powered == self._instance.on:
+            return
+        self._add_line(
+            LogEntry(wall_time(), self.state.scan, author, "switched on" if row.powered else "switched off", "run")
+        )
+        if row.powered:
+            self.start()
+        else:
+            await self.stop()
 
     # ---- commands -------------------------------------------------------------------------------------------------
 
@@ -101,22 +146,53 @@ class Session:
         """The one door: enters a command in the seam of the PLC."""
         return await self._refusing(self._instance.submit(command))
 
-    async def drive(self, action: str, speed: float | None, author: str) -> protocol.Ack:
-        """Pace of the run: continue, pause, scan, restart."""
-        ack = await self._refusing(self._instance.drive(action, speed, author))
-        if ack.ok:
-            self._add_line(LogEntry(wall_time(), ack.scan, author, ack.message, "run"))
-        return ack
+    async def drive(
+        self, action: str, speed: float | None, author: str, scans: int | None = None, until: str | None = None
+    ) -> protocol.Ack:
+        """Pace of the run: continue (so many scans, until a condition holds), pause, one scan."""
+        drive = protocol.Drive(0, action, speed, author, scans, until)
+        return self._logged(await self._refusing(self._instance.drive(drive)), author)
+
+    async def travel(self, scan: int | None, author: str) -> protocol.Ack:
+        """Shows the past to everybody, or live again."""
+        return await self._refusing(self._instance.travel(scan, author))
+
+    async def begin_anew(self, author: str) -> protocol.Ack:
+        """A new run from scan 0; the old run file is kept aside."""
+        return self._logged(await self._refusing(self._instance.begin_anew()), author)
+
+    async def preview(self, sources: protocol.Sources) -> protocol.Previewed:
+        """What a swap to these sources would do to the variables."""
+        return await self._instance.preview(sources)
 
     async def build(self, sources: protocol.Sources, author: str) -> protocol.Ack:
         """A new program for the PLC; the old one goes on until the new one is ready."""
         return await self._refusing(self._instance.build(sources, author))
+
+    async def roll_back(self, author: str) -> protocol.Ack:
+        """Swaps back in what ran before the last change."""
+        return await self._refusing(self._instance.roll_back(author))
+
+    async def cut(self, path: Path, scan: int | None) -> None:
+        """Writes a run file of its own that ends before `scan`, or now; `Unavailable` says why it cannot."""
+        ack = await self._instance.cut(path, scan)
+        if not ack.ok:
+            raise Unavailable(ack.message)
+
+    def _logged(self, ack: protocol.Ack, author: str) -> protocol.Ack:
+        if ack.ok:
+            self._add_line(LogEntry(wall_time(), ack.scan, author, ack.message, "run"))
+        return ack
 
     def told_built(self, author: str, outcome: BuildOutcome) -> None:
         """Tells everybody here what became of a build of their project."""
         self._publish(events.ProgramBuilt(author, outcome))
         if not outcome.ok:
             self._add_line(LogEntry(wall_time(), self.state.scan, author, f"build refused: {outcome.message}", "build"))
+
+    def told(self, author: str, text: str) -> None:
+        """A line of the log."""
+        self._add_line(LogEntry(wall_time(), self.state.scan, author, text, "run"))
 
     def told_saved(self, author: str, path: str, version: int) -> None:
         """Tells everybody here that a file was saved."""
@@ -138,6 +214,7 @@ class Session:
         """Takes a subscriber in; the number to `leave` with."""
         id, self._next_subscriber = self._next_subscriber, self._next_subscriber + 1
         self._subscribers[id] = subscriber
+        self._instance.tell(protocol.Attend(True))
         self._publish(events.UsersChanged(self.users))
         return id
 
@@ -145,6 +222,7 @@ class Session:
         """The subscriber is gone, and what only it watched is watched no more."""
         if self._subscribers.pop(id, None) is not None:
             self._unwatch(self._watches.drop(id))
+            self._instance.tell(protocol.Attend(bool(self._subscribers)))
             self._publish(events.UsersChanged(self.users))
 
     def watch(self, subscriber: int, ref: int, paths: Sequence[str]) -> None:
@@ -154,10 +232,8 @@ class Session:
         """
         pairs = self._watches.add(subscriber, paths)
         question, self._next_question = self._next_question, self._next_question + 1
-        if self._instance.tell(protocol.WatchPaths(question, pairs)):
-            self._questions[question] = (subscriber, ref)
-        else:
-            self._unwatched = True
+        self._questions[question] = (subscriber, ref, pairs)  # whoever is not there now is asked when it is
+        self._instance.tell(protocol.WatchPaths(question, pairs))
 
     def unwatch(self, subscriber: int, ids: Iterable[int]) -> None:
         """Ends watching for this subscriber."""
@@ -180,9 +256,10 @@ class Session:
     def _on_state(self, state: PlcState) -> None:
         before, self._last_state = self._last_state, state
         self._publish(events.StateChanged(state))
-        if state.state != before.state and state.state in ("restarting", "failed"):
-            self._questions.clear()
+        if state.state != before.state and state.state in ("restarting", "failed", "off"):
             self._unwatched = True
+            if state.state == "off":
+                return
             self._add_line(LogEntry(wall_time(), state.scan, "server", state.message, "system"))
 
     def _on_message(self, message: object) -> None:
@@ -191,10 +268,10 @@ class Session:
                 self._on_frame(message)
             case protocol.Entered():
                 self._on_entry(message.entry)
-            case protocol.ColdStart():
-                self._cleared_by_cold_start()
-                self._publish(events.ForcesChanged(self.forces))
-                self._on_diagnosed(Violations())
+            case protocol.Standing():
+                self._on_standing(message)
+            case protocol.RunMarks():
+                self._publish(self._timeline.take(message))
             case protocol.Diagnosed():
                 self._on_diagnosed(message.violations)
             case protocol.Ready():
@@ -215,10 +292,16 @@ class Session:
         if isinstance(command, Write | Force):
             forced = isinstance(command, Force)
             self._publish(events.ValueWritten(command.path, command.author, entry.scan, forced))
-        if isinstance(command, Force | Release | ProgramChange):
-            self._publish(events.ForcesChanged(self.forces))
-        kind = _LOG_KINDS.get(type(command), "system")
+        kind = kind_of(command)
         self._add_line(LogEntry(entry.at, entry.scan, command.author, entry.plan.message, kind))
+
+    def _on_standing(self, standing: protocol.Standing) -> None:
+        """What holds now: also after a start, when entries of an earlier life or of a lost one count."""
+        if standing.forces != self._forces:
+            self._forces = standing.forces
+            self._publish(events.ForcesChanged(self.forces))
+        if not self.state.past_by:
+            self._publish_rows(self._history.reconcile(standing.errors, wall_time()))
 
     def _on_diagnosed(self, violations: Violations) -> None:
         """Everybody gets the list; a place that is new in it also gets a line of the log."""
@@ -233,23 +316,23 @@ class Session:
     def _on_ready(self, ready: protocol.Ready) -> None:
         if ready.message:
             self._add_line(LogEntry(wall_time(), self.state.scan, "server", ready.message, "system"))
+        self._instance.tell(protocol.Attend(bool(self._subscribers)))
         if self._unwatched:
             self._unwatched = False
             self._instance.tell(protocol.WatchPaths(_EVERYBODY, self._watches.all()))
+        for question, (_, _, pairs) in self._questions.items():
+            self._instance.tell(protocol.WatchPaths(question, pairs))
 
     def _on_watching(self, answer: protocol.Watching) -> None:
         if answer.ref is None or answer.ref == _EVERYBODY:
             self._publish(events.Watching(None, answer.items))
             return
-        subscriber, ref = self._questions.pop(answer.ref, (0, 0))
+        subscriber, ref, _ = self._questions.pop(answer.ref, (0, 0, ()))
         self._unwatch(self._watches.forget(subscriber, [item.id for item in answer.items if not item.sent]))
         if subscriber in self._subscribers:
             self._subscribers[subscriber].on_event(events.Watching(ref, answer.items))
 
     # ---- history and log ------------------------------------------------------------------------------------------
-
-    def _cleared_by_cold_start(self) -> None:
-        self._publish_rows(self._history.cold_start(wall_time()))
 
     def _publish_rows(self, rows: Sequence[ErrorRow]) -> None:
         if rows:

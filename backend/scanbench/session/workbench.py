@@ -2,42 +2,55 @@
 
 import asyncio
 import logging
+import os
+import shutil
 from collections.abc import Mapping
 from contextlib import suppress
+from functools import partial
 from pathlib import Path
 
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
+from scanbench.runtime.clock import monotonic_ns
+from scanbench.runtime.runfile import RunFileError
 from scanbench.session.builds import Checker
+from scanbench.session.instance import Memory, Unavailable
 from scanbench.session.keeper import Keeper, line_of, row_of
+from scanbench.session.load import Loads
+from scanbench.session.nursery import nursery
 from scanbench.session.projects import Projects, Refused
+from scanbench.session.runs import discard, discard_all, fresh_path, run_path, sources_of
 from scanbench.session.samples import samples
 from scanbench.session.session import LOG_LINES, Session
-from scanbench.store.records import InstanceRow, NotFound
+from scanbench.store.records import InstanceRow, Limits, NotFound
 from scanbench.store.store import Store
 
 log = logging.getLogger("scanbench")
+_LOOK_NS = 2_000_000_000
 
 
 class Workbench:
     """Starts and ends with the server."""
 
-    def __init__(self, store: Store, cache: Path | None = None) -> None:
-        """`cache` is a directory where programs and their code are kept between starts."""
-        self._store, self._cache = store, cache
+    def __init__(self, store: Store, data: Path) -> None:
+        """`data` is a directory: runs are recorded in `runs`, programs and their code are kept in `cache`."""
+        self._store, self._cache, self._runs = store, data / "cache", data / "runs"
+        self._runs.mkdir(parents=True, exist_ok=True)
         models, problems = load_all(model_directory())
         for problem in problems:
             log.error("%s", problem)
         self.models: Mapping[str, Model] = {model.name: model for model in models}
-        self._checker = Checker(cache)
+        self._checker = Checker(self._cache)
         self._keeper = Keeper(store)
         self._sessions: dict[int, Session] = {}
+        self._loads, self._looked_at = Loads(), 0
         self._warming: asyncio.Task[None] | None = None
         self.projects = Projects(store, self.models, self._checker, self._sessions_of)
 
     async def start(self) -> None:
         """Opens what the store holds, or the samples on the first start, and runs every instance."""
         self._keeper.start()
+        await asyncio.to_thread(nursery().start)
         if not await self.projects.all():
             await self._first_start()
         for instance in await asyncio.to_thread(self._store.instances):
@@ -71,6 +84,15 @@ class Workbench:
         """Every session, in the order in which the instances were made."""
         return [self._sessions[id] for id in sorted(self._sessions)]
 
+    async def look(self) -> None:
+        """Has every session's `load` at most two seconds old."""
+        now = monotonic_ns()
+        if now < self._looked_at + _LOOK_NS:
+            return
+        self._looked_at = now
+        pids = [session.state.pid for session in self.sessions]
+        await asyncio.to_thread(self._loads.look, [pid for pid in pids if pid is not None])
+
     def session(self, id: int) -> Session:
         """The session of an instance."""
         session = self._sessions.get(id)
@@ -86,7 +108,65 @@ class Workbench:
             if not outcome.ok:
                 raise Refused(f"{project.name} has no program that could run: {outcome.message}")
         row = await asyncio.to_thread(self._store.create_instance, project_id, name)
+        await asyncio.to_thread(discard, run_path(self._runs, row.id))
         return await self._open(row)
+
+    async def branch(self, id: int, name: str, scan: int | None, author: str) -> Session:
+        """A new PLC that begins as this one was before `scan`, or is now; its past is the same."""
+        origin = self.session(id)
+        row = await asyncio.to_thread(self._store.create_instance, origin.project_id, name)
+        try:
+            await origin.cut(run_path(self._runs, row.id), scan)
+        except Unavailable:
+            await asyncio.to_thread(self._store.delete_instance, row.id)
+            raise
+        session = await self._open(row, paused=scan is not None)
+        session.told(author, f"branched from {origin.name} {'now' if scan is None else f'at scan {scan}'}")
+        return session
+
+    async def export(self, id: int, scan: int | None) -> Path:
+        """A file with the run of this PLC, for the caller to delete; it ends before `scan`, or now."""
+        session = self.session(id)
+        path = fresh_path(self._runs, "export")
+        try:
+            if session.state.state == "off" and scan is None:
+                await asyncio.to_thread(shutil.copyfile, session.run_file, path)
+            else:
+                await session.cut(path, scan)
+        except (Unavailable, OSError) as error:
+            await asyncio.to_thread(discard, path)
+            raise Refused(f"the run of {session.name} cannot be exported: {error}") from error
+        return path
+
+    async def bring_in(self, path: Path, name: str, author: str) -> Session:
+        """A new PLC that goes on with a run from elsewhere; its sources become a project of that name.
+
+        Takes the file over.
+        """
+        try:
+            sources = await asyncio.to_thread(sources_of, path)
+        except (RunFileError, OSError) as error:
+            await asyncio.to_thread(discard, path)
+            raise Refused(str(error)) from error
+        project = await self.projects.from_sources(name, sources, author)
+        row = await asyncio.to_thread(self._store.create_instance, project.id, name)
+        await asyncio.to_thread(os.replace, path, run_path(self._runs, row.id))
+        session = await self._open(row, paused=True)
+        session.told(author, "the run was imported")
+        return session
+
+    def fresh_path(self) -> Path:
+        """Where an upload may be written."""
+        return fresh_path(self._runs, "import")
+
+    async def change_instance(
+        self, id: int, author: str, name: str | None, powered: bool | None, limits: Limits | None
+    ) -> Session:
+        """A new name, new limits, on or off."""
+        session = self.session(id)
+        change = partial(self._store.change_instance, id, name=name, powered=powered, limits=limits)
+        await session.change(await asyncio.to_thread(change), author)
+        return session
 
     async def delete_instance(self, id: int) -> None:
         """Ends a PLC and forgets it, its history too."""
@@ -95,8 +175,9 @@ class Workbench:
         del self._sessions[id]
         await self._keeper.flush()
         await asyncio.to_thread(self._store.delete_instance, id)
+        await asyncio.to_thread(discard_all, self._runs, id)
 
-    async def _open(self, row: InstanceRow) -> Session:
+    async def _open(self, row: InstanceRow, paused: bool = False) -> Session:
         project = await self.projects.get(row.project)
         sources = await self.projects.built(project.id)
         model = self.models.get(project.model)
@@ -105,9 +186,11 @@ class Workbench:
         rows = [row_of(model, each) for each in await asyncio.to_thread(self._store.history, row.id)]
         lines = [line_of(each) for each in await asyncio.to_thread(self._store.log, row.id, LOG_LINES)]
         kept = {each.id: each for each in rows if each is not None}
-        session = Session(row.id, row.name, project.id, model, sources, self._keeper, kept, lines, self._cache)
+        memory = Memory(row.name, sources, run_path(self._runs, row.id), row.limits, paused=paused)
+        session = Session(row, model, memory, self._keeper, kept, lines, self._loads, self._cache)
         self._sessions[row.id] = session
-        session.start()
+        if row.powered:
+            session.start()
         return session
 
     def _sessions_of(self, project_id: int) -> list[Session]:

@@ -72,6 +72,17 @@ class BuildRow:
 
 
 @dataclass(frozen=True, slots=True)
+class Limits:
+    """What an instance may cost at most; None is no limit of its own."""
+
+    memory_mib: int | None = None
+    cpu_percent: int | None = None
+    """Of one core, for runs as fast as possible."""
+    run_mib: int | None = None
+    """Of the run file."""
+
+
+@dataclass(frozen=True, slots=True)
 class InstanceRow:
     """A virtual PLC that runs a project."""
 
@@ -79,6 +90,9 @@ class InstanceRow:
     project: int
     name: str
     created: datetime
+    powered: bool = True
+    """False: somebody switched it off, and it stays off."""
+    limits: Limits = Limits()
 
 
 @dataclass(frozen=True, slots=True)

@@ -7,6 +7,7 @@ from scanbench.store.records import (
     FileRow,
     HistoryRow,
     InstanceRow,
+    Limits,
     LogRow,
     Origin,
     ProjectRow,
@@ -32,7 +33,8 @@ def build(row: ProgramVersion) -> BuildRow:
 
 def instance(row: Instance) -> InstanceRow:
     """An instance."""
-    return InstanceRow(row.id, row.project_id, row.name, row.created)
+    limits = Limits(row.memory_mib, row.cpu_percent, row.run_mib)
+    return InstanceRow(row.id, row.project_id, row.name, row.created, row.powered, limits)
 
 
 def history(row: ErrorHistory) -> HistoryRow:

@@ -20,6 +20,7 @@ from scanbench.store.records import (
     FileRow,
     HistoryRow,
     InstanceRow,
+    Limits,
     LogRow,
     NameTaken,
     NotFound,
@@ -144,11 +145,12 @@ class Store:
             return None if found is None else rows.file(found)
 
     # ---- builds -------------------------------------------------------------------------------------------------
-    def accept_build(self, project: int, sources: Mapping[str, str], author: str) -> int:
-        """Keeps the sources of a build that was accepted; the project's new version."""
+    def accept_build(self, project: int, sources: Mapping[str, str], author: str, version: int | None = None) -> int:
+        """Keeps the sources of a build that was accepted; the project's new version, the next one or the one given."""
         text = json.dumps(sorted(sources.items()), ensure_ascii=False)
+        following = Project.version + 1 if version is None else version
         with self._writing() as session:
-            count = update(Project).where(Project.id == project).values(version=Project.version + 1)
+            count = update(Project).where(Project.id == project).values(version=following)
             version = session.scalars(count.returning(Project.version)).first()
             if version is None:
                 raise NotFound(f"there is no project {project}")
@@ -192,6 +194,26 @@ class Store:
                 session.add(made)
                 session.flush()
                 return rows.instance(made)
+        except IntegrityError as error:
+            raise NameTaken(f"there is an instance {name!r} already: choose another name") from error
+
+    def change_instance(
+        self, instance: int, *, name: str | None = None, powered: bool | None = None, limits: Limits | None = None
+    ) -> InstanceRow:
+        """Changes what is given."""
+        if name is not None:
+            _check("the name", name, NAME)
+        try:
+            with self._writing() as session:
+                row = _instance(session, instance, lock=True)
+                row.name = row.name if name is None else name
+                row.powered = row.powered if powered is None else powered
+                if limits is not None:
+                    row.memory_mib, row.cpu_percent, row.run_mib = (
+                        limits.memory_mib, limits.cpu_percent, limits.run_mib
+                    )  # fmt: skip
+                session.flush()
+                return rows.instance(row)
         except IntegrityError as error:
             raise NameTaken(f"there is an instance {name!r} already: choose another name") from error
 

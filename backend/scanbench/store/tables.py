@@ -2,7 +2,19 @@
 
 from datetime import UTC, datetime
 
-from sqlalchemy import JSON, BigInteger, DateTime, Dialect, ForeignKey, Index, MetaData, String, Text, UniqueConstraint
+from sqlalchemy import (
+    JSON,
+    BigInteger,
+    DateTime,
+    Dialect,
+    ForeignKey,
+    Index,
+    MetaData,
+    String,
+    Text,
+    UniqueConstraint,
+    true,
+)
 from sqlalchemy.orm import DeclarativeBase, Mapped, mapped_column
 from sqlalchemy.types import TypeDecorator
 
@@ -95,6 +107,10 @@ class Instance(Base):
     project_id: Mapped[int] = mapped_column(ForeignKey("project.id", ondelete="CASCADE"))
     name: Mapped[str] = mapped_column(String(NAME))
     created: Mapped[datetime] = mapped_column(Moment)
+    powered: Mapped[bool] = mapped_column(server_default=true())
+    memory_mib: Mapped[int | None]
+    cpu_percent: Mapped[int | None]
+    run_mib: Mapped[int | None]
 
 
 class ErrorHistory(Base):

@@ -101,12 +101,38 @@ class CheckResult(Wire):
     checks: list[EmbeddedCheck] = Field(description="none while there are errors")
 
 
+class LostVariable(Wire):
+    """A variable that an online change cannot keep: it begins with its initial value."""
+
+    path: str = Field(description="instance path, e.g. Main.station.count")
+    reason: str = Field(description="new, type changed from INT to DINT, ...")
+
+
+class OnlineChange(Wire):
+    """What a swap of the program does to the variables of one running PLC."""
+
+    instance: int
+    name: str
+    kept: int
+    lost: list[LostVariable] = Field(description="at most 500; `lost_count` says how many there are")
+    lost_count: int
+    refusal: str = Field(description="why this PLC cannot be changed now (mode RUN, say); empty when it can")
+
+
+class Build(Wire):
+    """`agreed`: variables may be initialised anew; without it a build that would do so only reports what it would do."""
+
+    agreed: bool = False
+
+
 class BuildResult(Wire):
     ok: bool
     message: str
     problems: list[Problem]
     project: Project
     pous: list[Pou]
+    changes: list[OnlineChange] = Field(description="for each running PLC of the project")
+    needs_agreement: bool = Field(description="nothing was swapped yet: variables would be lost; build again, agreed")
 
 
 # ---- models ----------------------------------------------------------------------------------------------------
@@ -118,6 +144,7 @@ class Area(Wire):
     name: str
     description: str
     words: int = Field(description="size in 16-bit words")
+    retain: bool = Field(description="keeps its content when the power goes off")
     first: str = Field(description="first address in the vendor's notation")
     last: str
     program: Access
@@ -168,6 +195,7 @@ class ModelSummary(Wire):
     vendor: str
     description: str
     error_count: int
+    verified_count: int = Field(description="errors whose facts were looked up, not only known")
 
 
 class ModelInfo(ModelSummary):
@@ -179,19 +207,31 @@ class ModelInfo(ModelSummary):
 
 # ---- instances ---------------------------------------------------------------------------------------------------
 
-RunState = Literal["starting", "running", "paused", "stopped", "fatal", "trapped", "restarting", "failed"]
+RunState = Literal[
+    "starting", "running", "paused", "stopped", "fatal", "trapped", "restarting", "failed", "past", "off"
+]
+"""`past`: everybody is shown an earlier scan, the PLC waits at its live one. `off`: somebody switched the instance off."""
 Mode = Literal["PROGRAM", "MONITOR", "RUN"]
+RestartKind = Literal["cold", "warm", "power"]
+"""cold: everything initial; warm: RETAIN variables and retained areas are kept; power: as the model does at power-on."""
 
 
 class TrapInfo(Wire):
     """Why the program was stopped by itself."""
 
-    kind: Literal["bounds", "division", "null", "string", "loop", "abstract"]
+    kind: Literal["bounds", "division", "null", "string", "loop", "abstract", "fatal"]
     message: str
     file: str
     line: int
     column: int
     scan: int
+
+
+class PastInfo(Wire):
+    """What is shown is the past: the PLC waits at `live_scan`."""
+
+    live_scan: int
+    by: str = Field(description="who went there")
 
 
 class InstanceState(Wire):
@@ -210,6 +250,27 @@ class InstanceState(Wire):
     trap: TrapInfo | None
     forces: int
     program_version: int
+    past: PastInfo | None
+    target: str = Field(
+        description="where a run that was asked for ends: `scan 4711`, `until Main.count > 3`; or empty"
+    )
+    late_percent: float = Field(description="scans of the last seconds that began after the next one was due")
+
+
+class InstanceLoad(Wire):
+    """What an instance costs now; zeros while it is off."""
+
+    cpu_percent: float = Field(description="of one core")
+    memory_bytes: int = Field(description="proportional share of memory (PSS)")
+    run_bytes: int = Field(description="size of the run file")
+
+
+class InstanceLimits(Wire):
+    """What an instance may cost at most; null is no limit."""
+
+    memory_mib: int | None = Field(default=None, ge=64, le=65536)
+    cpu_percent: int | None = Field(default=None, ge=1, le=100, description="of one core, for runs as fast as possible")
+    run_mib: int | None = Field(default=None, ge=1, le=65536, description="bound of the run file; null is the default")
 
 
 class Instance(Wire):
@@ -218,11 +279,51 @@ class Instance(Wire):
     project: Project
     model: str
     state: InstanceState
+    load: InstanceLoad
+    limits: InstanceLimits
 
 
 class NewInstance(Wire):
     project: int
     name: str = Field(min_length=1, max_length=100)
+
+
+class Branch(Wire):
+    """A new instance that begins as this one was before `scan`; null is now (a clone)."""
+
+    name: str = Field(min_length=1, max_length=100)
+    scan: int | None = Field(default=None, ge=0)
+
+
+class ChangeInstance(Wire):
+    """Null leaves as it is."""
+
+    name: str | None = Field(default=None, min_length=1, max_length=100)
+    power: bool | None = Field(default=None, description="false ends the process, true starts it where it was")
+    limits: InstanceLimits | None = None
+
+
+class Mark(Wire):
+    """A point of the timeline."""
+
+    scan: int
+    kind: Literal["write", "force", "error", "recover", "mode", "run", "build", "system"]
+    author: str
+    text: str
+
+
+class TimelineInfo(Wire):
+    """What the run file holds, and what it cost."""
+
+    first_scan: int = Field(description="the earliest scan that can be gone back to")
+    bytes: int
+    limit_bytes: int
+    thinned_before: int = Field(
+        description="before this scan checkpoints were thinned: going there takes longer; 0: none"
+    )
+    dropped_before: int = Field(description="scans before this are gone for good; 0: none")
+    damage: str = Field(description="what was found damaged when the file was opened, and what was recovered; or empty")
+    recording: str = Field(description="why nothing is recorded now (disk full, say); empty while all is well")
 
 
 class EnumValue(Wire):
@@ -387,10 +488,42 @@ class SetMode(Wire):
 
 
 class Run(Wire):
+    """`continue` with `scans`: so many, then pause; with `until`: up to the first scan after which the condition holds."""
+
     type: Literal["run"] = "run"
     ref: int
-    action: Literal["continue", "pause", "scan", "restart"]
-    speed: float | None = None
+    action: Literal["continue", "pause", "scan"]
+    speed: float | None = Field(default=None, description="0.01 to 1000; 0 is as fast as possible")
+    scans: int | None = Field(default=None, ge=1)
+    until: str | None = Field(default=None, description="a BOOL expression over instance paths and addresses")
+
+
+class Restart(Wire):
+    type: Literal["restart"] = "restart"
+    ref: int
+    kind: RestartKind
+
+
+class NewRun(Wire):
+    """Begins at scan 0, with an empty timeline; the old run file is kept aside on the server."""
+
+    type: Literal["new_run"] = "new_run"
+    ref: int
+
+
+class Travel(Wire):
+    """Shows the PLC as it was before `scan`; null returns to live."""
+
+    type: Literal["travel"] = "travel"
+    ref: int
+    scan: int | None
+
+
+class RollBack(Wire):
+    """Swaps the program back in that ran before the last change."""
+
+    type: Literal["roll_back"] = "roll_back"
+    ref: int
 
 
 class ClearDiagnostics(Wire):
@@ -399,7 +532,20 @@ class ClearDiagnostics(Wire):
 
 
 ClientMessage = Annotated[
-    Watch | Unwatch | Write | Force | Release | Generate | Recover | SetMode | Run | ClearDiagnostics,
+    Watch
+    | Unwatch
+    | Write
+    | Force
+    | Release
+    | Generate
+    | Recover
+    | SetMode
+    | Run
+    | Restart
+    | NewRun
+    | Travel
+    | RollBack
+    | ClearDiagnostics,
     Field(discriminator="type"),
 ]
 
@@ -423,6 +569,15 @@ class Diagnostics(Wire):
     count: int
 
 
+class Timeline(Wire):
+    """The run's marks, in order: all of them in `hello` and with `fresh`, else only the new ones."""
+
+    type: Literal["timeline"] = "timeline"
+    info: TimelineInfo
+    marks: list[Mark] = Field(description="at most the last 5,000")
+    fresh: bool
+
+
 class Hello(Wire):
     """First message after connecting, and after every reconnection: everything but the values."""
 
@@ -434,6 +589,7 @@ class Hello(Wire):
     log: list[LogLine]
     forces: list[ForceInfo]
     diagnostics: Diagnostics
+    timeline: Timeline
 
 
 class State(Wire):
@@ -546,6 +702,7 @@ ServerMessage = Annotated[
     | Deleted
     | Forces
     | Diagnostics
+    | Timeline
     | Written
     | Alive,
     Field(discriminator="type"),

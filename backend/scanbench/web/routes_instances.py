@@ -1,12 +1,16 @@
 """REST: instances, their symbols and error histories; and the WebSocket of each."""
 
+import asyncio
+
 from fastapi import APIRouter, Request, WebSocket
+from fastapi.responses import FileResponse
+from starlette.background import BackgroundTask
 
 from scanbench import __version__
 from scanbench.session.projects import Refused
 from scanbench.session.session import Session
 from scanbench.session.workbench import Workbench
-from scanbench.store.records import NotFound
+from scanbench.store.records import Limits, NotFound
 from scanbench.web import messages as wire
 from scanbench.web import translate
 from scanbench.web.auth import user_of
@@ -14,6 +18,7 @@ from scanbench.web.reach import Bench, SocketBench
 from scanbench.web.socket import Client
 
 router = APIRouter(prefix="/api", tags=["instances"])
+LARGEST_IMPORT = 1 << 30
 
 
 @router.get("")
@@ -30,7 +35,8 @@ async def on_app(bench: Bench, request: Request) -> wire.AppInfo:
 
 @router.get("/instances")
 async def on_instances(bench: Bench) -> list[wire.Instance]:
-    """Every instance."""
+    """Every instance, with what it costs."""
+    await bench.look()
     return [await _instance(bench, session) for session in bench.sessions]
 
 
@@ -44,6 +50,55 @@ async def on_new_instance(bench: Bench, new: wire.NewInstance) -> wire.Instance:
 async def on_instance(bench: Bench, instance: int) -> wire.Instance:
     """One instance."""
     return await _instance(bench, bench.session(instance))
+
+
+@router.patch("/instances/{instance}")
+async def on_change_instance(
+    bench: Bench, request: Request, instance: int, change: wire.ChangeInstance
+) -> wire.Instance:
+    """Renames it, switches it on or off, limits what it may cost."""
+    limits = None if change.limits is None else Limits(**change.limits.model_dump())
+    name = None if change.name is None else change.name.strip()
+    session = await bench.change_instance(instance, user_of(request).name, name, change.power, limits)
+    return await _instance(bench, session)
+
+
+@router.post("/instances/{instance}/branch", status_code=201)
+async def on_branch(bench: Bench, request: Request, instance: int, branch: wire.Branch) -> wire.Instance:
+    """A new PLC that begins as this one was before a scan, or is now."""
+    session = await bench.branch(instance, branch.name.strip(), branch.scan, user_of(request).name)
+    return await _instance(bench, session)
+
+
+@router.get("/instances/{instance}/export", response_class=FileResponse)
+async def on_export(bench: Bench, instance: int, scan: int | None = None) -> FileResponse:
+    """The run as one file, which replays byte for byte elsewhere; it ends before `scan`, or now."""
+    path = await bench.export(instance, scan)
+    name = f"{bench.session(instance).name}.scanrun"
+    return FileResponse(
+        path, media_type="application/octet-stream", filename=name, background=BackgroundTask(path.unlink)
+    )
+
+
+@router.post("/instances/import", status_code=201)
+async def on_import(bench: Bench, request: Request, name: str) -> wire.Instance:
+    """A new PLC, with a project of the same name, that goes on with an exported run; the body is the file."""
+    if not 0 < len(name.strip()) <= 100:
+        raise Refused("the name of the new PLC must have 1 to 100 characters")
+    path, size = bench.fresh_path(), 0
+    file = await asyncio.to_thread(path.open, "wb")
+    try:
+        async for chunk in request.stream():
+            size += len(chunk)
+            if size > LARGEST_IMPORT:
+                raise Refused(f"the file is larger than {LARGEST_IMPORT >> 20} MiB")
+            await asyncio.to_thread(file.write, chunk)
+    except BaseException:
+        await asyncio.to_thread(path.unlink)
+        raise
+    finally:
+        await asyncio.to_thread(file.close)
+    return await _instance(bench, await bench.bring_in(path, name.strip(), user_of(request).name))
 
 
 @router.delete("/instances/{instance}", status_code=204)

@@ -8,6 +8,7 @@ from scanbench.web.auth import user_of
 from scanbench.web.reach import Bench
 
 router = APIRouter(prefix="/api/projects", tags=["projects"])
+_PLAIN_BUILD = wire.Build()
 
 
 @router.get("")
@@ -60,6 +61,6 @@ async def on_check(bench: Bench, project: int, edited: wire.CheckRequest) -> wir
 
 
 @router.post("/{project}/build")
-async def on_build(bench: Bench, request: Request, project: int) -> wire.BuildResult:
-    """Builds what is saved, and swaps it into the project's instances."""
-    return translate.build_result(await bench.projects.build(project, user_of(request).name))
+async def on_build(bench: Bench, request: Request, project: int, how: wire.Build = _PLAIN_BUILD) -> wire.BuildResult:
+    """Builds what is saved, and swaps it into the project's instances; asks first where variables would begin anew."""
+    return translate.build_result(await bench.projects.build(project, user_of(request).name, how.agreed))

@@ -35,7 +35,7 @@ def serve(
             with claimed(data_dir), closing(Store(database_url(data_dir))) as store:
                 port = sock.getsockname()[1]
                 gate = Gate(token or kept_token(data_dir), port, known_hosts([host]), kept_guests(data_dir))
-                _run(sock, host, Workbench(store, data_dir / "cache"), gate, announce)
+                _run(sock, host, Workbench(store, data_dir), gate, announce)
         except (InUse, StoreError, NoModels) as error:
             raise CannotServe(str(error)) from error
 

@@ -5,7 +5,9 @@ as it has taken everything else.
 """
 
 import asyncio
+import json
 from collections import deque
+from contextlib import suppress
 
 from fastapi import WebSocket, WebSocketDisconnect
 from pydantic import TypeAdapter, ValidationError
@@ -16,9 +18,11 @@ from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.command import Command
 from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.modes import SetMode
+from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.session import events
 from scanbench.session.events import Event, User
+from scanbench.session.protocol import Ack
 from scanbench.session.session import Session
 from scanbench.web import messages as wire
 from scanbench.web import translate
@@ -28,7 +32,18 @@ WAITING_FRAMES = 4
 WAITING_MESSAGES = 20_000
 ALIVE_AFTER_S = 5.0
 """So long without anything to tell: an `Alive` is sent. Browsers give up after 12 s of silence."""
-_SPEEDS = (0.001, 10_000.0)
+_SPEEDS = (0.01, 1000.0)
+_Commanding = (
+    wire.Write
+    | wire.Force
+    | wire.Release
+    | wire.Generate
+    | wire.Recover
+    | wire.SetMode
+    | wire.Restart
+    | wire.ClearDiagnostics
+)
+_Wanted = _Commanding | wire.Run | wire.Travel | wire.NewRun | wire.RollBack
 
 _INCOMING: TypeAdapter[wire.ClientMessage] = TypeAdapter(wire.ClientMessage)
 
@@ -101,6 +116,7 @@ class Client:
             log=list(map(translate.log_line, self._session.lines)),
             forces=list(map(translate.force, self._session.forces)),
             diagnostics=translate.diagnostics(self._session.violations),
+            timeline=translate.timeline(self._session.timeline),
         )
         self._texts.appendleft(hello.model_dump_json())
         writer = asyncio.get_running_loop().create_task(self._write())
@@ -150,7 +166,7 @@ class Client:
         except ValidationError as error:
             first = error.errors()[0]
             place = ".".join(map(str, first["loc"]))
-            self._answer(-1, False, f"not a message of this server: {place}: {first['msg']}")
+            self._answer(_ref_of(text), False, f"not a message of this server: {place}: {first['msg']}")
             return
         match message:
             case wire.Watch():
@@ -158,30 +174,31 @@ class Client:
             case wire.Unwatch():
                 self._ids.difference_update(message.ids)
                 self._session.unwatch(self._id, message.ids)
-            case wire.Run():
-                await self._on_run(message)
             case _:
-                ack = await self._session.submit(self._command(message))
+                ack = await self._done(message)
                 self._answer(message.ref, ack.ok, ack.message, ack.scan, ack.near)
 
-    async def _on_run(self, run: wire.Run) -> None:
+    async def _done(self, message: _Wanted) -> Ack:
+        session, author = self._session, self.user.name
+        match message:
+            case wire.Run():
+                return await self._run(message)
+            case wire.Travel():
+                return await session.travel(message.scan, author)
+            case wire.NewRun():
+                return await session.begin_anew(author)
+            case wire.RollBack():
+                return await session.roll_back(author)
+            case _:
+                return await session.submit(self._command(message))
+
+    async def _run(self, run: wire.Run) -> Ack:
         low, high = _SPEEDS
         if run.speed is not None and run.speed != 0 and not low <= run.speed <= high:
-            self._answer(run.ref, False, f"speed {run.speed:g} is outside of x{low:g} to x{high:g}; 0 is without limit")
-            return
-        ack = await self._session.drive(run.action, run.speed, self.user.name)
-        self._answer(run.ref, ack.ok, ack.message, ack.scan, ack.near)
+            return Ack(0, False, f"speed {run.speed:g} is outside of x{low:g} to x{high:g}; 0 is without limit", 0)
+        return await self._session.drive(run.action, run.speed, self.user.name, run.scans, run.until)
 
-    def _command(
-        self,
-        message: wire.Write
-        | wire.Force
-        | wire.Release
-        | wire.Generate
-        | wire.Recover
-        | wire.SetMode
-        | wire.ClearDiagnostics,
-    ) -> Command:
+    def _command(self, message: _Commanding) -> Command:
         author = self.user.name
         match message:
             case wire.Write():
@@ -197,5 +214,16 @@ class Client:
                 return Recover(author, None if message.ids is None else tuple(message.ids))
             case wire.SetMode():
                 return SetMode(author, message.mode)
+            case wire.Restart():
+                return Restart(author, message.kind)
             case wire.ClearDiagnostics():
                 return ClearViolations(author)
+
+
+def _ref_of(text: str) -> int:
+    """The ref of a message that is wrong otherwise, so that its sender learns of it; -1 where there is none."""
+    with suppress(ValueError, AttributeError):
+        ref = json.loads(text).get("ref")
+        if isinstance(ref, int):
+            return ref
+    return -1

@@ -11,7 +11,7 @@ from scanbench.problems import Problem
 from scanbench.runtime.clock import iso
 from scanbench.runtime.forces import Force
 from scanbench.session import events
-from scanbench.session.builds import BuildOutcome, CheckOutcome
+from scanbench.session.builds import BuildOutcome, Change, CheckOutcome
 from scanbench.session.events import LogEntry, PlcState, User
 from scanbench.session.protocol import SymbolInfo, WatchItem
 from scanbench.session.session import Session
@@ -81,6 +81,17 @@ def build_result(outcome: BuildOutcome) -> wire.BuildResult:
         problems=list(map(problem, outcome.found.problems)),
         project=project(outcome.project),
         pous=list(map(pou, outcome.found.pous)),
+        changes=list(map(_change, outcome.changes)),
+        needs_agreement=outcome.needs_agreement,
+    )  # fmt: skip
+
+
+def _change(change: Change) -> wire.OnlineChange:
+    found = change.previewed
+    return wire.OnlineChange(
+        instance=change.instance, name=change.name, kept=found.kept,
+        lost=[wire.LostVariable(path=lost.path, reason=lost.reason) for lost in found.lost],
+        lost_count=found.lost_count, refusal=found.refusal,
     )  # fmt: skip
 
 
@@ -92,6 +103,8 @@ def state(now: PlcState) -> wire.InstanceState:
             "state": now.state, "mode": now.mode, "message": now.message, "scan": now.scan, "time_ns": now.time_ns,
             "interval_ns": now.interval_ns, "cycle_us": now.cycle_us, "speed": now.speed, "pid": now.pid,
             "restarts": now.restarts, "forces": now.forces, "program_version": now.version,
+            "past": {"live_scan": now.live_scan, "by": now.past_by} if now.past_by else None,
+            "target": now.target, "late_percent": round(now.late_percent, 2),
             "trap": None if trap is None else {
                 "kind": trap.kind, "message": trap.message, "file": trap.file, "line": trap.line,
                 "column": trap.column, "scan": trap.scan,
@@ -102,9 +115,16 @@ def state(now: PlcState) -> wire.InstanceState:
 
 def instance(session: Session, row: ProjectRow) -> wire.Instance:
     """An instance."""
+    load, limits = session.load, session.row.limits
     return wire.Instance(
-        id=session.id, name=session.name, project=project(row), model=session.model.name, state=state(session.state)
-    )
+        id=session.id, name=session.name, project=project(row), model=session.model.name, state=state(session.state),
+        load=wire.InstanceLoad(
+            cpu_percent=round(load.cpu_percent, 1), memory_bytes=load.memory_bytes, run_bytes=session.timeline.info.bytes
+        ),
+        limits=wire.InstanceLimits(
+            memory_mib=limits.memory_mib, cpu_percent=limits.cpu_percent, run_mib=limits.run_mib
+        ),
+    )  # fmt: skip
 
 
 def symbol(info: SymbolInfo) -> wire.Symbol:
@@ -158,6 +178,23 @@ def diagnostics(found: Violations) -> wire.Diagnostics:
     return wire.Diagnostics(violations=list(map(_violation, found.entries)), dropped=found.dropped, count=found.count)
 
 
+def timeline(changed: events.TimelineChanged) -> wire.Timeline:
+    """The run file and marks."""
+    info = changed.info
+    return wire.Timeline(
+        info=wire.TimelineInfo(
+            first_scan=info.first_scan, bytes=info.bytes, limit_bytes=info.limit_bytes,
+            thinned_before=info.thinned_before, dropped_before=info.dropped_before, damage=info.damage,
+            recording=info.trouble,
+        ),
+        marks=[
+            wire.Mark.model_validate({"scan": mark.scan, "kind": mark.kind, "author": mark.author, "text": mark.text})
+            for mark in changed.marks
+        ],
+        fresh=changed.fresh,
+    )  # fmt: skip
+
+
 def _violation(found: Violation) -> wire.Violation:
     span = found.span
     return wire.Violation(
@@ -190,6 +227,8 @@ def event(happened: events.Event) -> wire.ServerMessage:
             return wire.Forces(forces=list(map(force, happened.forces)))
         case events.DiagnosticsChanged():
             return diagnostics(happened.violations)
+        case events.TimelineChanged():
+            return timeline(happened)
         case events.ValueWritten():
             return wire.Written(
                 path=happened.path, author=happened.author, scan=happened.scan, forced=happened.forced
@@ -204,8 +243,9 @@ def event(happened: events.Event) -> wire.ServerMessage:
 def model_summary(model: plc.Model) -> wire.ModelSummary:
     """A model in a list."""
     return wire.ModelSummary(
-        name=model.name, vendor=model.vendor, description=model.description, error_count=len(list(model.errors()))
-    )
+        name=model.name, vendor=model.vendor, description=model.description, error_count=len(list(model.errors())),
+        verified_count=sum(error.verified for error in model.errors()),
+    )  # fmt: skip
 
 
 def model_info(model: plc.Model) -> wire.ModelInfo:
@@ -222,12 +262,14 @@ def model_info(model: plc.Model) -> wire.ModelInfo:
 
 def _area(model: plc.Model, area: plc.Area, part: plc.AccessRange) -> wire.Area:
     """Areas whose words differ in access are shown in parts."""
+    first, last = model.range_text(plc.WordRange(area, part.first, part.last))
     return wire.Area(
         name=area.name,
         description=area.description,
         words=part.last - part.first + 1,
-        first=model.format(area, 2 * part.first, None, 16),
-        last=model.format(area, 2 * part.last, None, 16),
+        retain=area.retain,
+        first=first,
+        last=last,
         program=part.program,
         tool=part.tool,
         engine=part.engine,
@@ -243,7 +285,7 @@ def _groups(groups: Iterable[plc.ErrorGroup]) -> list[wire.ErrorGroup]:
 
 def _error(error: plc.ErrorEntry) -> wire.ErrorInfo:
     return wire.ErrorInfo(
-        id=error.id, name=error.name, description=error.description, code=f"{error.code:04X}", flag=error.flag_text,
+        id=error.id, name=error.name, description=error.description, code=error.code_text, flag=error.flag_text,
         severity=error.severity, verified=error.verified, source=error.source,
         details=list(map(_detail, error.details)),
     )  # fmt: skip

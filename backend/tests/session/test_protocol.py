@@ -2,6 +2,7 @@
 
 import dataclasses
 from datetime import UTC, datetime
+from pathlib import Path
 
 import msgpack  # type: ignore[import-untyped]
 import pytest
@@ -10,15 +11,19 @@ from hypothesis import strategies as st
 
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef
-from scanbench.runtime.command import Entry, Patch, Plan
+from scanbench.runtime.command import Command, Entry, Patch, Plan, Restarted
 from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.modes import SetMode
+from scanbench.runtime.program_change import ProgramChange
+from scanbench.runtime.restart import Restart
+from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.trap import TrapInfo, Trapped
 from scanbench.runtime.write import Write
 from scanbench.session import protocol
-from scanbench.session.codec import LENGTH, BadMessage, Splitter, pack, unpack
+from scanbench.session.codec import ENTRIES, LENGTH, BadMessage, Splitter, pack, pack_body, unpack
 from scanbench.session.instance import Memory
 from scanbench.session.watches import Watches
+from scanbench.store.records import Limits
 
 AT = datetime(2026, 11, 21, 12, 0, 0, 123456, UTC)
 COMMANDS = (
@@ -29,15 +34,18 @@ COMMANDS = (
     Generate("Ada", (ErrorRef("battery-error"), ErrorRef("io-bus-error", (("rack", "1"), ("slot", "3"))))),
     Recover("Ada", ("battery-error",)),
     Recover("Ada", None),
+    Restart("Ada", "warm"),
+    SetClock("Ada", AT),
+    ProgramChange("Ada", 4),
     Trapped("PLC", TrapInfo("division", "division by zero", "main.st", 3, 8, 4711)),
 )
 SOURCES = protocol.Sources("CJ1M-CPU63", {"main.st": "PROGRAM é"}, 10_000_000, 3)
-CHECKPOINT = protocol.Checkpoint(1 << 40, 2, 3, b"\x00\xff" * 1000)
 
 
 def entry(command: object, scan: int = 5) -> Entry:
-    assert isinstance(command, Write | Force | Release | SetMode | Generate | Recover | Trapped)
-    return Entry(scan, AT, command, Plan((Patch(48, b"\xff\x0f", b"\1\2"),), "a text"))
+    assert isinstance(command, Command)
+    effect = Restarted("warm") if isinstance(command, Restart) else None
+    return Entry(scan, AT, command, Plan((Patch(48, b"\xff\x0f", b"\1\2"),), "a text", effect))
 
 
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda each: type(each).__name__)
@@ -47,8 +55,9 @@ def test_entries_come_back_equal(command: object) -> None:
 
 
 def test_a_start_comes_back_equal_in_whatever_pieces() -> None:
-    journal = tuple(map(entry, COMMANDS))
-    messages = [protocol.Start(SOURCES, 0.5, True, CHECKPOINT, journal, 99), protocol.Quit(), protocol.Frame(b"x", 3)]
+    memory = Memory("line-1", SOURCES, Path("/data/1.run"), Limits(memory_mib=128), speed=0.5, paused=True, scan=99)
+    entered = [protocol.Entered(entry(command)) for command in COMMANDS]
+    messages = [memory.start(), *entered, protocol.Quit(), protocol.Frame(b"x", 3)]
     stream = b"".join(map(pack, messages))
     for size in (1, 3, 1000, len(stream)):
         splitter, found = Splitter(), []
@@ -76,18 +85,11 @@ def test_what_is_not_in_the_protocol_cannot_be_sent() -> None:
         pack(dataclasses.make_dataclass("Stranger", [])())
 
 
-def test_memory_starts_cold_without_a_checkpoint_and_goes_on_with_one() -> None:
-    memory = Memory(SOURCES, journal=[entry(COMMANDS[0])], scan=10)
-    assert (memory.start().checkpoint, memory.start().journal) == (None, ())
-    new = dataclasses.replace(SOURCES, version=4)
-    memory.keep(CHECKPOINT, new)
-    assert memory.sources is SOURCES  # version 3 is in the checkpoint, 4 is only offered
-    memory.keep(dataclasses.replace(CHECKPOINT, version=4), new)
-    assert memory.sources is new
-    start = memory.start()
-    assert (start.until, len(start.journal)) == (1 << 40, 1)
-    memory.forget_run()
-    assert (memory.start().until, memory.start().checkpoint) == (0, None)
+@pytest.mark.parametrize("command", COMMANDS, ids=lambda each: type(each).__name__)
+def test_a_run_file_gives_entries_back(command: object) -> None:
+    assert ENTRIES.unpack(ENTRIES.pack(entry(command))) == entry(command)
+    with pytest.raises(BadMessage):
+        ENTRIES.unpack(pack_body(protocol.Quit()))
 
 
 def test_paths_are_shared_as_they_are_typed() -> None:

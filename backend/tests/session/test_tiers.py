@@ -2,13 +2,17 @@
 
 import gc
 import threading
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from pathlib import Path
 
 import pytest
 
 from scanbench.engines.cache import BlobCache
+from scanbench.engines.native.parts import Part
 from scanbench.engines.native.worker import WorkerDied
+from scanbench.runtime.command import Entry
+from scanbench.runtime.program_change import ProgramChange
+from scanbench.runtime.programs import Loaded, Shelf
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
 from scanbench.session import known
@@ -67,7 +71,7 @@ def is_optimising(builder: Builder) -> bool:
 
 
 def state_after(built: Built, scans: int) -> bytes:
-    plc = Resource(built.program, built.engine)
+    plc = Resource(Loaded.make(built.program, built.engine))
     plc.run(scans)
     return plc.state
 
@@ -75,7 +79,7 @@ def state_after(built: Built, scans: int) -> bytes:
 def test_the_seam_does_not_show(tmp_path: Path) -> None:
     builder = Builder(tmp_path)
     built = builder.build(sources())
-    plc = Resource(built.program, built.engine)
+    plc = Resource(Loaded.make(built.program, built.engine))
     assert is_optimising(builder)
     plc.run(50)
     plc.submit(Write("Ada", "Main.extra", "4"))
@@ -88,7 +92,7 @@ def test_the_seam_does_not_show(tmp_path: Path) -> None:
     plc.run(50)
     assert list(plc.journal) == entries
 
-    straight = Resource(built.program, Builder(None).build(sources()).engine)
+    straight = Resource(Loaded.make(built.program, Builder(None).build(sources()).engine))
     straight.run(50)
     straight.submit(Write("Ada", "Main.extra", "4"))
     straight.run(50)
@@ -98,12 +102,12 @@ def test_the_seam_does_not_show(tmp_path: Path) -> None:
 def test_a_new_program_supersedes(tmp_path: Path) -> None:
     builder = Builder(tmp_path)
     first = builder.build(sources())
-    Resource(first.program, first.engine)
+    Resource(Loaded.make(first.program, first.engine))
     assert builder.tiers is not None
     delivered: list[Recode] = []
     builder.tiers.optimise(delivered.append)
     second = builder.build(sources(units=UNITS - 1))
-    plc = Resource(second.program, second.engine)
+    plc = Resource(Loaded.make(second.program, second.engine))
     recode = optimised(builder)
     assert recode.program is plc.program
     for thread in threading.enumerate():
@@ -184,10 +188,41 @@ def test_where_the_worker_dies_quick_code_runs_on(monkeypatch: pytest.MonkeyPatc
     monkeypatch.setattr(tiers_module, "optimised", dies)
     builder = Builder(None)
     built = builder.build(sources())
-    plc = Resource(built.program, built.engine)
+    plc = Resource(Loaded.make(built.program, built.engine))
     assert optimised(builder).engine is None
     assert not is_optimising(builder)
     plc.run(10)
+
+
+def test_one_of_many_optimises(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """Both begin with quick code; the second takes what the first has made."""
+    builders = [Builder(tmp_path), Builder(tmp_path)]
+    plcs = []
+    for builder in builders:
+        built = builder.build(sources())
+        plcs.append(Resource(Loaded.make(built.program, built.engine)))
+        assert is_optimising(builder)
+    runs: list[int] = []
+    worker = tiers_module.optimised
+
+    def counted(parts: Iterable[Part], wanted: Callable[[], bool]) -> Iterator[tuple[Part, bytes]]:
+        runs.append(1)
+        yield from worker(parts, wanted)
+
+    monkeypatch.setattr(tiers_module, "optimised", counted)
+    found: list[Recode] = []
+    done = threading.Semaphore(0)
+
+    def take(recode: Recode) -> None:
+        found.append(recode)
+        done.release()
+
+    for builder in builders:
+        assert builder.tiers is not None
+        builder.tiers.optimise(take)
+    assert all(done.acquire(timeout=60) for _ in builders)
+    assert all(recode.engine is not None for recode in found)
+    assert len(runs) == 1
 
 
 def resident_kb() -> int:
@@ -200,13 +235,14 @@ def test_code_that_is_swapped_out_is_freed() -> None:
     sizes = []
     for version in range(60):
         built = builder.build(sources(step=version % 7))
-        memory = bytearray(built.program.layout.size)
-        engine = built.engine(built.program, memory)
+        loaded = Loaded.make(built.program, built.engine, version)
         if plc is None:
-            plc = Resource(built.program, built.engine)
-        plc.swap(built.program, engine, memory, "Ada", version)
+            plc = Resource(loaded)
+        else:
+            plc.programs = Shelf(loaded)
+            assert isinstance(plc.submit(ProgramChange("Ada", version)), Entry)
         plc.run(1)
-        del engine
+        del loaded
         gc.collect()
         sizes.append(resident_kb())
     assert sizes[-1] - sizes[20] < 8_000, sizes

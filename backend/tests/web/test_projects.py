@@ -52,7 +52,9 @@ def test_build_swaps_and_keeps_values_and_errors_refuse_it(server: Server) -> No
         assert server.state(instance)["program_version"] == 1
 
         server.http.put(address, json={"text": TWO, "version": 2})
-        built = server.http.post(f"/api/projects/{project}/build").json()
+        asked = server.http.post(f"/api/projects/{project}/build").json()
+        assert (asked["ok"], asked["needs_agreement"]) == (False, True)  # Main.changed is a REAL now
+        built = server.http.post(f"/api/projects/{project}/build", json={"agreed": True}).json()
         assert built["ok"], built
         assert "2 variables kept" in built["message"]
         assert built["project"]["version"] == 2

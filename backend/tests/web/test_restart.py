@@ -32,12 +32,15 @@ def until(condition: Callable[[], bool], timeout: float = 5) -> None:
 
 
 @pytest.mark.parametrize("kill", [signal.SIGTERM, signal.SIGKILL])
-def test_a_restarted_server_has_projects_history_and_log(tmp_path: Path, kill: signal.Signals) -> None:
+def test_a_restarted_server_goes_on_with_every_run(tmp_path: Path, kill: signal.Signals) -> None:
     with Server(tmp_path) as server:
         instance = server.instance("kept", "CJ1M-CPU63", main=SOURCE)
         with server.browser(instance) as browser:
             assert browser.ask(type="generate", errors=[{"id": "basic-io-error", "details": {"slot": "3"}}])["ok"]
             browser.wait_for("errors")
+            browser.watch("Main.n")
+            browser.wait(lambda: (browser.number("Main.n") or 0) > 100)
+            count = browser.number("Main.n") or 0
         time.sleep(0.3)  # history is written behind the live path
         pids = [each["state"]["pid"] for each in server.http.get("/api/instances").json()]
         assert len(pids) == 3  # the samples and this one
@@ -51,13 +54,15 @@ def test_a_restarted_server_has_projects_history_and_log(tmp_path: Path, kill: s
         assert names == ["line-1", "line-2", "kept"]
         rows = {row["id"]: row for row in again.http.get(f"/api/instances/{instance}/errors").json()}
         row = rows["basic-io-error"]
-        # A started PLC is a cold one: what was generated in the old life is over, and was tested.
-        assert (row["status"], row["count"], row["by"]) == ("cleared", 1, "Ada Lovelace")
+        assert (row["status"], row["count"], row["by"]) == ("generated", 1, "Ada Lovelace")  # it is still present
         assert "slot=3" in row["details"]
         with again.browser(instance) as browser:
             assert any("basic-io-error" in line["text"] for line in browser.hello["log"])
-            browser.watch("Main.n")
-            browser.wait(lambda: (browser.number("Main.n") or 0) > 5)
+            browser.watch("Main.n", "Main.basic")
+            known = [browser.hello["timeline"], *(m for m in browser.messages if m["type"] == "timeline")]
+            assert any("basic-io-error" in mark["text"] for each in known for mark in each["marks"])
+            browser.wait(lambda: (browser.number("Main.n") or 0) >= count)
+            assert browser.number("Main.basic") == 1
 
 
 def test_a_plc_that_dies_again_and_again_is_given_up_and_can_be_revived(server: Server) -> None:
@@ -72,7 +77,7 @@ def test_a_plc_that_dies_again_and_again_is_given_up_and_can_be_revived(server: 
         refused = browser.ask(type="write", path="Main.n", value="1")
         assert not refused["ok"]
         assert "failed" in refused["message"]
-        assert browser.ask(type="run", action="restart")["ok"]
+        assert browser.ask(type="new_run")["ok"]
         browser.wait_state("running")
         browser.watch("Main.n")
         browser.wait(lambda: (browser.number("Main.n") or 0) > 5)

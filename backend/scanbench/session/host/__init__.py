@@ -1,1 +1,1 @@
-"""The process of one virtual PLC: `python -m scanbench.session.host FD`."""
+"""The process of one virtual PLC."""

@@ -1,5 +1,6 @@
 """Sources -> program and engine, inside the host."""
 
+import threading
 from contextlib import suppress
 from dataclasses import dataclass
 from functools import cache
@@ -12,7 +13,7 @@ from scanbench.engines.cache import BlobCache
 from scanbench.engines.engine import Engine
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
-from scanbench.problems import Severity
+from scanbench.problems import Problem, Severity
 from scanbench.session.known import key_of, recall
 from scanbench.session.protocol import Sources
 
@@ -42,9 +43,14 @@ def find_engines(cache: BlobCache | None) -> Engines:
 
 
 @cache
+def all_models() -> tuple[list[Model], list[Problem]]:
+    """The models, as they were when this process began, and what is wrong with others."""
+    return load_all(model_directory())
+
+
 def find_model(name: str) -> Model:
     """The model of this name; `BuildFailed` names those that there are."""
-    models, problems = load_all(model_directory())
+    models, problems = all_models()
     for model in models:
         if model.name == name:
             return model
@@ -53,12 +59,13 @@ def find_model(name: str) -> Model:
 
 
 class Builder:
-    """Builds the programs of one host, one after the other."""
+    """Builds the programs of one host, one after the other. Thread-safe."""
 
     def __init__(self, cache: Path | None) -> None:
         self._cache = BlobCache(cache) if cache is not None else None
         self._engines = find_engines(self._cache)
         self._checks = Checks()
+        self._lock = threading.Lock()
         self._ready = False  # what was checked before makes the next check a short one
 
     @property
@@ -73,29 +80,53 @@ class Builder:
 
     def build(self, sources: Sources) -> "Built":
         """The checked program: from the disk if it is known there."""
-        if self._engines.tiers is not None:
-            self._engines.tiers.supersede()
-        model = find_model(sources.model)
-        key = key_of(sources, model)
-        program = recall(self._cache, key) if self._cache is not None and not self._ready else None
-        if program is None:
-            program = self._checked(sources, model)
+        with self._lock:
+            if self._engines.tiers is not None:
+                self._engines.tiers.supersede()
+            model = find_model(sources.model)
+            key = key_of(sources, model)
+            program = None if self._ready else self._recalled(key)
+            if program is None:
+                program = self._checked(sources, model)
         return Built(program, key, self._engines.tiers)
+
+    def preview(self, sources: Sources) -> Program:
+        """The program that a build would make. What runs, and what is being optimised, stays as it is."""
+        with self._lock:
+            model = find_model(sources.model)
+            program = self._recalled(key_of(sources, model))
+            if program is not None:
+                return program
+            if self._engines.tiers is not None and not self._engines.tiers.optimising:
+                return self._checked(sources, model)
+            return _program(Checks(), sources, model)
 
     def prepare(self, sources: Sources) -> None:
         """Gets ready for an edit of what was recalled: checks it after all, when nobody waits for it."""
-        if self._ready or self._engines.tiers is None:
-            return
-        with suppress(BuildFailed):
-            self._engines.tiers.prepare(self._checked(sources, find_model(sources.model)))
+        with self._lock:
+            if self._ready or self._engines.tiers is None:
+                return
+            with suppress(BuildFailed):
+                self._engines.tiers.prepare(self._checked(sources, find_model(sources.model)))
+
+    def _recalled(self, key: str) -> Program | None:
+        return recall(self._cache, key) if self._cache is not None else None
 
     def _checked(self, sources: Sources, model: Model) -> Program:
-        checked = self._checks.check(sources.files, model, sources.interval_ns)
+        """The next check begins with what this one found; so it changes bodies that the last program has, too."""
+        if self._engines.tiers is None:  # the reference engine runs just these bodies
+            return _program(Checks(), sources, model)
+        program = _program(self._checks, sources, model)
         self._ready = True
-        if checked.program is None:
-            errors = [problem for problem in checked.problems if problem.severity is Severity.ERROR]
-            raise BuildFailed(f"{len(errors)} errors, the first: {errors[0]}" if errors else "nothing to run")
-        return checked.program
+        return program
+
+
+def _program(checks: Checks, sources: Sources, model: Model) -> Program:
+    checked = checks.check(sources.files, model, sources.interval_ns)
+    if checked.program is None:
+        errors = [problem for problem in checked.problems if problem.severity is Severity.ERROR]
+        raise BuildFailed(f"{len(errors)} errors, the first: {errors[0]}" if errors else "nothing to run")
+    return checked.program
 
 
 @dataclass(frozen=True, slots=True)

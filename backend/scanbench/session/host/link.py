@@ -14,6 +14,7 @@ from scanbench.session.codec import Splitter, pack
 
 BACKLOG_BYTES = 4 << 20
 """More than this unsent: the parent does not keep up, and frames are dropped."""
+_LAST_WORDS_S = 2.0
 
 
 class Link:
@@ -42,17 +43,31 @@ class Link:
         self._closing = True
         os.eventfd_write(self._wake, 1)
 
-    def serve(self, on_message: Callable[[object], None], on_tick: Callable[[], None], tick_ns: int) -> None:
-        """Reads and writes until the other end closes or `close` is called; `on_tick` comes every `tick_ns`."""
+    def last_words(self, message: object) -> None:
+        """Sends a message at once, after what is half sent: from the thread of `serve`, which must not go on."""
+        self._queue.clear()
+        self._sock.settimeout(_LAST_WORDS_S)
+        try:
+            self._sock.sendall(self._unsent + pack(message))
+        except OSError:  # nobody listens
+            return
+
+    def serve(
+        self, on_message: Callable[[object], None], on_tick: Callable[[], None], tick_ns: Callable[[], int]
+    ) -> None:
+        """Reads and writes until the other end closes or `close` is called.
+
+        `on_tick` comes `tick_ns()` after the last time; that is asked anew whenever something was read or posted.
+        """
         splitter = Splitter()
-        next_tick = monotonic_ns() + tick_ns
+        last_tick = monotonic_ns()
         with selectors.DefaultSelector() as selector:
             selector.register(self._sock, selectors.EVENT_READ)
             selector.register(self._wake, selectors.EVENT_READ)
             while not (self._closing and not self._queue and not self._unsent):
                 events = selectors.EVENT_READ | (selectors.EVENT_WRITE if self._unsent else 0)
                 selector.modify(self._sock, events)
-                for key, ready in selector.select(max(0, next_tick - monotonic_ns()) / 1e9):
+                for key, ready in selector.select(max(0, last_tick + tick_ns() - monotonic_ns()) / 1e9):
                     if key.fileobj is self._sock and ready & selectors.EVENT_READ:
                         data = self._receive()
                         if not data:
@@ -61,8 +76,8 @@ class Link:
                             on_message(message)
                     elif key.fileobj == self._wake:
                         os.eventfd_read(self._wake)
-                if monotonic_ns() >= next_tick:
-                    next_tick = monotonic_ns() + tick_ns
+                if monotonic_ns() >= last_tick + tick_ns():
+                    last_tick = monotonic_ns()
                     on_tick()
                 if not self._send():
                     return

@@ -6,62 +6,74 @@ frames and state. Everything that touches the image is here, in one thread.
 
 import threading
 from collections import deque
-from dataclasses import replace
+from pathlib import Path
 
-import zstandard
-
-from scanbench.check.symbols import Symbol
-from scanbench.check.violations import Violations, read_violations
-from scanbench.engines.engine import Pace, Reason
-from scanbench.runtime.clock import monotonic_ns
-from scanbench.runtime.command import Refusal
+from scanbench.check.condition import Condition, compile_condition
+from scanbench.check.program import Program
+from scanbench.engines.engine import Reason
+from scanbench.runtime.command import Entry, Refusal, Swapped
+from scanbench.runtime.header import Mode
+from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.resource import Resource
+from scanbench.runtime.rights import Right, may
+from scanbench.runtime.timeline import Timeline
 from scanbench.session import protocol
+from scanbench.session.codec import pack_body
+from scanbench.session.host.course import MAX_SPEED, Course
 from scanbench.session.host.link import Link
-from scanbench.session.host.lookup import watch_item
-from scanbench.session.host.status import host_state
+from scanbench.session.host.services import Services
+from scanbench.session.host.shelf import HostPrograms
 from scanbench.session.host.swaps import BuildRefused, Optimising, Recode, Swap
-from scanbench.taps.watch import WatchPlan
+from scanbench.session.runs import run_limit
 
-TICK_NS = 50_000_000
-COUNTING_NS = 200_000_000
-"""How often the state is sent when nothing but scan number and time changed."""
-CHECKPOINT_NS = 2_000_000_000
-_FOREVER = 1 << 40
-_MAX_SPEED = 0.0
-NOTED_NS = 1_000_000_000
-OPTIMISING = "the program is being optimised: it runs slower for a moment"
+PAST = "this is the past: return to live, or branch from here"
 
 
 class Loop:
-    """Runs one resource, and serves what comes from the parent between scans."""
+    """Runs one PLC, and serves what comes from the parent between scans."""
 
     def __init__(
-        self, resource: Resource, link: Link, version: int, speed: float, paused: bool, note: str,
+        self, timeline: Timeline, programs: HostPrograms, link: Link, start: protocol.Start, note: str,
         tiers: Optimising | None = None,
     ) -> None:  # fmt: skip
-        self.resource = resource
-        self._tiers = tiers
-        self._quick_since = 0
-        self._link, self._version, self._note = link, version, note
+        self.timeline, self.programs = timeline, programs
+        self._link = link
         self._inbox: deque[object] = deque()
         self._wake = threading.Event()
         self._tick = True
         self._quit = False
-        self._paused = paused
-        self._single = 0
-        self._speed = speed
-        self._pace: Pace | None = None
-        self._watched: dict[int, str] = {}
-        self._plan = WatchPlan({}, len(resource.memory))
-        self._last_state: protocol.HostState | None = None
-        self._state_at = self._checkpoint_at = self._diagnosed_at = 0
-        self._diagnosed: Violations | None = None
-        self._checkpointed = (-1, -1)
-        self._sent_entries = len(resource.journal)
-        self._set_pace()
+        self._course = Course(self.resource.program.interval_ns, start.speed, start.paused, start.cpu_percent)
+        self._services = Services(timeline, self._course, link, note, tiers)
 
-    # ---- from the link's thread -----------------------------------------------------------------------------------
+    @property
+    def resource(self) -> Resource:
+        """What is shown: the PLC, or its past."""
+        return self.timeline.resource
+
+    # ---- from other threads ---------------------------------------------------------------------------------------
+
+    @property
+    def live_program(self) -> Program:
+        """The program that runs, also while the past is shown."""
+        return self.programs.get(self.timeline.live_version).program
+
+    def previous_sources(self) -> protocol.Sources | None:
+        """What ran before the last change of the program; None where there was none."""
+        versions = [next(iter(self.timeline.recording.programs))]
+        for entry in self.timeline.live_journal:
+            if isinstance(entry.plan.effect, Swapped):
+                versions.append(entry.plan.effect.version)
+        return self.programs.sources(versions[-2]) if len(versions) > 1 else None
+
+    def change_refusal(self) -> str:
+        """Why the program cannot be changed now; empty when it can."""
+        if self.timeline.past:
+            return PAST
+        header = self.resource.header
+        if header.halted_by_trap:  # it starts cold with the new one
+            return ""
+        refusal = may(header.mode, Right.TRANSFER if header.mode is Mode.PROGRAM else Right.CHANGE)
+        return refusal.message if refusal is not None else ""
 
     def give(self, message: object) -> None:
         """Hands over a message; the engine comes back for it after the current scan."""
@@ -69,9 +81,14 @@ class Loop:
         self._knock()
 
     def tick(self) -> None:
-        """Time for frames and state."""
+        """Time for frames and state; what was recorded goes to the disk, in the thread that ticks."""
         self._tick = True
         self._knock()
+        self.timeline.recording.sync()
+
+    def tick_ns(self) -> int:
+        """How soon the next tick is wanted."""
+        return self._services.tick_ns
 
     def _knock(self) -> None:
         self.resource.engine.knock()
@@ -81,200 +98,171 @@ class Loop:
 
     def run(self) -> None:
         """Runs scans until `Quit`."""
-        while not self._quit:
-            while self._inbox:
-                self._serve(self._inbox.popleft())
+        while self._served():
             if self._tick:
                 self._tick = False
-                self._services()
-            if self.resource.runnable and self._single:
-                if self.resource.run(1).reason is not Reason.KNOCKED:  # the knock that brought the request, for one
-                    self._single -= 1
-                self._enter_new()
-                self._tick = True
-            elif self.resource.runnable and not self._paused:
-                self.resource.run(_FOREVER, self._pace)
-                self._enter_new()
-            else:
-                self._single = 0
+                self._services.tick()
+            if self.timeline.past or not self.resource.runnable or self._course.paused:
                 self._wake.wait()
                 self._wake.clear()
+            else:
+                self._run()
+        self.timeline.close()
+
+    def _served(self) -> bool:
+        """Serves what was given; false after `Quit`."""
+        while self._inbox:
+            self._serve(self._inbox.popleft())
+        return not self._quit
+
+    def _run(self) -> None:
+        resource, course = self.resource, self._course
+        first, busy = resource.header.scan, resource.measured.busy_ns
+        stop = self.timeline.run(course.scans, course.pace)
+        scan = resource.header.scan
+        self._services.entered()
+        course.ran(scan - first, stop.reason is Reason.CONDITION, scan)
+        if course.paused:
+            resource.engine.stop_when(None)
+            self._tick = True
+        elif rest := course.rest_ns(resource.measured.busy_ns - busy):
+            self._wake.wait(rest / 1e9)
+            self._wake.clear()
 
     def _serve(self, message: object) -> None:
         match message:
             case protocol.Submit():
-                outcome = self.resource.submit(message.command)
-                self._enter_new()
-                if isinstance(outcome, Refusal):
-                    self._ack(message.ref, False, outcome.message, outcome.near)
-                else:
-                    self._ack(message.ref, True, outcome.plan.message)
-                self._tick = True
+                self._entered(message.ref, self.timeline.submit(message.command))
             case protocol.Drive():
                 self._drive(message)
-            case protocol.WatchPaths():
-                self._watch(message)
-            case protocol.UnwatchIds():
-                for id in message.ids:
-                    self._watched.pop(id, None)
-                self._plan_watch(())
-            case protocol.WantSnapshot():
-                header = self.resource.header
-                frame = self._plan.snapshot(self.resource.memory, header.scan, header.clock_ns)
-                self._link.post(protocol.Frame(frame, message.to))
+            case protocol.Travel():
+                self._travel(message)
+            case protocol.Cut():
+                self._answer(message.ref, self.timeline.cut(Path(message.path), message.scan, "branch"), "written")
             case Swap():
                 self._swap(message)
             case Recode():
-                if message.program is self.resource.program and message.engine is not None:
-                    self.resource.engine = message.engine
+                self._recode(message)
             case BuildRefused():
                 self._ack(message.ref, False, message.message)
+            case protocol.SetLimits():
+                self.timeline.recording.set_limit(run_limit(message.run_mib))
+                self._course.cpu_percent = message.cpu_percent
             case protocol.Quit():
                 self._quit = True
+            case _:
+                self._services.serve(message)
+                self._tick = True
+
+    # ---- answers --------------------------------------------------------------------------------------------------
 
     def _ack(self, ref: int, ok: bool, message: str, near: tuple[str, ...] = ()) -> None:
+        self._services.entered()
         self._link.post(protocol.Ack(ref, ok, message, self.resource.header.scan, near))
+        self._tick = True
 
-    def _enter_new(self) -> None:
-        """Sends the journal's new entries."""
-        journal = self.resource.journal
-        for entry in journal[self._sent_entries :]:
-            self._link.post(protocol.Entered(entry))
-        self._sent_entries = len(journal)
+    def _answer(self, ref: int, refusal: Refusal | None, message: str) -> None:
+        if refusal is None:
+            self._ack(ref, True, message)
+        else:
+            self._ack(ref, False, refusal.message, refusal.near)
+
+    def _entered(self, ref: int, outcome: Entry | Refusal) -> None:
+        if isinstance(outcome, Refusal):
+            self._answer(ref, outcome, "")
+        else:
+            self._ack(ref, True, outcome.plan.message)
 
     # ---- pace -----------------------------------------------------------------------------------------------------
 
     def _drive(self, drive: protocol.Drive) -> None:
-        if drive.speed is not None:
-            self._speed = drive.speed
-        refusal = self._drive_action(drive.action)
-        self._set_pace()
-        self._tick = True
-        speed = "as fast as possible" if self._speed == _MAX_SPEED else f"speed x{self._speed:g}"
-        self._ack(drive.ref, refusal is None, refusal or f"{drive.action}, {speed}")
+        if drive.speed is not None and drive.speed != self._course.speed:
+            self._course.speed = drive.speed
+            self._course.set_pace(self.resource.program.interval_ns)
+        said = self._drive_action(drive)
+        if isinstance(said, Refusal):
+            self._answer(drive.ref, said, "")
+            return
+        speed = "as fast as possible" if self._course.speed == MAX_SPEED else f"speed x{self._course.speed:g}"
+        self._ack(drive.ref, True, f"{said}, {speed}")
 
-    def _drive_action(self, action: str) -> str | None:
-        if action == "restart":
-            self.resource.restart()
-            self._new_run()
-            return None
-        if action == "pause":
-            self._paused = True
-            return None
+    def _drive_action(self, drive: protocol.Drive) -> str | Refusal:
+        if drive.action == "pause":
+            self._course.pause()
+            return "pause"
+        if self.timeline.past:
+            if drive.action != "scan":
+                return Refusal(PAST)
+            return self.timeline.step() or "one scan on"
         if not self.resource.runnable:
-            state = host_state(self.resource, self._speed, self._paused, self._version, "")
-            return f"the program is stopped: {state.message}"
-        if action == "scan":
-            self._paused = True
-            self._single += 1
-        else:
-            self._paused = False
-        return None
+            return Refusal(f"the program is stopped: {self._services.state.message}")
+        if drive.action == "scan":
+            return self._single()
+        condition: Condition | None = None
+        if drive.until is not None:
+            compiled = compile_condition(self.resource.program, drive.until)
+            if not isinstance(compiled, Condition):
+                return Refusal(compiled.message, compiled.near)
+            condition = compiled
+        self.resource.engine.stop_when(condition)
+        self._course.run_on(self.resource.header.scan, drive.scans, condition)
+        return f"continue: {self._course.target}" if self._course.target else "continue"
 
-    def _set_pace(self) -> None:
-        if self._speed == _MAX_SPEED:
-            self._pace = None
-        else:
-            period = max(1, round(self.resource.program.interval_ns / self._speed))
-            self._pace = Pace(period, monotonic_ns())
+    def _single(self) -> str:
+        """One scan, whatever knocks meanwhile."""
+        self._course.pause()
+        self.resource.engine.stop_when(None)
+        scan = self.resource.header.scan
+        while self.resource.runnable and self.resource.header.scan == scan:
+            if self.timeline.run(1).reason is Reason.TRAP:
+                break
+        self._course.set_pace(self.resource.program.interval_ns)
+        return "one scan"
 
-    def _new_run(self) -> None:
-        """The journal begins anew; a replay must never look before this point."""
-        self._link.post(protocol.ColdStart())
-        self._sent_entries, self._checkpointed = 0, (-1, -1)
-        self._enter_new()
-        self._checkpoint()
+    # ---- time travel ----------------------------------------------------------------------------------------------
+
+    def _travel(self, travel: protocol.Travel) -> None:
+        program = self.resource.program
+        if travel.scan is None:
+            self.timeline.return_live()
+            self._services.past_by = ""
+            self._course.set_pace(self.resource.program.interval_ns)
+            self.resource.engine.stop_when(self._course.condition)
+            refusal = None
+        else:
+            refusal = self.timeline.goto(travel.scan)
+            self._services.past_by = travel.author if self.timeline.past else ""
+        if self.resource.program is not program:
+            self._services.moved()
+        self.programs.drop_idle(self.timeline.version, self.timeline.live_version)
+        self._answer(travel.ref, refusal, f"scan {self.resource.header.scan}" if travel.scan is not None else "live")
 
     # ---- program --------------------------------------------------------------------------------------------------
 
     def _swap(self, swap: Swap) -> None:
-        old_journal = self.resource.journal
-        report = self.resource.swap(swap.program, swap.engine, swap.memory, swap.author, swap.version)
-        self._version = swap.version
-        self._set_pace()
-        if self.resource.journal is old_journal:
-            self._enter_new()
-            self._checkpoint()
-        else:
-            self._new_run()
-        self._link.post(protocol.Watching(None, self._plan_watch(self._watched)))
-        self._tick = True
-        self._ack(swap.ref, True, report)
+        self.programs.put(swap.loaded, swap.sources)
+        if swap.loaded.version not in self.timeline.recording.programs:
+            refusal = self.timeline.add_program(swap.loaded.version, pack_body(swap.sources))
+            if refusal is not None:
+                self._answer(swap.ref, refusal, "")
+                return
+        outcome = self.timeline.submit(ProgramChange(swap.author, swap.loaded.version))
+        if not isinstance(outcome, Refusal):
+            self._moved()
+        self._entered(swap.ref, outcome)
 
-    # ---- services: phase 7 ----------------------------------------------------------------------------------------
+    def _moved(self) -> None:
+        """Another program runs: its places, pace and conditions are others."""
+        self._course.set_pace(self.resource.program.interval_ns)
+        if self._course.condition is not None:
+            again = compile_condition(self.resource.program, self._course.condition.text)
+            self._course.condition = again if isinstance(again, Condition) else None
+            self.resource.engine.stop_when(self._course.condition)
+        self.programs.drop_idle(self.timeline.version, self.timeline.live_version)
+        self._services.moved()
 
-    def _services(self) -> None:
-        now = monotonic_ns()
-        header = self.resource.header
-        if len(self._plan) and not self._link.backlogged:
-            frame = self._plan.sample(self.resource.memory, header.scan, header.clock_ns)
-            if frame is not None:
-                self._link.post(protocol.Frame(frame))
-        state = host_state(self.resource, self._speed, self._paused, self._version, self._note or self._tier_note(now))
-        if state != self._last_state and (now >= self._state_at or self._differs(state)):
-            self._last_state, self._state_at = state, now + COUNTING_NS
-            self._link.post(state)
-        if now >= self._diagnosed_at:
-            self._diagnosed_at = now + COUNTING_NS
-            self._diagnose()
-        if now >= self._checkpoint_at:
-            self._checkpoint()
-
-    def _tier_note(self, now: int) -> str:
-        """What to say of code that is not optimised yet, unless that is soon over."""
-        if self._tiers is None or not self._tiers.optimising:
-            self._quick_since = 0
-            return ""
-        self._quick_since = self._quick_since or now
-        return OPTIMISING if now - self._quick_since > NOTED_NS else ""
-
-    def _diagnose(self) -> None:
-        violations = read_violations(self.resource.program, self.resource.memory)
-        if violations != self._diagnosed:
-            self._diagnosed = violations
-            self._link.post(protocol.Diagnosed(violations))
-
-    def _differs(self, state: protocol.HostState) -> bool:
-        """Whether more than counters changed: people wait for that, and in a pause for every scan."""
-        last = self._last_state
-        if last is None or self._paused:
-            return True
-        return replace(last, scan=state.scan, time_ns=state.time_ns, cycle_us=state.cycle_us) != state
-
-    def _checkpoint(self) -> None:
-        """Copies the state; it is packed in the link's thread."""
-        self._checkpoint_at = monotonic_ns() + CHECKPOINT_NS
-        scan, entries = self.resource.header.scan, len(self.resource.journal)
-        if self._checkpointed == (scan, entries):
+    def _recode(self, recode: Recode) -> None:
+        if recode.engine is None or not self.programs.recode(recode.program, recode.engine):
             return
-        self._checkpointed = (scan, entries)
-        version, state = self._version, self.resource.state
-
-        def packed() -> protocol.Checkpoint:
-            image = zstandard.ZstdCompressor(level=1).compress(state)
-            return protocol.Checkpoint(scan, entries, version, image)
-
-        self._link.post(packed)
-
-    # ---- watching -------------------------------------------------------------------------------------------------
-
-    def _watch(self, message: protocol.WatchPaths) -> None:
-        self._watched.update(message.paths)
-        asked = [id for id, _ in message.paths]
-        items = {item.id: item for item in self._plan_watch(asked)}
-        self._link.post(protocol.Watching(message.ref, tuple(items[id] for id in asked)))
-        self._tick = True
-
-    def _plan_watch(self, again: "list[int] | dict[int, str] | tuple[int, ...]") -> tuple[protocol.WatchItem, ...]:
-        """Makes the gather plan anew; values of the ids in `again` are sent even if they did not change."""
-        items: list[protocol.WatchItem] = []
-        symbols: dict[int, Symbol] = {}
-        for id, path in self._watched.items():
-            item, symbol = watch_item(self.resource.program, id, path)
-            items.append(item)
-            if symbol is not None:
-                symbols[id] = symbol
-        plan = WatchPlan(symbols, len(self.resource.memory))
-        plan.keep_last(self._plan, again)
-        self._plan = plan
-        return tuple(items)
+        if recode.program is self.resource.program:
+            recode.engine.stop_when(self._course.condition)

@@ -1,16 +1,22 @@
 """The state of a PLC in words, derived from its image and journal."""
 
-from scanbench.faults.inject import active
-from scanbench.runtime.forces import forced
+from scanbench.check.program import TrapKind
+from scanbench.faults.inject import ACTIVE
+from scanbench.runtime.forces import FORCED
 from scanbench.runtime.header import Halt, Mode
 from scanbench.runtime.resource import Resource
+from scanbench.runtime.timeline import Timeline
+from scanbench.session.host.course import Course
 from scanbench.session.protocol import HostState
 
 
-def host_state(resource: Resource, speed: float, paused: bool, version: int, note: str) -> HostState:
+def host_state(timeline: Timeline, course: Course, past_by: str, note: str) -> HostState:
     """What the top bar shows. `note` stands where nothing more pressing is to be said."""
+    resource = timeline.resource
     header = resource.header
-    state, message = _state(resource, paused, note)
+    state, message = _state(resource, course.paused, note)
+    if timeline.past:
+        state, message = "past", f"scan {header.scan} of {timeline.live_scan}, shown by {past_by}"
     return HostState(
         state=state,
         mode=header.mode.name,
@@ -19,23 +25,31 @@ def host_state(resource: Resource, speed: float, paused: bool, version: int, not
         time_ns=header.scan * resource.program.interval_ns,
         interval_ns=resource.program.interval_ns,
         cycle_us=round(resource.measured.cycle_us, 2),
-        speed=speed,
-        paused=paused,
+        speed=course.speed,
+        paused=course.paused,
         trap=resource.trap,
-        forces=len(resource.journal.derived(forced)),
-        version=version,
+        forces=len(resource.journal.derived(FORCED)),
+        version=timeline.version,
+        live_scan=timeline.live_scan,
+        past_by=past_by,
+        target=course.target,
+        late_percent=round(course.late_percent(), 2),
+        late_us=round(course.pace.late_ns / max(1, course.pace.scans) / 1000, 1),
+        worst_us=round(course.pace.worst_ns / 1000, 1),
     )
 
 
 def _state(resource: Resource, paused: bool, note: str) -> tuple[str, str]:
     header = resource.header
-    if resource.trap is not None:
-        return "trapped", f"stopped by a run-time error: {resource.trap}"
-    present = resource.journal.derived(active)
+    trap = resource.trap
+    if trap is not None and trap.kind != TrapKind.FATAL:
+        return "trapped", f"stopped by a run-time error{_code(resource)}: {trap}"
+    present = resource.journal.derived(ACTIVE)
     if header.halt & Halt.FATAL_ERROR:
         errors = (resource.program.layout.model.error(id) for id in present)
         names = ", ".join(error.name for error in errors if error is not None and error.severity == "fatal")
-        return "fatal", f"fatal error{_code(resource)}: {names}. Recover it, then change to MONITOR or RUN"
+        where = f", raised at {trap.file}:{trap.line}" if trap is not None else ""
+        return "fatal", f"fatal error{_code(resource)}: {names}{where}. Recover it, then change to MONITOR or RUN"
     if header.mode is Mode.PROGRAM:
         return "stopped", "mode PROGRAM: the program is stopped"
     if present:
@@ -50,4 +64,5 @@ def _code(resource: Resource) -> str:
     if word is None:
         return ""
     start = layout.areas[word.area.name] + word.byte
-    return f" {int.from_bytes(resource.memory[start : start + 2], 'little'):04X}"
+    code = int.from_bytes(resource.memory[start : start + word.bits // 8], "little")
+    return f" {layout.model.show_code(code)}" if code else ""

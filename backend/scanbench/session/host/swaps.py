@@ -5,6 +5,8 @@ from typing import Protocol
 
 from scanbench.check.program import Program
 from scanbench.engines.engine import Engine
+from scanbench.runtime.programs import Loaded
+from scanbench.session.protocol import Sources
 
 
 @dataclass(frozen=True, slots=True)
@@ -12,10 +14,8 @@ class Swap:
     """A compiled program, ready to take over."""
 
     ref: int
-    program: Program
-    engine: Engine
-    memory: bytearray
-    version: int
+    loaded: Loaded
+    sources: Sources
     author: str
 
 

@@ -6,6 +6,7 @@ The program, the image and the journal know nothing of it: both compute the same
 import logging
 import threading
 from collections.abc import Callable
+from contextlib import nullcontext
 from dataclasses import dataclass
 
 from scanbench.check.program import Program
@@ -79,15 +80,11 @@ class Tiers:
     def _optimise(self, waiting: _Waiting, deliver: Callable[[Recode], None]) -> None:
         engine: Engine | None = None
         try:
-            with self._lock:
-                if self._newest == waiting.number and waiting.build.whole is not None:
-                    self._compiler.divide(waiting.build, waiting.program)
-            for part, code in optimised(waiting.build.pending, lambda: self._newest == waiting.number):
-                with self._lock:
-                    self._compiler.learn(waiting.build, part, code)
+            # of many PLCs with one program, one has it optimised; the others wait, and take what it made
+            with self._cache.claimed(f"{waiting.key}.o2") if self._cache is not None else nullcontext():
+                self._finish(waiting)
             if not waiting.build.finished:
                 return  # superseded
-            self._keep(waiting.key, waiting.build)
             engine = NativeEngine(waiting.program, waiting.memory, objects=waiting.build.objects)
         except (WorkerDied, OSError) as error:
             log.warning("the program could not be optimised, and runs on as it is: %r", error)
@@ -96,6 +93,23 @@ class Tiers:
                 return
             self._waiting = None
         deliver(Recode(waiting.program, engine))
+
+    def _finish(self, waiting: _Waiting) -> None:
+        """Optimises all parts, and keeps them; some are left when the program is superseded."""
+        build = waiting.build
+        with self._lock:
+            if self._newest != waiting.number:
+                return
+            if build.whole is not None:
+                self._compiler.divide(build, waiting.program)
+            else:
+                self._compiler.take_known(build)
+        if build.pending:
+            for part, code in optimised(build.pending, lambda: self._newest == waiting.number):
+                with self._lock:
+                    self._compiler.learn(build, part, code)
+        if build.finished:
+            self._keep(waiting.key, build)
 
     def _recalled(self, key: str) -> list[bytes] | None:
         keys = recall_code(self._cache, key, jit.host()) if self._cache is not None else None

@@ -1,0 +1,63 @@
+"""`scanbench replay`: a recorded run once more, on this machine: every byte must be the same."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+
+import typer
+
+from scanbench.check.build import check_sources
+from scanbench.cli.inputs import find_model_named, usage
+from scanbench.cli.run import ENGINES, EngineChoice
+from scanbench.engines.pair import Differs
+from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
+from scanbench.runtime.recording import KeptProgram
+from scanbench.runtime.replay import Diverged
+from scanbench.runtime.replay_file import Replayed, replay_file
+from scanbench.runtime.runfile import RunFileError
+from scanbench.session.codec import ENTRIES
+from scanbench.session.runs import sources_in
+
+
+def replay(
+    path: Path = typer.Argument(metavar="RUNFILE", help="A run as the bench exports it (.scanrun), or --record wrote it."),
+    scans: int | None = typer.Option(None, min=0, metavar="N", help="Stop before scan N; else at the end of the run."),
+    engine: EngineChoice = typer.Option(EngineChoice.NATIVE, help="both: compare the engines after every scan too."),
+    as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
+) -> None:  # fmt: skip
+    """Replay a run and compare it with every checkpoint in it.
+
+    Exit 0 when every byte was the same; 2: wrong usage, or a file that cannot be replayed here; 3: it came out different.
+    """
+
+    def programs_of(kept: Mapping[int, KeptProgram]) -> Shelf:
+        return Shelf(*(_load(each, ENGINES[engine]) for each in kept.values()))
+
+    try:
+        result = replay_file(path, programs_of, ENTRIES, scans)
+    except (RunFileError, OSError) as error:
+        usage(f"{path}: {error}")
+    except (Diverged, Differs) as difference:
+        typer.echo(f"scanbench: {path}: {difference}", err=True)
+        raise typer.Exit(3) from None
+    typer.echo(json.dumps(asdict(result)) if as_json else _text(result))
+
+
+def _load(kept: KeptProgram, engine_factory: EngineFactory) -> Loaded:
+    sources = sources_in(kept)
+    checked = check_sources(sources.files, find_model_named(sources.model), sources.interval_ns)
+    if checked.program is None:
+        usage(f"program version {kept.version} of the run does not compile here: {checked.problems[0]}")
+    return Loaded.make(checked.program, engine_factory, kept.version)
+
+
+def _text(result: Replayed) -> str:
+    lines = [
+        f"scans {result.first_scan} to {result.scan}: {result.entries} commands, "
+        f"{result.checkpoints} checkpoints, all the same",
+        f"state {result.hash}",
+    ]
+    if result.damage:
+        lines.append(f"the file was damaged: {result.damage}")
+    return "\n".join(lines)

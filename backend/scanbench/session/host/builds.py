@@ -1,0 +1,92 @@
+"""What is built beside a running PLC: a change of its program, what that would do, and optimised code."""
+
+import logging
+import threading
+from collections.abc import Callable
+
+from scanbench.runtime.carry_over import NEW, REMOVED, Change, changes
+from scanbench.session import protocol
+from scanbench.session.host.build import Builder
+from scanbench.session.host.limits import MemoryLimit
+from scanbench.session.host.link import Link
+from scanbench.session.host.loop import Loop
+from scanbench.session.host.swaps import BuildRefused, Swap
+
+log = logging.getLogger("scanbench")
+LOST_LIMIT = 500
+"""So many variables are named that would begin anew."""
+
+
+class Builds:
+    """Builds in threads of their own, one at a time; the loop goes on meanwhile."""
+
+    def __init__(self, builder: Builder, link: Link, memory: MemoryLimit) -> None:
+        self._builder, self._link, self._memory = builder, link, memory
+        self._building = threading.Lock()
+        self._ready = False
+
+    def take(self, message: protocol.Build | protocol.Preview | protocol.RollBack, loop: Loop) -> None:
+        """Begins what is asked for; the answer comes when it is done."""
+        match message:
+            case protocol.Build():
+                _behind("build", lambda: self._build(message.ref, message.sources, message.author, loop))
+            case protocol.Preview():
+                _behind("preview", lambda: self._preview(message, loop))
+            case protocol.RollBack():
+                sources = loop.previous_sources()
+                if sources is None:
+                    loop.give(
+                        BuildRefused(message.ref, "there is no program to go back to: this is the first one of the run")
+                    )
+                else:
+                    _behind("build", lambda: self._build(message.ref, sources, message.author, loop))
+
+    def get_ready(self, loop: Loop) -> None:
+        """Somebody looks, and may edit: checks what runs, once, so that the next check is a short one."""
+        if not self._ready:
+            self._ready = True
+            _behind("prepare", lambda: self._prepare(loop))
+
+    def optimise(self, loop: Loop) -> None:
+        """Begins to optimise the program that was built last, if that is left to do."""
+        if self._builder.tiers is not None:
+            self._builder.tiers.optimise(loop.give)
+
+    def _build(self, ref: int, sources: protocol.Sources, author: str, loop: Loop) -> None:
+        with self._building:
+            try:
+                loaded = loop.programs.make(sources)
+            except Exception as error:  # whatever it is, the old program goes on and somebody must be told
+                why = f"the build failed, the old program goes on: {self._why(error)}"
+                loop.give(BuildRefused(ref, why))
+                return
+            loop.give(Swap(ref, loaded, sources, author))
+            self.optimise(loop)
+
+    def _preview(self, preview: protocol.Preview, loop: Loop) -> None:
+        change, refusal = Change(), ""
+        with self._building:
+            try:
+                program = self._builder.preview(preview.sources)
+                change = changes(loop.live_program, program)
+            except Exception as error:  # as above
+                refusal = f"the build failed: {self._why(error)}"
+        refusal = refusal or loop.change_refusal()
+        forgotten = [each for each in change.lost if each.reason not in (NEW, REMOVED)]
+        others = [each for each in change.lost if each.reason in (NEW, REMOVED)]
+        lost = tuple((forgotten + others)[:LOST_LIMIT])
+        self._link.post(protocol.Previewed(preview.ref, change.kept, lost, len(change.lost), len(forgotten), refusal))
+
+    def _prepare(self, loop: Loop) -> None:
+        with self._building:
+            try:
+                self._builder.prepare(loop.programs.sources(loop.timeline.live_version))
+            except (MemoryError, LookupError) as error:  # the first edit takes longer, or says the same
+                log.warning("not ready for an edit: %s", self._why(error))
+
+    def _why(self, error: Exception) -> str:
+        return self._memory.report(error) if isinstance(error, MemoryError) else str(error)
+
+
+def _behind(name: str, work: Callable[[], None]) -> None:
+    threading.Thread(target=work, name=name, daemon=True).start()

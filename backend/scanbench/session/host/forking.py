@@ -1,0 +1,111 @@
+"""The nursery: `python -m scanbench.session.host.forking FD` imports everything once, and forks a host for every request.
+
+A request on the socket FD is the directory of the cache with the host's own socket; the reply is the number of the process,
+or why there is none. It ends when the server closes the socket, or is gone.
+
+A host is forked twice, so that the server, which adopts orphans, becomes its parent. This process has one thread, and must
+never get another: a fork would lose it.
+"""
+
+import gc
+import logging
+import os
+import signal
+import socket
+import sys
+from contextlib import suppress
+from pathlib import Path
+
+import msgpack  # type: ignore[import-untyped]
+
+from scanbench.check.incremental import Checks
+from scanbench.plcmodel.load import NoModels
+from scanbench.session.host.build import Builder, all_models
+from scanbench.session.host.host import serve
+from scanbench.session.known import key_of
+from scanbench.session.protocol import Sources
+
+_LARGEST_REQUEST = 65536
+_WARM = "PROGRAM warm\nVAR t : TON; s : STRING; END_VAR\n  t(IN := NOT t.Q, PT := T#1s);\nEND_PROGRAM\n"
+log = logging.getLogger("scanbench")
+
+
+def main() -> int:
+    """Forks until the socket is closed."""
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the server's business
+    server = os.getppid()
+    with socket.socket(fileno=int(sys.argv[1])) as channel:
+        channel.set_inheritable(False)
+        _warm()
+        gc.collect()
+        gc.freeze()  # a collection in a host would touch every object, and so copy every page
+        while True:
+            request, fds, _, _ = socket.recv_fds(channel, _LARGEST_REQUEST, 1)
+            if not request:
+                return 0
+            cache = msgpack.unpackb(request)
+            try:
+                reply: int | str = _fork(channel, fds[0], Path(cache) if cache is not None else None, server)
+            except OSError as error:
+                reply = str(error)
+            finally:
+                for fd in fds:
+                    os.close(fd)
+            channel.send(msgpack.packb(reply))
+
+
+def _warm() -> None:
+    """Does once what every host would do: what is only imported or parsed when it is first needed."""
+    builder = Builder(None)
+    with suppress(NoModels):
+        models, _ = all_models()
+        for model in models[:1]:
+            sources = Sources(model.name, {"warm.st": _WARM}, 10_000_000, 1)
+            key_of(sources, model)
+            program = Checks().check(sources.files, model, sources.interval_ns).program
+            if program is not None and builder.tiers is not None:
+                memory = bytearray(program.layout.size)
+                builder.tiers.engine(program, memory, "").run(1)
+
+
+def _fork(channel: socket.socket, fd: int, cache: Path | None, server: int) -> int:
+    """The number of a new host that speaks on `fd`."""
+    told, telling = os.pipe()
+    between = os.fork()
+    if between == 0:
+        _between(channel, fd, cache, server, told, telling)
+    os.close(telling)
+    try:
+        number = os.read(told, 64)
+    finally:
+        os.close(told)
+        os.waitpid(between, 0)  # now the host is the server's child
+    if not number:
+        raise OSError("out of processes or memory")
+    return int(number)
+
+
+def _between(channel: socket.socket, fd: int, cache: Path | None, server: int, told: int, telling: int) -> None:
+    """The child: forks the host and is gone."""
+    code = 1
+    try:
+        host = os.fork()
+        if host == 0:
+            channel.close()
+            os.close(told)
+            os.close(telling)
+            code = serve(socket.socket(fileno=fd), cache, server)
+        else:
+            os.write(telling, str(host).encode())
+            code = 0
+    except BaseException:
+        log.exception("the process of a PLC failed")
+    finally:
+        with suppress(OSError, ValueError):
+            sys.stderr.flush()
+            sys.stdout.flush()
+        os._exit(code)  # whatever happens, a child never goes on with what its parent was doing
+
+
+if __name__ == "__main__":
+    sys.exit(main())

@@ -1,0 +1,58 @@
+"""How the process of a PLC begins: with the run that its file holds, or a new one."""
+
+from collections.abc import Mapping
+from pathlib import Path
+
+from scanbench.faults.detect import Detection
+from scanbench.runtime.clock import wall_time
+from scanbench.runtime.command import Refusal
+from scanbench.runtime.recording import KeptProgram
+from scanbench.runtime.runfile import RunFileError
+from scanbench.runtime.set_clock import SetClock
+from scanbench.runtime.timeline import Timeline
+from scanbench.session import protocol
+from scanbench.session.codec import ENTRIES, pack_body
+from scanbench.session.host.build import Builder, BuildFailed
+from scanbench.session.host.link import Link
+from scanbench.session.host.loop import Loop
+from scanbench.session.host.shelf import HostPrograms
+from scanbench.session.runs import run_limit, sources_in
+
+
+def open_loop(start: protocol.Start, builder: Builder, link: Link) -> Loop:
+    """The loop of a PLC, ready to run; `BuildFailed` says why there can be none. Tells the parent what it goes on with."""
+    path = Path(start.run)
+    if start.restarted and path.exists():
+        path.replace(path.with_name(f"{path.name}.previous"))
+    fresh = not path.exists()
+    try:
+        timeline, programs = _begun(start, path, builder) if fresh else _resumed(start, path, builder)
+    except (RunFileError, LookupError) as error:
+        raise BuildFailed(f"{error}. A new run can begin: the old file is kept aside") from error
+    except OSError as error:
+        raise BuildFailed(f"the run file {path} cannot be used: {error.strerror or error}") from error
+    link.post(protocol.Ready(builder.message, programs.sources(timeline.version), fresh))
+    return Loop(timeline, programs, link, start, builder.message, builder.tiers)
+
+
+def _begun(start: protocol.Start, path: Path, builder: Builder) -> tuple[Timeline, HostPrograms]:
+    sources = start.sources
+    programs = HostPrograms(builder, {sources.version: sources})
+    timeline = Timeline.begin(
+        path, programs, sources.version, pack_body(sources), ENTRIES, start.name, Detection(), run_limit(start.run_mib)
+    )
+    refusal = timeline.submit(SetClock("server", wall_time()))
+    if isinstance(refusal, Refusal):
+        raise OSError(refusal.message)
+    return timeline, programs
+
+
+def _resumed(start: protocol.Start, path: Path, builder: Builder) -> tuple[Timeline, HostPrograms]:
+    made: list[HostPrograms] = []
+
+    def programs_of(kept: Mapping[int, KeptProgram]) -> HostPrograms:
+        made.append(HostPrograms(builder, {each.version: sources_in(each) for each in kept.values()}))
+        return made[-1]
+
+    limit = run_limit(start.run_mib)
+    return Timeline.resume(path, programs_of, ENTRIES, start.until, Detection(), limit), made[-1]

@@ -1,0 +1,180 @@
+"""Phase 7, tool services: value frames, state, diagnostics, forces, marks; what the parent is told of the PLC."""
+
+from dataclasses import replace
+
+from scanbench.check.symbols import Symbol
+from scanbench.check.violations import Violations, read_violations
+from scanbench.faults.inject import ACTIVE
+from scanbench.runtime.clock import monotonic_ns
+from scanbench.runtime.forces import FORCED
+from scanbench.runtime.recording import RecordingInfo
+from scanbench.runtime.resource import Resource
+from scanbench.runtime.timeline import Timeline
+from scanbench.session import protocol
+from scanbench.session.host.course import Course
+from scanbench.session.host.link import Link
+from scanbench.session.host.lookup import watch_item
+from scanbench.session.host.status import host_state
+from scanbench.session.host.swaps import Optimising
+from scanbench.session.marks import marks_of
+from scanbench.taps.watch import WatchPlan
+
+TICK_NS = 50_000_000
+IDLE_TICK_NS = 1_000_000_000
+"""While nobody looks."""
+COUNTING_NS = 200_000_000
+"""How often the state is sent when nothing but scan number and time changed."""
+_INFO_NS = 1_000_000_000
+NOTED_NS = 1_000_000_000
+OPTIMISING = "the program is being optimised: it runs slower for a moment"
+
+
+class Services:
+    """Reads the image in the seam; never writes it."""
+
+    def __init__(
+        self, timeline: Timeline, course: Course, link: Link, note: str, tiers: Optimising | None
+    ) -> None:  # fmt: skip
+        self._timeline, self._course, self._link, self._note, self._tiers = timeline, course, link, note, tiers
+        self.past_by = ""
+        self._attended = False
+        self._quick_since = 0
+        self._watched: dict[int, str] = {}
+        self._plan = WatchPlan({}, len(self._resource.memory))
+        self._last_state: protocol.HostState | None = None
+        self._state_at = self._counted_at = self._info_at = 0
+        self._diagnosed: Violations | None = None
+        self._standing: protocol.Standing | None = None
+        self._info: RecordingInfo | None = None
+        timeline.new_entries()  # those of earlier lives were told by their hosts
+        link.post(protocol.RunMarks(timeline.recording.info, marks_of(timeline.live_journal), fresh=True))
+
+    @property
+    def _resource(self) -> Resource:
+        return self._timeline.resource
+
+    @property
+    def tick_ns(self) -> int:
+        """How soon the next tick is wanted."""
+        return TICK_NS if self._attended else IDLE_TICK_NS
+
+    @property
+    def state(self) -> protocol.HostState:
+        """The state now."""
+        note = self._course.reached or self._note or self._tier_note(monotonic_ns())
+        return host_state(self._timeline, self._course, self.past_by, note)
+
+    # ---- what the parent asks -------------------------------------------------------------------------------------
+
+    def serve(self, message: object) -> None:
+        """Watching, and whether somebody looks."""
+        match message:
+            case protocol.WatchPaths():
+                self._watch(message)
+            case protocol.UnwatchIds():
+                for id in message.ids:
+                    self._watched.pop(id, None)
+                self._plan_watch(())
+            case protocol.WantSnapshot():
+                header = self._resource.header
+                frame = self._plan.snapshot(self._resource.memory, header.scan, header.clock_ns)
+                self._link.post(protocol.Frame(frame, message.to))
+            case protocol.Attend():
+                self._attended = message.anybody
+
+    def entered(self) -> None:
+        """Tells of the journal's new entries."""
+        entries = self._timeline.new_entries()
+        for entry in entries:
+            self._link.post(protocol.Entered(entry))
+        if entries:
+            self._link.post(protocol.RunMarks(self._timeline.recording.info, marks_of(entries), fresh=False))
+
+    def moved(self) -> None:
+        """Another program is shown: every variable may have another place."""
+        self._link.post(protocol.Watching(None, self._plan_watch(self._watched)))
+
+    # ---- at each tick ---------------------------------------------------------------------------------------------
+
+    def tick(self) -> None:
+        """Tells what changed."""
+        now = monotonic_ns()
+        header = self._resource.header
+        if len(self._plan) and not self._link.backlogged:
+            frame = self._plan.sample(self._resource.memory, header.scan, header.clock_ns)
+            if frame is not None:
+                self._link.post(protocol.Frame(frame))
+        state = self.state
+        if state != self._last_state and (now >= self._state_at or self._differs(state)):
+            self._last_state, self._state_at = state, now + COUNTING_NS
+            self._link.post(state)
+        self._tell_standing()
+        if now >= self._counted_at:
+            self._counted_at = now + COUNTING_NS
+            self._diagnose()
+            self._timeline.note()
+        if now >= self._info_at:
+            self._info_at = now + _INFO_NS
+            self._tell_info()
+
+    def _tier_note(self, now: int) -> str:
+        """What to say of code that is not optimised yet, unless that is soon over."""
+        if self._tiers is None or not self._tiers.optimising:
+            self._quick_since = 0
+            return ""
+        self._quick_since = self._quick_since or now
+        return OPTIMISING if now - self._quick_since > NOTED_NS else ""
+
+    def _tell_standing(self) -> None:
+        journal = self._resource.journal
+        forces = tuple(journal.derived(FORCED).values())
+        present = journal.derived(ACTIVE)
+        standing = protocol.Standing(forces, tuple(present))
+        if standing != self._standing:
+            self._standing = standing
+            self._link.post(standing)
+
+    def _tell_info(self) -> None:
+        info = self._timeline.recording.info
+        if info != self._info:
+            self._info = info
+            self._link.post(protocol.RunMarks(info, (), fresh=False))
+
+    def _diagnose(self) -> None:
+        violations = read_violations(self._resource.program, self._resource.memory)
+        if violations != self._diagnosed:
+            self._diagnosed = violations
+            self._link.post(protocol.Diagnosed(violations))
+
+    def _differs(self, state: protocol.HostState) -> bool:
+        """Whether more than counters changed: people wait for that, and in a pause for every scan."""
+        last = self._last_state
+        if last is None or self._course.paused or self._timeline.past:
+            return True
+        counted = replace(
+            last, scan=state.scan, live_scan=state.live_scan, time_ns=state.time_ns, cycle_us=state.cycle_us,
+            late_percent=state.late_percent, late_us=state.late_us, worst_us=state.worst_us,
+        )  # fmt: skip
+        return counted != state
+
+    # ---- watching -------------------------------------------------------------------------------------------------
+
+    def _watch(self, message: protocol.WatchPaths) -> None:
+        self._watched.update(message.paths)
+        asked = [id for id, _ in message.paths]
+        items = {item.id: item for item in self._plan_watch(asked)}
+        self._link.post(protocol.Watching(message.ref, tuple(items[id] for id in asked)))
+
+    def _plan_watch(self, again: "list[int] | dict[int, str] | tuple[int, ...]") -> tuple[protocol.WatchItem, ...]:
+        """Makes the gather plan anew; values of the ids in `again` are sent even if they did not change."""
+        items: list[protocol.WatchItem] = []
+        symbols: dict[int, Symbol] = {}
+        for id, path in self._watched.items():
+            item, symbol = watch_item(self._resource.program, id, path)
+            items.append(item)
+            if symbol is not None:
+                symbols[id] = symbol
+        plan = WatchPlan(symbols, len(self._resource.memory))
+        plan.keep_last(self._plan, again)
+        self._plan = plan
+        return tuple(items)

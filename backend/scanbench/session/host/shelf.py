@@ -1,0 +1,64 @@
+"""The programs of one run, by version: built when they are needed, and again when a run goes back to one of them."""
+
+from collections.abc import Mapping
+
+from scanbench.check.program import Program
+from scanbench.engines.engine import Engine
+from scanbench.runtime.programs import Loaded
+from scanbench.session.host.build import Builder, BuildFailed
+from scanbench.session.protocol import Sources
+
+_KEPT = 3
+"""Programs that stay ready: the one that runs, and those that were run or looked at last."""
+
+
+class HostPrograms:
+    """`runtime.Programs` of a host."""
+
+    def __init__(self, builder: Builder, sources: Mapping[int, Sources]) -> None:
+        self._builder = builder
+        self._sources = dict(sources)
+        self._ready: dict[int, Loaded] = {}
+
+    def sources(self, version: int) -> Sources:
+        """What a version is made of; `LookupError` when there is none."""
+        if version not in self._sources:
+            raise LookupError(f"there is no program version {version} in this run")
+        return self._sources[version]
+
+    def get(self, version: int) -> Loaded:
+        """The program of a version, ready to run."""
+        loaded = self._ready.pop(version, None)
+        if loaded is None:
+            try:
+                loaded = self.make(self.sources(version))
+            except BuildFailed as error:
+                raise LookupError(f"program version {version} cannot be built any more: {error}") from error
+        self._ready[version] = loaded  # the last one used stands last
+        return loaded
+
+    def make(self, sources: Sources) -> Loaded:
+        """Builds; in any thread, one build at a time."""
+        built = self._builder.build(sources)
+        memory = bytearray(built.program.layout.size)
+        return Loaded(sources.version, built.program, memory, built.engine(built.program, memory))
+
+    def put(self, loaded: Loaded, sources: Sources) -> None:
+        """Takes a program that was built behind."""
+        self._sources[loaded.version] = sources
+        self._ready.pop(loaded.version, None)
+        self._ready[loaded.version] = loaded
+
+    def drop_idle(self, *in_use: int) -> None:
+        """Lets go of what was not used for long; the versions given stay."""
+        idle = [version for version in self._ready if version not in in_use]
+        for version in idle[: max(0, len(self._ready) - _KEPT)]:
+            del self._ready[version]
+
+    def recode(self, program: Program, engine: Engine) -> bool:
+        """Optimised code for a program; false when it is not here any more."""
+        for loaded in self._ready.values():
+            if loaded.program is program:
+                loaded.engine = engine
+                return True
+        return False

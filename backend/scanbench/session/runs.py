@@ -1,0 +1,52 @@
+"""Run files on this server, and what can be said of one that comes from elsewhere."""
+
+from pathlib import Path
+
+from scanbench.runtime.clock import fresh_token
+from scanbench.runtime.recording import DEFAULT_LIMIT, KeptProgram, Recording
+from scanbench.runtime.runfile import RunFileError
+from scanbench.session.codec import ENTRIES, unpack
+from scanbench.session.protocol import Sources
+
+RUN_SUFFIX = ".run"
+_MIB = 1 << 20
+
+
+def run_path(directory: Path, instance: int) -> Path:
+    """The run file of an instance."""
+    return directory / f"{instance}{RUN_SUFFIX}"
+
+
+def fresh_path(directory: Path, purpose: str) -> Path:
+    """A name that no file has, for a run that comes or goes."""
+    return directory / f"{purpose}-{fresh_token()}{RUN_SUFFIX}"
+
+
+def discard(path: Path) -> None:
+    """Removes a file, if it is there."""
+    path.unlink(missing_ok=True)
+
+
+def discard_all(directory: Path, instance: int) -> None:
+    """Removes the run file of an instance, and what was kept aside of earlier ones."""
+    for path in directory.glob(f"{instance}{RUN_SUFFIX}*"):
+        discard(path)
+
+
+def sources_of(path: Path) -> Sources:
+    """What the program in a run file was made of last; `RunFileError` when it is none, or cannot be used here."""
+    recording = Recording.open(path, ENTRIES, read_only=True)
+    return sources_in(recording.programs[max(recording.programs)])
+
+
+def sources_in(kept: KeptProgram) -> Sources:
+    """What a program in a run file was made of."""
+    sources = unpack(kept.sources)
+    if not isinstance(sources, Sources):
+        raise RunFileError(f"program version {kept.version} of the run file has no sources")
+    return sources
+
+
+def run_limit(mib: int | None) -> int:
+    """The bound of a run file in bytes."""
+    return DEFAULT_LIMIT if mib is None else mib * _MIB

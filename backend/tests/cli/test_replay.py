@@ -1,0 +1,107 @@
+"""`scanbench run --record`, `replay`, and what a run can be told beside writes: modes, restarts, where to end."""
+
+import json
+from pathlib import Path
+
+import pytest
+from typer.testing import CliRunner, Result
+
+from scanbench.cli import app
+
+SOURCE = """
+PROGRAM Main
+VAR n : DINT; kept AT D100 : INT; END_VAR
+VAR RETAIN total : DINT; END_VAR
+  n := n + 1;
+  total := total + 1;
+  kept := 7;
+END_PROGRAM
+"""
+
+
+@pytest.fixture
+def program(tmp_path: Path) -> str:
+    file = tmp_path / "main.st"
+    file.write_text(SOURCE)
+    return str(file)
+
+
+def call(*arguments: str) -> Result:
+    return CliRunner().invoke(app, list(arguments))
+
+
+def test_a_recorded_run_replays_to_the_same_state(program: str, tmp_path: Path) -> None:
+    record = str(tmp_path / "a.scanrun")
+    ran = call(
+        "run", program, "--model", "CJ1M-CPU63", "--scans", "5000", "--set", "Main.n=40@100", "--restart", "warm@300",
+        "--raise", "battery-error@400", "--mode", "PROGRAM@500", "--mode", "RUN@510", "--record", record, "--hash",
+    )  # fmt: skip
+    assert ran.exit_code == 0, ran.output
+    hash = next(line.split()[1] for line in ran.output.splitlines() if line.startswith("sha256"))
+    for engine in ("native", "both"):
+        again = call("replay", record, "--engine", engine, "--json")
+        assert again.exit_code == 0, again.output
+        replayed = json.loads(again.stdout)
+        assert (replayed["hash"], replayed["first_scan"], replayed["scan"]) == (hash, 0, 5000)
+        assert replayed["entries"] == 5
+    part = json.loads(call("replay", record, "--scans", "200", "--json").stdout)
+    assert (part["scan"], part["entries"]) == (200, 1)
+    assert part["hash"] != hash
+    there = call("run", program, "--scans", "1", "--record", record)
+    assert there.exit_code == 2
+    assert "is there already" in there.output
+
+
+def test_a_file_that_is_no_run(program: str, tmp_path: Path) -> None:
+    file = tmp_path / "a.scanrun"
+    for content in (b"", b"something else", b"\0" * 5000):
+        file.write_bytes(content)
+        refused = call("replay", str(file))
+        assert refused.exit_code == 2
+        assert "a.scanrun" in refused.output
+    assert call("replay", str(tmp_path / "none.scanrun")).exit_code == 2
+    call("run", program, "--scans", "3000", "--set", "Main.n=5@7", "--record", str(tmp_path / "b.scanrun"))
+    whole = (tmp_path / "b.scanrun").read_bytes()
+    file.write_bytes(whole[:-20])
+    damaged = call("replay", str(file))
+    assert damaged.exit_code == 0, damaged.output
+    assert "damaged" in damaged.output
+
+
+def test_a_run_ends_when_its_condition_holds(program: str) -> None:
+    ran = call(
+        "run", program, "--scans", "1000", "--until", "Main.n >= 5 AND NOT (Main.n = 6)", "--print", "Main.n", "--json"
+    )
+    assert ran.exit_code == 0, ran.output
+    assert json.loads(ran.stdout)["scans"] == 5
+    never = call("run", program, "--scans", "10", "--until", "Main.n < 0")
+    assert never.exit_code == 2
+    assert "it was not so that Main.n < 0" in never.output
+    wrong = call("run", program, "--scans", "10", "--until", "Main.m > 0")
+    assert wrong.exit_code == 2
+    assert "no member `m`" in wrong.output
+
+
+@pytest.mark.parametrize(("kind", "total", "kept"), [("warm", 15, 7), ("power", 15, 7), ("cold", 5, 7)])
+def test_restarts(program: str, kind: str, total: int, kept: int) -> None:
+    ran = call(
+        "run", program, "--model", "CJ1M-CPU63", "--scans", "15", "--restart", f"{kind}@10",
+        "--print", "Main.n", "--print", "Main.total", "--print", "D100", "--json",
+    )  # fmt: skip
+    assert ran.exit_code == 0, ran.output
+    assert json.loads(ran.stdout)["values"] == {"Main.n": 5, "Main.total": total, "D100": kept}
+
+
+def test_wrong_modes_and_restarts(program: str) -> None:
+    refused = call("run", program, "--scans", "5", "--mode", "FAST@2")
+    assert refused.exit_code == 2
+    assert "FAST is not a mode" in refused.output
+    wrong = call("run", program, "--scans", "5", "--restart", "hot")
+    assert wrong.exit_code == 2
+    assert "cold, warm, power" in wrong.output
+
+
+def test_a_subject_of_bench_has_options_of_its_own() -> None:
+    unknown = call("bench", "noop", "--count", "3")
+    assert unknown.exit_code == 2
+    assert "--count" in unknown.output

@@ -1,0 +1,244 @@
+"""Time of a virtual PLC through the whole house: targets, restarts, the past, branches, run files, online change."""
+
+import os
+import signal
+
+from tests.web.server import Browser, Message, Server
+
+MODEL = "CJ1M-CPU63"
+COUNT = """
+PROGRAM Main
+VAR
+  n : DINT; level : INT; kept AT D100 : INT; work AT W10 : INT; start AT CIO 0.00 : BOOL; first AT A200.11 : BOOL;
+  firsts : INT;
+END_VAR
+VAR RETAIN total : DINT; END_VAR
+  n := n + 1;
+  total := total + 1;
+  IF first THEN firsts := firsts + 1; END_IF;
+END_PROGRAM
+"""
+
+
+def still(browser: Browser) -> int:
+    """Pauses; the scan at which the PLC stands."""
+    assert browser.ask(type="run", action="pause")["ok"]
+    browser.messages.clear()
+    return int(browser.wait_state("paused")["scan"])
+
+
+def shown(browser: Browser, path: str, value: int) -> None:
+    browser.wait(lambda: browser.number(path) == value)
+
+
+def test_a_run_stops_where_it_was_asked_to(server: Server) -> None:
+    instance = server.instance("targets", MODEL, main=COUNT)
+    with server.browser(instance) as browser:
+        browser.watch("Main.n")
+        scan = still(browser)
+        assert browser.ask(type="run", action="continue", speed=0, scans=12_345)["ok"]
+        shown(browser, "Main.n", scan + 12_345)
+        assert "asked for" in browser.wait_state("paused")["message"]
+        done = browser.ask(type="run", action="continue", until="Main.n >= 50000 AND NOT Main.start")
+        assert done["ok"], done
+        shown(browser, "Main.n", 50_000)
+        assert "Main.n >= 50000" in browser.wait_state("paused")["message"]
+        refused = browser.ask(type="run", action="continue", until="Main.m > 3")
+        assert not refused["ok"]
+        assert "no member `m`" in refused["message"]
+        assert not browser.ask(type="run", action="continue", until="Main.n + 3")["ok"]
+        assert browser.ask(type="run", action="scan")["ok"]
+        shown(browser, "Main.n", 50_001)
+
+
+def test_restarts_keep_what_they_should(server: Server) -> None:
+    instance = server.instance("restarts", MODEL, main=COUNT)
+    paths = ("Main.n", "Main.total", "Main.kept", "Main.work", "Main.firsts")
+    with server.browser(instance) as browser:
+        browser.watch(*paths)
+        for path in ("Main.kept", "Main.work"):
+            assert browser.ask(type="write", path=path, value="77")["ok"]
+        browser.wait(lambda: (browser.number("Main.n") or 0) > 20 and browser.number("Main.kept") == 77)
+        scan = still(browser)
+        shown(browser, "Main.n", scan)
+        for kind in ("warm", "power"):
+            total = browser.number("Main.total") or 0
+            assert browser.ask(type="restart", kind=kind)["ok"]
+            shown(browser, "Main.n", 0)
+            state = browser.ask(type="run", action="pause")
+            assert state["scan"] == scan  # the run goes on counting
+            assert [browser.number(path) for path in paths] == [0, total, 77, 0, 0], kind
+            assert browser.ask(type="run", action="scan")["ok"]
+            shown(browser, "Main.firsts", 1)  # the first cycle flag
+            shown(browser, "Main.total", total + 1)
+            scan += 1
+        assert browser.ask(type="restart", kind="cold")["ok"]
+        shown(browser, "Main.n", 0)
+        assert [browser.number(path) for path in paths] == [0, 0, 0, 0, 0]
+        assert browser.ask(type="new_run")["ok"]
+        browser.wait(lambda: any(m["type"] == "timeline" and m["fresh"] for m in browser.messages))
+        assert server.state(instance)["scan"] < 5  # it is paused, as it was
+
+
+def test_everybody_sees_the_past_and_it_cannot_be_changed(server: Server) -> None:
+    instance = server.instance("past", MODEL, main=COUNT)
+    with server.browser(instance) as ada, server.browser(instance, "Grace Hopper") as grace:
+        for browser in (ada, grace):
+            browser.watch("Main.n", "Main.level")
+        assert ada.ask(type="write", path="Main.level", value="5")["ok"]
+        ada.wait(lambda: (ada.number("Main.n") or 0) > 100)
+        scan = still(ada)
+        assert ada.ask(type="force", path="Main.level", value="9")["ok"]
+        assert grace.ask(type="travel", scan=40)["ok"]
+        for browser in (ada, grace):
+            shown(browser, "Main.n", 40)
+            state = browser.wait_state("past")
+            assert (state["scan"], state["past"]) == (40, {"live_scan": scan, "by": "Grace Hopper"})
+        ada.wait(lambda: any(m["type"] == "forces" and not m["forces"] for m in ada.messages))  # none held then
+        for wish in (
+            {"type": "write", "path": "Main.level", "value": "1"},
+            {"type": "mode", "mode": "RUN"},
+            {"type": "run", "action": "continue"},
+            {"type": "restart", "kind": "cold"},
+        ):
+            refused = ada.ask(**wish)
+            assert not refused["ok"]
+            assert "the past" in refused["message"]
+        assert ada.ask(type="run", action="scan")["ok"]
+        shown(ada, "Main.n", 41)
+        assert "scan" in ada.ask(type="travel", scan=scan + 10)["message"]
+        assert ada.ask(type="travel", scan=None)["ok"]
+        shown(ada, "Main.n", scan)
+        shown(grace, "Main.level", 9)
+        assert ada.ask(type="run", action="continue")["ok"]
+        grace.wait(lambda: (grace.number("Main.n") or 0) > scan)
+
+
+def test_a_branch_begins_in_the_past_of_another(server: Server) -> None:
+    instance = server.instance("trunk", MODEL, main=COUNT)
+    with server.browser(instance) as browser:
+        browser.watch("Main.n")
+        browser.wait(lambda: (browser.number("Main.n") or 0) > 80)
+        reply = server.http.post(f"/api/instances/{instance}/branch", json={"name": "twig", "scan": 50})
+        assert reply.status_code == 201, reply.text
+        late = server.http.post(f"/api/instances/{instance}/branch", json={"name": "later", "scan": 1 << 40})
+        assert late.status_code in (422, 503), late.text
+        assert "later" not in [each["name"] for each in server.http.get("/api/instances").json()]
+        clone = server.http.post(f"/api/instances/{instance}/branch", json={"name": "clone"})
+        assert clone.status_code == 201, clone.text
+    with server.browser(reply.json()["id"]) as browser:
+        browser.watch("Main.n")
+        shown(browser, "Main.n", 50)
+        assert browser.ask(type="travel", scan=20)["ok"]  # its past is the same
+        shown(browser, "Main.n", 20)
+        assert browser.ask(type="travel", scan=None)["ok"]
+        assert browser.ask(type="run", action="scan")["ok"]
+        shown(browser, "Main.n", 51)
+
+
+def test_a_run_goes_out_and_comes_in(server: Server) -> None:
+    instance = server.instance("leaving", MODEL, main=COUNT)
+    with server.browser(instance) as browser:
+        browser.watch("Main.n")
+        assert browser.ask(type="write", path="Main.level", value="33")["ok"]
+        browser.wait(lambda: (browser.number("Main.n") or 0) > 30)
+        scan = still(browser)
+    data = server.http.get(f"/api/instances/{instance}/export")
+    assert data.status_code == 200
+    assert "leaving.scanrun" in data.headers["content-disposition"]
+    reply = server.http.post("/api/instances/import", params={"name": "arriving"}, content=data.content)
+    assert reply.status_code == 201, reply.text
+    assert reply.json()["project"]["name"] == "arriving"
+    with server.browser(reply.json()["id"]) as browser:
+        browser.watch("Main.n", "Main.level")
+        shown(browser, "Main.n", scan)
+        shown(browser, "Main.level", 33)
+        known = [browser.hello["timeline"], *(m for m in browser.messages if m["type"] == "timeline")]
+        assert any("Main.level" in mark["text"] for each in known for mark in each["marks"])
+    for broken in (b"", b"no run file", data.content[:40]):
+        refused = server.http.post("/api/instances/import", params={"name": "broken"}, content=broken)
+        assert refused.status_code == 422, refused.text
+        assert refused.json()["message"]
+    assert "broken" not in [each["name"] for each in server.http.get("/api/projects").json()]
+
+
+def test_off_and_on_again_goes_on(server: Server) -> None:
+    instance = server.instance("switched", MODEL, main=COUNT)
+    with server.browser(instance) as browser:
+        browser.watch("Main.n")
+        browser.wait(lambda: (browser.number("Main.n") or 0) > 30)
+        off = server.http.patch(f"/api/instances/{instance}", json={"power": False})
+        assert off.json()["state"]["state"] == "off", off.text
+        refused = browser.ask(type="write", path="Main.level", value="1")
+        assert "Switch it on" in refused["message"]
+        scan = server.state(instance)["scan"]
+        changed = server.http.patch(
+            f"/api/instances/{instance}",
+            json={"power": True, "name": "switched on", "limits": {"memory_mib": 256, "cpu_percent": 50}},
+        ).json()
+        assert (changed["name"], changed["limits"]["memory_mib"]) == ("switched on", 256)
+        browser.wait(lambda: (browser.number("Main.n") or 0) > scan + 10)
+
+        def load() -> Message:
+            found: Message = {each["id"]: each["load"] for each in server.http.get("/api/instances").json()}[instance]
+            return found
+
+        browser.wait(lambda: load()["memory_bytes"] > 1 << 20 and load()["run_bytes"] > 0)
+
+
+def test_online_change_asks_before_it_forgets(server: Server) -> None:
+    instance = server.instance("changing", MODEL, main=COUNT)
+    project = next(each for each in server.http.get("/api/projects").json() if each["name"] == "changing")["id"]
+
+    def save(text: str, version: int) -> None:
+        saved = server.http.put(f"/api/projects/{project}/files/main.st", json={"text": text, "version": version})
+        assert saved.status_code == 200, saved.text
+
+    def build(**how: bool) -> Message:
+        reply: Message = server.http.post(f"/api/projects/{project}/build", json=how).json()
+        return reply
+
+    with server.browser(instance) as browser:
+        browser.watch("Main.n", "Main.level")
+        assert browser.ask(type="write", path="Main.level", value="5")["ok"]
+        browser.wait(lambda: (browser.number("Main.n") or 0) > 30)
+        save(COUNT.replace("level : INT", "level : DINT"), 1)
+        asked = build()
+        assert (asked["ok"], asked["needs_agreement"]) == (False, True)
+        change = asked["changes"][0]
+        assert change["lost"][0]["path"] == "Main.level"
+        assert "INT to DINT" in change["lost"][0]["reason"]
+        assert server.state(instance)["program_version"] == 1
+        changed_at = server.state(instance)["scan"]
+        assert build(agreed=True)["ok"]
+        browser.wait(lambda: browser.number("Main.level") == 0)
+        assert (browser.number("Main.n") or 0) >= 30  # it went on
+        assert server.state(instance)["program_version"] == 2
+
+        browser.wait(lambda: (browser.number("Main.n") or 0) > changed_at + 60)
+        assert browser.ask(type="travel", scan=changed_at - 5)["ok"]  # back across the change
+        shown(browser, "Main.level", 5)
+        assert server.state(instance)["program_version"] == 1
+        assert browser.ask(type="travel", scan=None)["ok"]
+        assert browser.ask(type="roll_back")["ok"]
+        browser.wait(lambda: server.state(instance)["program_version"] == 1)
+        assert browser.ask(type="mode", mode="RUN")["ok"]
+        refused = build(agreed=True)
+        assert not refused["ok"]
+        assert "RUN" in str(refused["message"])
+
+
+def test_killed_in_the_past_of_a_changed_run(server: Server) -> None:
+    """Everything is in the run file: also what was done between two checkpoints."""
+    instance = server.instance("killed at work", MODEL, main=COUNT)
+    with server.browser(instance) as browser:
+        browser.watch("Main.n", "Main.level")
+        for value in range(1, 6):
+            assert browser.ask(type="write", path="Main.level", value=str(value))["ok"]
+        scan = still(browser)
+        assert browser.ask(type="travel", scan=2)["ok"]
+        os.kill(server.state(instance)["pid"], signal.SIGKILL)
+        browser.messages.clear()
+        state = browser.wait_state("paused")
+        assert (state["scan"], state["past"]) == (scan, None)
+        shown(browser, "Main.level", 5)
