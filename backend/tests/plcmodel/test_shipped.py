@@ -86,7 +86,8 @@ def test_everything_has_a_japanese_name(model: Model) -> None:
 @every_model
 def test_what_is_from_knowledge_is_not_called_verified(model: Model) -> None:
     facts = [(each.source, each.verified) for each in model.errors()]
-    facts += [(each.source, each.verified) for each in (*model.specials, *model.instructions)]
+    facts += [(each.source, each.verified) for each in model.specials]
+    facts += [(each.source, each.verified) for each in model.instructions]
     facts += [(each.source, each.verified) for each in model.areas]
     assert all(source for source, _ in facts)
     assert not any(verified for source, verified in facts if "K-" in source)

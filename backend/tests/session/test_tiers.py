@@ -8,6 +8,7 @@ from pathlib import Path
 import pytest
 
 from scanbench.engines.cache import BlobCache
+from scanbench.engines.native import worker
 from scanbench.engines.native.parts import Part
 from scanbench.engines.native.worker import WorkerDied
 from scanbench.runtime.command import Entry
@@ -203,11 +204,10 @@ def test_one_of_many_optimises(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
         plcs.append(Resource(Loaded.make(built.program, built.engine)))
         assert is_optimising(builder)
     runs: list[int] = []
-    worker = tiers_module.optimised
 
     def counted(parts: Iterable[Part], wanted: Callable[[], bool]) -> Iterator[tuple[Part, bytes]]:
         runs.append(1)
-        yield from worker(parts, wanted)
+        yield from worker.optimised(parts, wanted)
 
     monkeypatch.setattr(tiers_module, "optimised", counted)
     found: list[Recode] = []

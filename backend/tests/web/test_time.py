@@ -1,7 +1,11 @@
 """Time of a virtual PLC through the whole house: targets, restarts, the past, branches, run files, online change."""
 
+import json
 import os
 import signal
+import subprocess
+import sys
+from pathlib import Path
 
 from tests.web.server import Browser, Message, Server
 
@@ -22,9 +26,10 @@ END_PROGRAM
 
 def still(browser: Browser) -> int:
     """Pauses; the scan at which the PLC stands."""
-    assert browser.ask(type="run", action="pause")["ok"]
     browser.messages.clear()
-    return int(browser.wait_state("paused")["scan"])
+    done = browser.ask(type="run", action="pause")
+    assert done["ok"], done
+    return int(done["scan"])
 
 
 def shown(browser: Browser, path: str, value: int) -> None:
@@ -242,3 +247,32 @@ def test_killed_in_the_past_of_a_changed_run(server: Server) -> None:
         state = browser.wait_state("paused")
         assert (state["scan"], state["past"]) == (scan, None)
         shown(browser, "Main.level", 5)
+
+
+def test_a_million_scans_come_out_the_same_though_it_was_killed(server: Server, tmp_path: Path) -> None:
+    """What three hosts ran, each killed before the next, another process replays to the same bytes."""
+    instance = server.instance("a million", MODEL, main=COUNT)
+    with server.browser(instance) as browser:
+        browser.watch("Main.n", "Main.level")
+        first = still(browser)
+        for part in (1, 2):
+            assert browser.ask(type="write", path="Main.level", value=str(part))["ok"]
+            assert browser.ask(type="run", action="continue", speed=0)["ok"]
+            browser.wait(lambda low=first + part * 200_000: (browser.number("Main.n") or 0) > low)  # type: ignore[misc]
+            pid = server.state(instance)["pid"]
+            os.kill(pid, signal.SIGKILL)
+            browser.wait(lambda was=pid: server.state(instance)["pid"] not in (None, was))  # type: ignore[misc]
+            assert browser.ask(type="run", action="pause")["ok"]
+        done = browser.ask(type="run", action="pause")
+        assert done["scan"] >= first + 400_000
+        if done["scan"] < 1_000_000:
+            assert browser.ask(type="run", action="continue", scans=1_000_000 - done["scan"])["ok"]
+            shown(browser, "Main.n", 1_000_000)
+    file = tmp_path / "million.scanrun"
+    file.write_bytes(server.http.get(f"/api/instances/{instance}/export").content)
+    command = [str(Path(sys.executable).parent / "scanbench"), "replay", str(file), "--json"]
+    replayed = [subprocess.run(command, capture_output=True, text=True, check=True) for _ in range(2)]
+    found = [json.loads(each.stdout) for each in replayed]
+    assert found[0] == found[1]
+    assert found[0]["scan"] >= 1_000_000
+    assert found[0]["checkpoints"] > 1

@@ -42,7 +42,7 @@ def test_what_building_takes(tmp_path: Path) -> None:
     path.write_text("END_FUNCTION_BLOCK".join([*blocks, "\n"]) + program, "utf-8")
     figures = measure_building(str(path))
     assert set(figures) == {key for key, _, _ in BUILDING}
-    assert all(figure > 0 for figure in figures.values())
+    assert all(figure >= 0 for figure in figures.values()), figures
 
 
 def test_what_the_loop_can_do() -> None:
