@@ -66,8 +66,8 @@ def summary(model: Model) -> list[str]:
     roles = Counter(special.role or "no role" for special in model.specials)
     severities = Counter(error.severity for error in errors)
     details = sum(len(error.details) for error in errors)
-    facts = [each.verified for each in (*model.areas, *errors)]
-    facts += [each.verified for each in (*model.specials, *model.instructions)]
+    facts = [area.verified for area in model.areas] + [error.verified for error in errors]
+    facts += [special.verified for special in model.specials] + [each.verified for each in model.instructions]
     return [
         f"{model.name} ({model.vendor}): {model.description}",
         *_table(rows),

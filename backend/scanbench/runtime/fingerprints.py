@@ -3,19 +3,41 @@
 import hashlib
 import math
 import struct
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
 from functools import cache
 
 from scanbench.check.program import Program
 from scanbench.check.types import Record
-from scanbench.plcmodel.model import Model
+from scanbench.plcmodel.model import Area, Model
 
 _SAMPLES = 500
+_WORDS = frozenset({"description", "source", "verified", "wordings"})
 _F64 = struct.Struct("<d")
 
 
 def model_fingerprint(model: Model) -> str:
-    """Of everything that is known of a model."""
-    return _hash(repr(model).encode())
+    """Of everything that a model does; what is only told to people may be worded otherwise."""
+    return _hash("\n".join(_deeds(model, set())).encode())
+
+
+def _deeds(value: object, areas: set[str]) -> Iterator[str]:
+    """`areas` are those that were described already: every place names its area."""
+    if isinstance(value, Area) and value.name in areas:
+        yield value.name
+    elif is_dataclass(value):
+        if isinstance(value, Area):
+            areas.add(value.name)
+        for field in fields(value):
+            if field.name not in _WORDS and not (field.name == "name" and hasattr(value, "id")):
+                yield field.name
+                yield from _deeds(getattr(value, field.name), areas)
+    elif isinstance(value, tuple):
+        yield f"({len(value)}"
+        for each in value:
+            yield from _deeds(each, areas)
+    else:
+        yield repr(value)
 
 
 def program_digest(program: Program) -> str:
@@ -24,8 +46,7 @@ def program_digest(program: Program) -> str:
     parts = [repr((layout.areas, layout.state_size, layout.size, layout.violations, program.interval_ns))]
     if layout.globals is not None:
         parts.append(_members(layout.globals))
-    for task in program.tasks:
-        parts += [f"{each.name} {each.offset} {_members(each.pou.instance)}" for each in task.programs]
+    parts += [f"{each.name} {each.offset} {_members(each.pou.instance)}" for each in program.instances]
     return _hash("\n".join(parts).encode() + program.initial_image)
 
 
@@ -41,7 +62,7 @@ def libm_fingerprint() -> str:
             math.exp(small * 10), math.log(large), math.log10(large), math.atan2(small, large), math.pow(large, small),
         ):  # fmt: skip
             results += _F64.pack(value)
-    return _hash(results)
+    return _hash(bytes(results))
 
 
 def _members(record: Record) -> str:

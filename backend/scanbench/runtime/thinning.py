@@ -1,6 +1,6 @@
 """Which checkpoints go when a run file is over its limit: the older, the fewer are left."""
 
-from collections.abc import Sequence
+from collections.abc import Sequence, Set
 from dataclasses import dataclass
 
 from scanbench.runtime.runfile import Block
@@ -57,7 +57,9 @@ def plan_thinning(checkpoints: Sequence[Checkpoint], excess: int, excess_entries
         left = [each for each in left if each.block.offset not in dropped]
     cut = None
     if freed < excess or excess_entries > 0:
-        cut = _place_of_cut(left, excess - freed, excess_entries)
+        cut = _place_of_cut(checkpoints, dropped, excess - freed, excess_entries)
+    if cut is not None:
+        dropped.discard(cut.block.offset)
     return Thinning(frozenset(dropped), thinned_before, cut)
 
 
@@ -75,12 +77,18 @@ def _thin_once(left: Sequence[Checkpoint], most: int) -> list[Checkpoint]:
     return gone
 
 
-def _place_of_cut(left: Sequence[Checkpoint], excess: int, excess_entries: int) -> Checkpoint | None:
-    """The first keyframe with enough in front of it; else the last one. None when that is the first checkpoint."""
-    begin, passed = left[0], 0
-    keyframes = [each for each in left if each.whole]
-    for each in keyframes:
-        passed = each.block.offset - begin.block.offset
-        if each is not begin and passed >= excess and each.entries - begin.entries >= excess_entries:
-            return each
-    return keyframes[-1] if keyframes and keyframes[-1] is not begin else None
+def _place_of_cut(
+    checkpoints: Sequence[Checkpoint], dropped: Set[int], excess: int, excess_entries: int
+) -> Checkpoint | None:
+    """The first keyframe with enough in front of it besides what is dropped anyway; else the last one, unless it is the first."""
+    begin, thinned = checkpoints[0], 0
+    last = None
+    for each in checkpoints:
+        if each.whole and each is not begin:
+            last = each
+            in_front = each.block.offset - begin.block.offset - thinned
+            if in_front >= excess and each.entries - begin.entries >= excess_entries:
+                return each
+        if each.block.offset in dropped:
+            thinned += each.block.size
+    return last

@@ -264,6 +264,6 @@ def test_the_oldest_part_may_go_while_the_past_is_shown(tmp_path: Path, monkeypa
     timeline.return_live()
     assert timeline.resource.state == state
     assert timeline.new_entries() == []
-    assert len(timeline.live_journal) < 2000
+    assert len(timeline.live_journal) < 2401
     assert timeline.resource.journal.derived(FORCED).keys() == {"MAIN.OTHER"}
     timeline.close()

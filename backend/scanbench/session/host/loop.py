@@ -41,7 +41,7 @@ class Loop:
         self._inbox: deque[object] = deque()
         self._wake = threading.Event()
         self._tick = True
-        self._quit = False
+        self._quit = self._rested = False
         self._course = Course(self.resource.program.interval_ns, start.speed, start.paused, start.cpu_percent)
         self._services = Services(timeline, self._course, link, note, tiers)
 
@@ -105,7 +105,11 @@ class Loop:
             if self.timeline.past or not self.resource.runnable or self._course.paused:
                 self._wake.wait()
                 self._wake.clear()
+                self._rested = True
             else:
+                if self._rested:  # what was missed meanwhile is not late
+                    self._rested = False
+                    self._course.set_pace(self.resource.program.interval_ns)
                 self._run()
         self.timeline.close()
 
