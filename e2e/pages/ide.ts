@@ -2,8 +2,10 @@ import { expect, type Locator, type Page } from '@playwright/test';
 import { Diagnostics } from './diagnostics';
 import { Editor } from './editor';
 import { Explorer } from './explorer';
+import { InstanceList } from './instances';
 import { Problems } from './problems';
 import { Simulator } from './simulator';
+import { Timeline } from './timeline';
 import { TopBar } from './topbar';
 import { Watch } from './watch';
 
@@ -15,6 +17,8 @@ export class Ide {
   readonly simulator: Simulator;
   readonly problems: Problems;
   readonly diagnostics: Diagnostics;
+  readonly timeline: Timeline;
+  readonly instances: InstanceList;
 
   constructor(readonly page: Page) {
     this.top = new TopBar(page);
@@ -23,6 +27,8 @@ export class Ide {
     this.simulator = new Simulator(page);
     this.problems = new Problems(page);
     this.diagnostics = new Diagnostics(page);
+    this.timeline = new Timeline(page);
+    this.instances = new InstanceList(page);
   }
 
   editor(file: string): Editor {

@@ -25,8 +25,41 @@ export class TopBar {
     await expect(this.mode(name)).toBeChecked();
   }
 
-  async restart(): Promise<void> {
-    await this.page.getByRole('toolbar', { name: 'Run controls' }).getByRole('button', { name: 'Restart' }).click();
+  get controls(): Locator {
+    return this.page.getByRole('toolbar', { name: 'Run controls' });
+  }
+
+  async restart(kind: 'Cold restart' | 'Warm restart' | 'Power cycle' = 'Cold restart'): Promise<void> {
+    await this.controls.getByRole('button', { name: 'Restart' }).click();
+    await this.page.getByRole('menuitem', { name: kind }).click();
+  }
+
+  async press(control: 'Back one scan' | 'Continue' | 'Pause' | 'Single scan' | 'Forward one scan'): Promise<void> {
+    await this.controls.getByRole('button', { name: control, exact: true }).click();
+  }
+
+  /** The dialog for a condition at which the run ends. */
+  async askUntil(condition: string): Promise<Locator> {
+    await this.controls.getByRole('button', { name: 'Run up to' }).click();
+    await this.page.getByRole('menuitem', { name: 'Run until…' }).click();
+    const dialog = this.page.getByRole('dialog', { name: 'Run until' });
+    await dialog.getByRole('textbox', { name: 'Condition' }).fill(condition);
+    await dialog.getByRole('button', { name: 'Run', exact: true }).click();
+    return dialog;
+  }
+
+  async runScans(count: number): Promise<void> {
+    await this.controls.getByRole('button', { name: 'Run up to' }).click();
+    await this.page.getByRole('menuitem', { name: 'Run scans…' }).click();
+    const dialog = this.page.getByRole('dialog', { name: 'Run scans' });
+    await dialog.getByRole('textbox', { name: 'Scans' }).fill(String(count));
+    await dialog.getByRole('button', { name: 'Run', exact: true }).click();
+    await expect(dialog).toBeHidden();
+  }
+
+  async showInstances(): Promise<void> {
+    await this.picker.click();
+    await this.page.getByRole('menuitem', { name: 'Instances…' }).click();
   }
 
   /** The number of the last scan that this browser was told. */

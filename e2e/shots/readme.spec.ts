@@ -30,6 +30,28 @@ test('a fatal error', async ({ openAs }) => {
   await take(mika, 'fatal');
 });
 
+test('the past: how it was before the error', async ({ openAs }) => {
+  const { mika } = await atWork(openAs);
+  await raise(mika);
+  await mika.watch.set('start', 'FALSE');
+  const raised = mika.timeline.mark(/^Error: /);
+  await raised.click();
+  await expect(mika.timeline.banner).toBeVisible();
+  await take(mika, 'past');
+});
+
+test('the list of instances', async ({ openAs }) => {
+  const { mika } = await atWork(openAs);
+  await mika.top.showInstances();
+  await mika.instances.choose('line-1');
+  for (const name of ['line-3', 'spare']) await mika.instances.pressAndName('Clone…', name);
+  await mika.instances.choose('spare');
+  await mika.instances.press('Switch off');
+  await expect(mika.instances.row('spare')).toContainText('Off');
+  await mika.instances.choose('line-1');
+  await take(mika, 'instances');
+});
+
 test('a small window', async ({ openAs }) => {
   const mika = await openAs('Mika');
   await mika.page.setViewportSize({ width: 1024, height: 700 });

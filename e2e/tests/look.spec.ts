@@ -5,7 +5,6 @@ import type { Ide } from '../pages/ide';
 const THEMES = ['dark', 'light', 'high contrast'];
 
 test('everybody can read it: no serious finding in any theme', async ({ openAs }) => {
-  test.setTimeout(120_000);
   const mika = await openAs('Mika');
   await mika.runs();
   await expect(mika.editor('Main.st').line('PROGRAM Main').first()).toBeVisible();
@@ -24,6 +23,15 @@ test('everybody can read it: no serious finding in any theme', async ({ openAs }
     await mika.showPanel('History');
     expect(await findings(mika)).toEqual([]);
     await mika.showPanel('Error log');
+    expect(await findings(mika)).toEqual([]);
+  });
+  await test.step('the past, and the list of instances', async () => {
+    await mika.timeline.click(0.5);
+    await expect(mika.timeline.banner).toBeVisible();
+    expect(await findings(mika)).toEqual([]);
+    await mika.timeline.returnToLive();
+    await mika.top.showInstances();
+    await expect(mika.instances.row('line-1')).toBeVisible();
     expect(await findings(mika)).toEqual([]);
   });
 });
@@ -86,7 +94,7 @@ test('by keyboard alone', async ({ openAs }) => {
 
   await test.step('F6 goes round the panes and comes back to the first', async () => {
     const round = await roundOfPanes(mika, 'F6');
-    expect(round.slice().sort()).toEqual(['editor', 'errors', 'explorer', 'status', 'topbar', 'watch']);
+    expect(round.slice().sort()).toEqual(['editor', 'errors', 'explorer', 'status', 'timeline', 'topbar', 'watch']);
     const back = await roundOfPanes(mika, 'Shift+F6');
     expect(back.slice().sort()).toEqual(round.slice().sort());
   });

@@ -2,8 +2,11 @@ import { useEffect, useRef, useState } from "react";
 import { showState } from "../logic/plcstate";
 import { t } from "../logic/text";
 import { Banners } from "../panels/banner/Banners";
+import { OnlineChange } from "../panels/change/OnlineChange";
 import { Explorer } from "../panels/explorer/Explorer";
+import { Instances } from "../panels/instances/Instances";
 import { StatusBar } from "../panels/status/StatusBar";
+import { Timeline } from "../panels/timeline/Timeline";
 import { TopBar } from "../panels/topbar/TopBar";
 import { start, useBench } from "../store/bench";
 import { useDocuments } from "../store/documents";
@@ -63,7 +66,10 @@ function Window() {
         <Splitter />
         <Dock ref={dock} />
       </main>
+      <Timeline />
       <StatusBar />
+      <Instances />
+      <OnlineChange />
     </div>
   );
 }

@@ -13,7 +13,7 @@ export interface DockHandle {
 }
 
 /** Counted up when the usual arrangement changes: what was kept of the one before would hide the change. */
-const LAYOUT = "layout.3";
+const LAYOUT = "layout.4";
 const THEME = { name: "scanbench", className: "dockview-theme-scanbench" };
 
 /** The dockable part of the window. The layout is kept in this browser. */

@@ -5,6 +5,7 @@ import { catchUp, onBuilt, onDeleted, onSaved } from "../store/documents";
 import { onForces, onWritten } from "../store/forces";
 import { resetMembers } from "../store/members";
 import { onErrors, onHello, onLog, onState, usePlc } from "../store/plc";
+import { onTimeline } from "../store/timeline";
 import { apply } from "../store/values";
 import { onWatching, watchAgain } from "../store/watches";
 import { refreshMembers } from "../store/watchlist";
@@ -31,6 +32,7 @@ function dispatch(message: ServerMessage): void {
     case "hello":
       onHello(message);
       onForces(message.forces);
+      onTimeline(message.timeline);
       onProject(message.instance.project);
       useBench.setState({ instance: message.instance });
       watchAgain();
@@ -69,6 +71,9 @@ function dispatch(message: ServerMessage): void {
       return;
     case "diagnostics":
       usePlc.setState({ diagnostics: message });
+      return;
+    case "timeline":
+      onTimeline(message);
       return;
     case "written":
       onWritten(message.path, message.author, message.scan);

@@ -1,13 +1,16 @@
 /** Keys of the whole window. Captured before Monaco, which keeps F8 and others to itself. */
 import { build, save, useDocuments } from "../store/documents";
-import { runAction, singleScan, toggleRun } from "../store/run";
+import { restartByKey, singleScan, toggleRun } from "../store/run";
+import { returnToLive, stepBack } from "../store/timeline";
 
 type Handler = (event: KeyboardEvent) => void;
 
 const keys: Record<string, Handler> = {
   F5: toggleRun,
-  "Ctrl+Shift+F5": () => void runAction("restart"),
+  "Ctrl+Shift+F5": restartByKey,
   F8: singleScan,
+  "Shift+F8": stepBack,
+  "Shift+Escape": returnToLive,
   F6: () => cyclePanes(1),
   "Shift+F6": () => cyclePanes(-1),
   "Ctrl+S": () => {

@@ -26,7 +26,7 @@ export function standardLayout(dock: DockviewApi): void {
     id: "watch",
     component: "watch",
     position: { referencePanel: "start", direction: "below" },
-    initialHeight: innerHeight < 800 ? 280 : 386,
+    initialHeight: innerHeight < 800 ? 248 : 340,
   });
   for (const id of ["problems", "diagnostics", "log", "history"]) {
     dock.addPanel({ id, component: id, position: { referencePanel: "watch" }, inactive: true });

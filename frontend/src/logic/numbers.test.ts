@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { grouped, interval, microseconds, plcTime } from "./numbers";
+import { bytes, duration, grouped, interval, microseconds, percent, plcTime } from "./numbers";
 
 describe("numbers", () => {
   it("groups thousands", () => {
@@ -19,5 +19,24 @@ describe("numbers", () => {
     expect(interval(10_000_000)).toBe("10 ms");
     expect(interval(500_000)).toBe("500 µs");
     expect(interval(1_000_000_000)).toBe("1 s");
+  });
+
+  it("sizes, lengths and shares", () => {
+    expect([0, 999, 1000, 65_536, 67_108_864, 3_221_225_472].map(bytes)).toEqual([
+      "0 B",
+      "999 B",
+      "1.0 KiB",
+      "64 KiB",
+      "64 MiB",
+      "3.0 GiB",
+    ]);
+    expect([42e6, 21.44e9, 363e9, 7800e9, 273_600e9].map(duration)).toEqual([
+      "42 ms",
+      "21.4 s",
+      "6 min 3 s",
+      "2 h 10 min",
+      "3 d 4 h",
+    ]);
+    expect([0, 0.42, 12.3].map(percent)).toEqual(["0 %", "0.4 %", "12 %"]);
   });
 });

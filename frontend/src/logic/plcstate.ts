@@ -1,12 +1,22 @@
 /** How a state of the PLC is shown: tone, icon and words. One table, so that bar, rail and status bar agree. */
 import type { InstanceState, RunState } from "../wire/types";
-import { interval } from "./numbers";
+import { grouped, interval } from "./numbers";
 import { t } from "./text";
 
-export type Tone = "running" | "halted" | "stopped" | "fatal" | "stale";
+export type Tone = "running" | "halted" | "stopped" | "fatal" | "past" | "stale";
 
 /** Names of drawings in `ui/drawings.tsx`. */
-export type StateIcon = "running" | "halted" | "stopped" | "fatal" | "lost" | "wait" | "refresh" | "error";
+export type StateIcon =
+  | "running"
+  | "halted"
+  | "stopped"
+  | "fatal"
+  | "lost"
+  | "wait"
+  | "refresh"
+  | "error"
+  | "past"
+  | "off";
 
 export interface ShownState {
   tone: Tone;
@@ -24,6 +34,8 @@ const LOOKS: Record<RunState, { tone: Tone; icon: StateIcon }> = {
   trapped: { tone: "fatal", icon: "fatal" },
   restarting: { tone: "halted", icon: "refresh" },
   failed: { tone: "fatal", icon: "error" },
+  past: { tone: "past", icon: "past" },
+  off: { tone: "stopped", icon: "off" },
 };
 
 export function showState(state: InstanceState | null, connected: boolean): ShownState {
@@ -41,7 +53,7 @@ export function showState(state: InstanceState | null, connected: boolean): Show
 function detailOf(state: InstanceState): string {
   switch (state.state) {
     case "running":
-      return t("state.cyclic", { interval: interval(state.interval_ns) });
+      return state.target || t("state.cyclic", { interval: interval(state.interval_ns) });
     case "starting":
       return t("state.loading");
     case "fatal":
@@ -50,6 +62,10 @@ function detailOf(state: InstanceState): string {
       return state.trap ? `${state.trap.file}:${state.trap.line}` : "";
     case "stopped":
       return t("state.noprogram");
+    case "past":
+      return t("state.readonly", { scan: grouped(state.scan) });
+    case "off":
+      return t("state.switchedoff");
     default:
       return "";
   }

@@ -10,6 +10,7 @@ import { keep, recall } from "./keep";
 import { resetMembers } from "./members";
 import { resetPlc } from "./plc";
 import { resetSimulator } from "./simulator";
+import { resetTimeline } from "./timeline";
 import { loadWatchList } from "./watchlist";
 
 interface Bench {
@@ -65,6 +66,7 @@ async function look(project: Project, instance: Instance | null): Promise<void> 
   resetPlc();
   resetForces();
   resetSimulator();
+  resetTimeline();
   resetMembers(instance?.id ?? null);
   link.connect(instance?.id ?? null);
   loadWatchList(instance?.id ?? null, instance?.project.watch ?? []);
@@ -80,7 +82,7 @@ async function loadModel(name: string): Promise<void> {
 export async function createProject(name: string, model: string, instanceName: string): Promise<void> {
   const project = await rest.createProject(name, model);
   if ((await rest.files(project.id)).length === 0) await rest.save(project.id, "Main.st", skeleton("Main.st"), 0);
-  const built = await rest.build(project.id);
+  const built = await rest.build(project.id, true);
   if (built.ok) await createInstance(built.project, instanceName);
   else {
     await refreshApp();

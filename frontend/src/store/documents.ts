@@ -3,7 +3,7 @@ import { create } from "zustand";
 import { skeleton } from "../logic/explorer";
 import { t } from "../logic/text";
 import { rest } from "../wire/rest";
-import type { BuildResult, EmbeddedCheck, FileInfo, FileText, Pou, Problem } from "../wire/types";
+import type { BuildResult, EmbeddedCheck, FileInfo, FileText, OnlineChange, Pou, Problem } from "../wire/types";
 import { forget, keep, recall } from "./keep";
 import { usePlc } from "./plc";
 
@@ -41,6 +41,10 @@ interface Documents {
   /** Subrange checks of the texts as they stand; the last good ones while there are errors. */
   checks: readonly EmbeddedCheck[];
   build: BuildState;
+  /** A build that waits for a yes: variables of running PLCs would begin anew. */
+  asking: BuildResult | null;
+  /** What the last swap of the program did to the running PLCs; null when it was rolled back, or there was none. */
+  change: readonly OnlineChange[] | null;
   /** Something that failed and is not about one line: shown at the top of the problem list. */
   trouble: string | null;
 }
@@ -54,6 +58,8 @@ const nothing: Omit<Documents, "project"> = {
   problems: [],
   checks: [],
   build: { phase: "idle" },
+  asking: null,
+  change: null,
   trouble: null,
 };
 
@@ -199,11 +205,11 @@ export async function resolveConflict(path: string, choice: "mine" | "theirs"): 
   await save(path);
 }
 
-/** Saves what is not saved, then builds; the running instances get the new program in their seams. */
-export async function build(): Promise<void> {
+/** Saves what is not saved, then builds; the running instances get the new program in their seams, once `agreed` if values are lost. */
+export async function build(agreed = false): Promise<void> {
   const { project, open } = get();
   if (project === null || get().build.phase === "running" || isCutOff()) return;
-  set({ build: { phase: "running" } });
+  set({ build: { phase: "running" }, asking: null });
   try {
     for (const document of Object.values(open)) {
       if (!(await save(document.path))) {
@@ -211,7 +217,7 @@ export async function build(): Promise<void> {
         return;
       }
     }
-    onBuilt(await rest.build(project), null);
+    onBuilt(await rest.build(project, agreed), null);
   } catch (error) {
     set({ build: { phase: "done", ok: false, message: messageOf(error), author: null } });
   }
@@ -219,7 +225,12 @@ export async function build(): Promise<void> {
 
 export function onBuilt(result: BuildResult, author: string | null): void {
   if (get().project !== result.project.id) return;
-  set({ build: { phase: "done", ok: result.ok, message: result.message, author } });
+  if (result.needs_agreement) set({ build: { phase: "idle" }, asking: result });
+  else {
+    const swapped = result.ok && result.changes.some((change) => change.refusal === "");
+    set({ build: { phase: "done", ok: result.ok, message: result.message, author } });
+    if (result.ok) set({ change: swapped ? result.changes : null });
+  }
   const dirty = Object.values(get().open).some(isDirty);
   if (dirty) scheduleCheck();
   else set({ problems: result.problems, ...(result.pous.length > 0 ? { pous: result.pous } : {}) });

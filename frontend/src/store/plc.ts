@@ -1,5 +1,7 @@
 /** The virtual PLC this browser is connected to: state, users, errors and log, as the server last told. */
 import { create } from "zustand";
+import { type Deed, forbidden } from "../logic/permits";
+import { t } from "../logic/text";
 import type { LinkStatus } from "../wire/socket";
 import type { Diagnostics, ErrorHistoryRow, Hello, InstanceState, LogLine, User } from "../wire/types";
 import { setClock } from "./clock";
@@ -38,6 +40,12 @@ export const useOnline = () => usePlc((plc) => plc.link.state === "open");
 
 /** True when there was a connection and it went away; a project without an instance has none to lose. */
 export const useLost = () => usePlc((plc) => plc.link.state === "lost");
+
+/** Why something cannot be done to the PLC now, in words; null when it can. */
+export function useForbidden(deed: Deed): string | null {
+  const key = usePlc((plc) => forbidden(plc.state, plc.link.state === "open", deed));
+  return key === null ? null : t(key);
+}
 
 export function resetPlc(): void {
   usePlc.setState({ ...nothing, link: usePlc.getState().link });

@@ -1,50 +1,99 @@
 /** Mode and run controls: what they send, and what was refused. */
 import { create } from "zustand";
+import { forbidden } from "../logic/permits";
 import { t } from "../logic/text";
-import { send } from "../wire/send";
-import type { Mode } from "../wire/types";
+import { type Answer, send } from "../wire/send";
+import type { Mode, RestartKind, RunOrder } from "../wire/types";
+import { useDocuments } from "./documents";
+import { keep, recall } from "./keep";
 import { usePlc } from "./plc";
+import { stepForward } from "./timeline";
 
-export const SPEEDS = [0.1, 1, 10, 100, 0] as const;
+export const SPEEDS = [0.01, 0.1, 0.5, 1, 2, 10, 100, 1000, 0] as const;
+const CONDITIONS = 5;
 
-interface RunRefusal {
+interface RunState {
   refused: string | null;
+  /** The conditions that runs were to stop at, the last one first. */
+  conditions: readonly string[];
 }
 
-export const useRun = create<RunRefusal>(() => ({ refused: null }));
+export const useRun = create<RunState>(() => ({ refused: null, conditions: recall<string[]>("conditions", []) }));
 
 export function speedName(speed: number): string {
   return speed === 0 ? t("run.max") : `×${speed}`;
 }
 
-type Action = "continue" | "pause" | "scan" | "restart";
-
-export async function runAction(action: Action): Promise<void> {
-  await order(action, null);
+export async function runAction(action: RunOrder["action"]): Promise<void> {
+  await order({ action });
 }
 
 /** A paused PLC stays paused; the speed counts when it goes on. */
 export async function setSpeed(speed: number): Promise<void> {
-  await order(usePlc.getState().state?.state === "paused" ? "pause" : "continue", speed);
+  await order({ action: usePlc.getState().state?.state === "paused" ? "pause" : "continue", speed });
 }
 
-async function order(action: Action, speed: number | null): Promise<void> {
-  const answer = await send({ type: "run", action, speed });
-  useRun.setState({ refused: answer.ok ? null : answer.message || t("notsent") });
+/** So many scans, then pause. The dialog that asked shows a refusal itself. */
+export function runScans(scans: number): Promise<Answer> {
+  return post({ action: "continue", scans });
+}
+
+/** Up to the first scan after which a condition holds. What was accepted is kept, to be asked for again. */
+export async function runUntil(until: string): Promise<Answer> {
+  const answer = await post({ action: "continue", until });
+  if (!answer.ok) return answer;
+  const conditions = [until, ...useRun.getState().conditions.filter((kept) => kept !== until)].slice(0, CONDITIONS);
+  useRun.setState({ conditions });
+  keep("conditions", conditions);
+  return answer;
+}
+
+export async function restart(kind: RestartKind): Promise<void> {
+  report(await send({ type: "restart", kind }));
+}
+
+export async function rollBack(): Promise<void> {
+  if (report(await send({ type: "roll_back" })).ok) useDocuments.setState({ change: null });
 }
 
 export async function chooseMode(mode: Mode): Promise<void> {
-  const answer = await send({ type: "mode", mode });
+  report(await send({ type: "mode", mode }));
+}
+
+/** The same condition once more, from the menu: a refusal is shown in the status bar. */
+export async function runUntilAgain(until: string): Promise<void> {
+  report(await runUntil(until));
+}
+
+async function order(wanted: RunOrder): Promise<void> {
+  report(await post(wanted));
+}
+
+function post({ action, speed = null, scans = null, until = null }: RunOrder): Promise<Answer> {
+  return send({ type: "run", action, speed, scans, until });
+}
+
+function report(answer: Answer): Answer {
   useRun.setState({ refused: answer.ok ? null : answer.message || t("notsent") });
+  return answer;
 }
 
 /** F5: goes on when paused, pauses when running. */
 export function toggleRun(): void {
-  const state = usePlc.getState().state?.state;
-  if (state === "running") void runAction("pause");
-  if (state === "paused") void runAction("continue");
+  const { state } = usePlc.getState();
+  if (state?.state === "running") void runAction("pause");
+  if (state?.state === "paused") void runAction("continue");
 }
 
+/** F8: one more scan of the PLC, or in the past the next one that there was. */
 export function singleScan(): void {
-  if (usePlc.getState().state?.state === "paused") void runAction("scan");
+  const { state } = usePlc.getState();
+  if (state?.state === "paused") void runAction("scan");
+  if (state?.past) stepForward();
+}
+
+/** Ctrl+Shift+F5. */
+export function restartByKey(): void {
+  const { state, link } = usePlc.getState();
+  if (forbidden(state, link.state === "open", "restart") === null) void restart("cold");
 }

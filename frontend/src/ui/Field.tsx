@@ -6,16 +6,19 @@ interface Props {
   onChange: (value: string) => void;
   /** Why the entry was not taken; it stays as typed. */
   refused?: string | null;
+  mono?: boolean;
+  placeholder?: string;
 }
 
 /** A line of text with its name above and, when refused, the reason below. */
-export function Field({ label, value, onChange, refused = null }: Props) {
+export function Field({ label, value, onChange, refused = null, mono = false, placeholder }: Props) {
   return (
     <label className="field">
       <span>{label}</span>
       <input
-        className={`inp${refused ? " bad" : ""}`}
+        className={`inp${mono ? " mono" : ""}${refused ? " bad" : ""}`}
         value={value}
+        placeholder={placeholder}
         spellCheck={false}
         autoComplete="off"
         aria-invalid={refused !== null}

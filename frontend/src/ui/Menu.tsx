@@ -125,6 +125,8 @@ function enabled(menu: HTMLElement): HTMLElement[] {
 interface MenuButtonProps {
   /** The accessible name of the button and of its menu. */
   label: string;
+  /** The tooltip when it is not the name: why it cannot be used, say. */
+  title?: string;
   className?: string;
   items: () => readonly MenuItem[];
   disabled?: boolean;
@@ -132,7 +134,14 @@ interface MenuButtonProps {
 }
 
 /** A button that opens a menu below itself. */
-export function MenuButton({ label, className = "btn quiet sm", items, disabled, children }: MenuButtonProps) {
+export function MenuButton({
+  label,
+  title = label,
+  className = "btn quiet sm",
+  items,
+  disabled,
+  children,
+}: MenuButtonProps) {
   const [at, setAt] = useState<MenuProps["at"] | null>(null);
   return (
     <>
@@ -140,7 +149,7 @@ export function MenuButton({ label, className = "btn quiet sm", items, disabled,
         type="button"
         className={className}
         aria-label={label}
-        title={label}
+        title={title}
         aria-haspopup="menu"
         aria-expanded={at !== null}
         disabled={disabled}

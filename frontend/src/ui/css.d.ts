@@ -4,6 +4,11 @@ import "react";
 declare module "react" {
   interface CSSProperties {
     "--lv"?: number;
+    "--rows"?: number;
     "--cols"?: string;
+    "--c-current"?: string;
+    "--c-change"?: string;
+    "--c-type"?: string;
+    "--c-address"?: string;
   }
 }

@@ -29,7 +29,7 @@ export interface paths {
         };
         /**
          * On Instances
-         * @description Every instance.
+         * @description Every instance, with what it costs.
          */
         get: operations["on_instances_api_instances_get"];
         put?: never;
@@ -63,6 +63,30 @@ export interface paths {
          * @description Ends a PLC, and forgets it.
          */
         delete: operations["on_delete_instance_api_instances__instance__delete"];
+        options?: never;
+        head?: never;
+        /**
+         * On Change Instance
+         * @description Renames it, switches it on or off, limits what it may cost.
+         */
+        patch: operations["on_change_instance_api_instances__instance__patch"];
+        trace?: never;
+    };
+    "/api/instances/{instance}/branch": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Branch
+         * @description A new PLC that begins as this one was before a scan, or is now.
+         */
+        post: operations["on_branch_api_instances__instance__branch_post"];
+        delete?: never;
         options?: never;
         head?: never;
         patch?: never;
@@ -108,6 +132,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/export": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Export
+         * @description The run as one file, which replays byte for byte elsewhere; it ends before `scan`, or now.
+         */
+        get: operations["on_export_api_instances__instance__export_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/symbols": {
         parameters: {
             query?: never;
@@ -122,6 +166,26 @@ export interface paths {
         get: operations["on_symbols_api_instances__instance__symbols_get"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/import": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Import
+         * @description A new PLC, with a project of the same name, that goes on with an exported run; the body is the file.
+         */
+        post: operations["on_import_api_instances_import_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -223,7 +287,7 @@ export interface paths {
         put?: never;
         /**
          * On Build
-         * @description Builds what is saved, and swaps it into the project's instances.
+         * @description Builds what is saved, and swaps it into the project's instances; asks first where variables would begin anew.
          */
         post: operations["on_build_api_projects__project__build_post"];
         delete?: never;
@@ -349,6 +413,11 @@ export interface components {
              */
             program: "none" | "read" | "write";
             /**
+             * Retain
+             * @description keeps its content when the power goes off
+             */
+            retain: boolean;
+            /**
              * Tool
              * @enum {string}
              */
@@ -359,10 +428,41 @@ export interface components {
              */
             words: number;
         };
+        /**
+         * Branch
+         * @description A new instance that begins as this one was before `scan`; null is now (a clone).
+         */
+        Branch: {
+            /** Name */
+            name: string;
+            /** Scan */
+            scan?: number | null;
+        };
+        /**
+         * Build
+         * @description `agreed`: variables may be initialised anew; without it a build that would do so only reports what it would do.
+         */
+        Build: {
+            /**
+             * Agreed
+             * @default false
+             */
+            agreed: boolean;
+        };
         /** BuildResult */
         BuildResult: {
+            /**
+             * Changes
+             * @description for each running PLC of the project
+             */
+            changes: components["schemas"]["OnlineChange"][];
             /** Message */
             message: string;
+            /**
+             * Needs Agreement
+             * @description nothing was swapped yet: variables would be lost; build again, agreed
+             */
+            needs_agreement: boolean;
             /** Ok */
             ok: boolean;
             /** Pous */
@@ -384,6 +484,20 @@ export interface components {
              * @enum {string}
              */
             type: "built";
+        };
+        /**
+         * ChangeInstance
+         * @description Null leaves as it is.
+         */
+        ChangeInstance: {
+            limits?: components["schemas"]["InstanceLimits"] | null;
+            /** Name */
+            name?: string | null;
+            /**
+             * Power
+             * @description false ends the process, true starts it where it was
+             */
+            power?: boolean | null;
         };
         /**
          * CheckRequest
@@ -417,7 +531,7 @@ export interface components {
              */
             type: "clear_diagnostics";
         };
-        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["SetMode"] | components["schemas"]["Run"] | components["schemas"]["ClearDiagnostics"];
+        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["SetMode"] | components["schemas"]["Run"] | components["schemas"]["Restart"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["ClearDiagnostics"];
         /**
          * Deleted
          * @description Somebody deleted a file of this project.
@@ -748,6 +862,7 @@ export interface components {
             instance: components["schemas"]["Instance"];
             /** Log */
             log: components["schemas"]["LogLine"][];
+            timeline: components["schemas"]["Timeline"];
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -761,12 +876,58 @@ export interface components {
         Instance: {
             /** Id */
             id: number;
+            limits: components["schemas"]["InstanceLimits"];
+            load: components["schemas"]["InstanceLoad"];
             /** Model */
             model: string;
             /** Name */
             name: string;
             project: components["schemas"]["Project"];
             state: components["schemas"]["InstanceState"];
+        };
+        /**
+         * InstanceLimits
+         * @description What an instance may cost at most; null is no limit.
+         */
+        InstanceLimits: {
+            /**
+             * Cpu Percent
+             * @description of one core, for runs as fast as possible
+             * @default null
+             */
+            cpu_percent: number | null;
+            /**
+             * Memory Mib
+             * @default null
+             */
+            memory_mib: number | null;
+            /**
+             * Run Mib
+             * @description bound of the run file; null is the default
+             * @default null
+             */
+            run_mib: number | null;
+        };
+        /**
+         * InstanceLoad
+         * @description What an instance costs now; zeros while it is off.
+         */
+        InstanceLoad: {
+            /**
+             * Cpu Percent
+             * @description of one core
+             */
+            cpu_percent: number;
+            /**
+             * Memory Bytes
+             * @description proportional share of memory (PSS)
+             */
+            memory_bytes: number;
+            /**
+             * Run Bytes
+             * @description size of the run file
+             */
+            run_bytes: number;
         };
         /**
          * InstanceState
@@ -783,6 +944,11 @@ export interface components {
             /** Interval Ns */
             interval_ns: number;
             /**
+             * Late Percent
+             * @description scans of the last seconds that began after the next one was due
+             */
+            late_percent: number;
+            /**
              * Message
              * @description one line that says why, e.g. the error code or the trap's place
              */
@@ -792,6 +958,7 @@ export interface components {
              * @enum {string}
              */
             mode: "PROGRAM" | "MONITOR" | "RUN";
+            past: components["schemas"]["PastInfo"] | null;
             /** Pid */
             pid: number | null;
             /** Program Version */
@@ -809,7 +976,12 @@ export interface components {
              * State
              * @enum {string}
              */
-            state: "starting" | "running" | "paused" | "stopped" | "fatal" | "trapped" | "restarting" | "failed";
+            state: "starting" | "running" | "paused" | "stopped" | "fatal" | "trapped" | "restarting" | "failed" | "past" | "off";
+            /**
+             * Target
+             * @description where a run that was asked for ends: `scan 4711`, `until Main.count > 3`; or empty
+             */
+            target: string;
             /** Time Ns */
             time_ns: number;
             trap: components["schemas"]["TrapInfo"] | null;
@@ -831,6 +1003,39 @@ export interface components {
         LogLine: {
             /** At */
             at: string;
+            /** Author */
+            author: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "write" | "force" | "error" | "recover" | "mode" | "run" | "build" | "system";
+            /** Scan */
+            scan: number;
+            /** Text */
+            text: string;
+        };
+        /**
+         * LostVariable
+         * @description A variable that an online change cannot keep: it begins with its initial value.
+         */
+        LostVariable: {
+            /**
+             * Path
+             * @description instance path, e.g. Main.station.count
+             */
+            path: string;
+            /**
+             * Reason
+             * @description new, type changed from INT to DINT, ...
+             */
+            reason: string;
+        };
+        /**
+         * Mark
+         * @description A point of the timeline.
+         */
+        Mark: {
             /** Author */
             author: string;
             /**
@@ -867,6 +1072,11 @@ export interface components {
             status_words: string[];
             /** Vendor */
             vendor: string;
+            /**
+             * Verified Count
+             * @description errors whose facts were looked up, not only known
+             */
+            verified_count: number;
         };
         /** ModelSummary */
         ModelSummary: {
@@ -878,6 +1088,11 @@ export interface components {
             name: string;
             /** Vendor */
             vendor: string;
+            /**
+             * Verified Count
+             * @description errors whose facts were looked up, not only known
+             */
+            verified_count: number;
         };
         /** NewInstance */
         NewInstance: {
@@ -895,6 +1110,56 @@ export interface components {
             model: string;
             /** Name */
             name: string;
+        };
+        /**
+         * NewRun
+         * @description Begins at scan 0, with an empty timeline; the old run file is kept aside on the server.
+         */
+        NewRun: {
+            /** Ref */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "new_run";
+        };
+        /**
+         * OnlineChange
+         * @description What a swap of the program does to the variables of one running PLC.
+         */
+        OnlineChange: {
+            /** Instance */
+            instance: number;
+            /** Kept */
+            kept: number;
+            /**
+             * Lost
+             * @description at most 500; `lost_count` says how many there are
+             */
+            lost: components["schemas"]["LostVariable"][];
+            /** Lost Count */
+            lost_count: number;
+            /** Name */
+            name: string;
+            /**
+             * Refusal
+             * @description why this PLC cannot be changed now (mode RUN, say); empty when it can
+             */
+            refusal: string;
+        };
+        /**
+         * PastInfo
+         * @description What is shown is the past: the PLC waits at `live_scan`.
+         */
+        PastInfo: {
+            /**
+             * By
+             * @description who went there
+             */
+            by: string;
+            /** Live Scan */
+            live_scan: number;
         };
         /** Pou */
         Pou: {
@@ -997,17 +1262,54 @@ export interface components {
              */
             type: "release";
         };
-        /** Run */
+        /** Restart */
+        Restart: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "cold" | "warm" | "power";
+            /** Ref */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "restart";
+        };
+        /**
+         * RollBack
+         * @description Swaps the program back in that ran before the last change.
+         */
+        RollBack: {
+            /** Ref */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "roll_back";
+        };
+        /**
+         * Run
+         * @description `continue` with `scans`: so many, then pause; with `until`: up to the first scan after which the condition holds.
+         */
         Run: {
             /**
              * Action
              * @enum {string}
              */
-            action: "continue" | "pause" | "scan" | "restart";
+            action: "continue" | "pause" | "scan";
             /** Ref */
             ref: number;
             /**
+             * Scans
+             * @default null
+             */
+            scans: number | null;
+            /**
              * Speed
+             * @description 0 is as fast as possible
              * @default null
              */
             speed: number | null;
@@ -1016,6 +1318,12 @@ export interface components {
              * @enum {string}
              */
             type: "run";
+            /**
+             * Until
+             * @description a BOOL expression over instance paths and addresses
+             * @default null
+             */
+            until: string | null;
         };
         /**
          * SaveConflict
@@ -1050,7 +1358,7 @@ export interface components {
             /** Version */
             version: number;
         };
-        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Written"] | components["schemas"]["Alive"];
+        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Alive"];
         /** SetMode */
         SetMode: {
             /**
@@ -1120,6 +1428,60 @@ export interface components {
             writable: boolean;
         };
         /**
+         * Timeline
+         * @description The run's marks, in order: all of them in `hello` and with `fresh`, else only the new ones.
+         */
+        Timeline: {
+            /** Fresh */
+            fresh: boolean;
+            info: components["schemas"]["TimelineInfo"];
+            /**
+             * Marks
+             * @description at most the last 5,000
+             */
+            marks: components["schemas"]["Mark"][];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "timeline";
+        };
+        /**
+         * TimelineInfo
+         * @description What the run file holds, and what it cost.
+         */
+        TimelineInfo: {
+            /** Bytes */
+            bytes: number;
+            /**
+             * Damage
+             * @description what was found damaged when the file was opened, and what was recovered; or empty
+             */
+            damage: string;
+            /**
+             * Dropped Before
+             * @description scans before this are gone for good; 0: none
+             */
+            dropped_before: number;
+            /**
+             * First Scan
+             * @description the earliest scan that can be gone back to
+             */
+            first_scan: number;
+            /** Limit Bytes */
+            limit_bytes: number;
+            /**
+             * Recording
+             * @description why nothing is recorded now (disk full, say); empty while all is well
+             */
+            recording: string;
+            /**
+             * Thinned Before
+             * @description before this scan checkpoints were thinned: going there takes longer; 0: none
+             */
+            thinned_before: number;
+        };
+        /**
          * TrapInfo
          * @description Why the program was stopped by itself.
          */
@@ -1132,13 +1494,28 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "bounds" | "division" | "null" | "string" | "loop" | "abstract";
+            kind: "bounds" | "division" | "null" | "string" | "loop" | "abstract" | "fatal";
             /** Line */
             line: number;
             /** Message */
             message: string;
             /** Scan */
             scan: number;
+        };
+        /**
+         * Travel
+         * @description Shows the PLC as it was before `scan`; null returns to live.
+         */
+        Travel: {
+            /** Ref */
+            ref: number;
+            /** Scan */
+            scan: number | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "travel";
         };
         /** Unwatch */
         Unwatch: {
@@ -1441,6 +1818,76 @@ export interface operations {
             };
         };
     };
+    on_change_instance_api_instances__instance__patch: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ChangeInstance"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Instance"];
+                };
+            };
+        };
+    };
+    on_branch_api_instances__instance__branch_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Branch"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Instance"];
+                };
+            };
+        };
+    };
     on_complete_api_instances__instance__complete_get: {
         parameters: {
             query?: {
@@ -1505,6 +1952,37 @@ export interface operations {
             };
         };
     };
+    on_export_api_instances__instance__export_get: {
+        parameters: {
+            query?: {
+                scan?: number | null;
+            };
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
     on_symbols_api_instances__instance__symbols_get: {
         parameters: {
             query?: {
@@ -1534,6 +2012,37 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Symbol"][];
+                };
+            };
+        };
+    };
+    on_import_api_instances_import_post: {
+        parameters: {
+            query: {
+                name: string;
+            };
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Instance"];
                 };
             };
         };
@@ -1698,7 +2207,11 @@ export interface operations {
             };
             cookie?: never;
         };
-        requestBody?: never;
+        requestBody?: {
+            content: {
+                "application/json": components["schemas"]["Build"];
+            };
+        };
         responses: {
             /** @description Client Error */
             "4XX": {

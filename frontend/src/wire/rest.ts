@@ -2,6 +2,7 @@
 import type {
   AppInfo,
   BuildResult,
+  ChangeInstance,
   CheckResult,
   FileInfo,
   FileText,
@@ -24,10 +25,17 @@ export class Refused extends Error {
   }
 }
 
-async function request(method: string, path: string, body?: unknown, alsoFine: number[] = []): Promise<Response> {
+async function request(
+  method: string,
+  path: string,
+  body?: unknown,
+  alsoFine: number[] = [],
+  signal?: AbortSignal,
+): Promise<Response> {
   const response = await fetch(`/api${path}`, {
     method,
     credentials: "same-origin",
+    ...(signal ? { signal } : {}),
     ...(body === undefined ? {} : { headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) }),
   });
   if (response.ok || alsoFine.includes(response.status)) return response;
@@ -69,13 +77,23 @@ export const rest = {
   },
   check: (project: number, files: Record<string, string>) =>
     json<CheckResult>("POST", `/projects/${project}/check`, { files }),
-  build: (project: number) => json<BuildResult>("POST", `/projects/${project}/build`),
+  build: (project: number, agreed: boolean) => json<BuildResult>("POST", `/projects/${project}/build`, { agreed }),
 
   models: () => json<ModelSummary[]>("GET", "/models"),
   model: (name: string) => json<ModelInfo>("GET", `/models/${encodeURIComponent(name)}`),
 
   instances: () => json<Instance[]>("GET", "/instances"),
   createInstance: (project: number, name: string) => json<Instance>("POST", "/instances", { project, name }),
+  changeInstance: (instance: number, change: Partial<ChangeInstance>) =>
+    json<Instance>("PATCH", `/instances/${instance}`, change),
+  /** A new instance that begins as this one was before a scan; null is now. */
+  branch: (instance: number, name: string, scan: number | null) =>
+    json<Instance>("POST", `/instances/${instance}/branch`, { name, scan }),
+  deleteInstance: async (instance: number): Promise<void> => {
+    await request("DELETE", `/instances/${instance}`);
+  },
+  exportRun: (instance: number, signal: AbortSignal) =>
+    request("GET", `/instances/${instance}/export`, undefined, [], signal),
   symbols: (instance: number, path: string) =>
     json<PlcSymbol[]>("GET", `/instances/${instance}/symbols?path=${encodeURIComponent(path)}`),
   complete: (instance: number, text: string) =>

@@ -7,6 +7,7 @@ export type AppInfo = Shapes["AppInfo"];
 export type Area = Shapes["Area"];
 export type BuildResult = Shapes["BuildResult"];
 export type CheckResult = Shapes["CheckResult"];
+export type ChangeInstance = Shapes["ChangeInstance"];
 export type Diagnostics = Shapes["Diagnostics"];
 export type Done = Shapes["Done"];
 export type EmbeddedCheck = Shapes["EmbeddedCheck"];
@@ -20,18 +21,25 @@ export type ForceInfo = Shapes["ForceInfo"];
 export type GenerateOne = Shapes["GenerateOne"];
 export type Hello = Shapes["Hello"];
 export type Instance = Shapes["Instance"];
+export type InstanceLimits = Shapes["InstanceLimits"];
+export type InstanceLoad = Shapes["InstanceLoad"];
 export type InstanceState = Shapes["InstanceState"];
 export type LogLine = Shapes["LogLine"];
+export type Mark = Shapes["Mark"];
 export type Mode = InstanceState["mode"];
 export type ModelInfo = Shapes["ModelInfo"];
 export type ModelSummary = Shapes["ModelSummary"];
+export type OnlineChange = Shapes["OnlineChange"];
 export type Pou = Shapes["Pou"];
 export type Problem = Shapes["Problem"];
 export type Project = Shapes["Project"];
 export type Refusal = Shapes["Refusal"];
+export type RestartKind = Shapes["Restart"]["kind"];
 export type RunState = InstanceState["state"];
 export type SaveConflict = Shapes["SaveConflict"];
 export type PlcSymbol = Shapes["Symbol"];
+export type Timeline = Shapes["Timeline"];
+export type TimelineInfo = Shapes["TimelineInfo"];
 export type User = Shapes["User"];
 export type Violation = Shapes["Violation"];
 export type Watched = Shapes["Watched"];
@@ -41,6 +49,11 @@ export type ServerMessage = Shapes["ServerMessage"];
 export type ClientMessage = Shapes["ClientMessage"];
 
 type WithoutRef<T> = T extends { ref: number } ? Omit<T, "ref"> : never;
+
+type Run = Extract<ClientMessage, { type: "run" }>;
+
+/** A run order says only what differs from the usual. */
+export type RunOrder = Pick<Run, "action"> & Partial<Pick<Run, "speed" | "scans" | "until">>;
 
 /** What a panel may send: answered by one `Done`, so the reference is added on the way out. */
 export type Command = WithoutRef<Exclude<ClientMessage, { type: "watch" } | { type: "unwatch" }>>;

@@ -1,14 +1,26 @@
 import { usePlc } from "../../store/plc";
 import { FatalBanner } from "./FatalBanner";
 import { LostBanner } from "./LostBanner";
+import { OffBanner } from "./OffBanner";
+import { PastBanner } from "./PastBanner";
+import { RecordingBanner } from "./RecordingBanner";
 import { RestartingBanner } from "./RestartingBanner";
 import { TrapBanner } from "./TrapBanner";
 
-/** At most one banner, the most serious: no connection, then what stops the PLC. */
+/** At most one banner about the PLC, the most serious: no connection, then what stops it; and one about its recording. */
 export function Banners() {
   const link = usePlc((plc) => plc.link);
-  const state = usePlc((plc) => plc.state);
   if (link.state === "lost") return <LostBanner link={link} />;
+  return (
+    <>
+      <PlcBanner />
+      <RecordingBanner />
+    </>
+  );
+}
+
+function PlcBanner() {
+  const state = usePlc((plc) => plc.state);
   if (!state) return null;
   switch (state.state) {
     case "trapped":
@@ -18,6 +30,10 @@ export function Banners() {
     case "restarting":
     case "failed":
       return <RestartingBanner state={state} />;
+    case "past":
+      return <PastBanner state={state} />;
+    case "off":
+      return <OffBanner />;
     default:
       return null;
   }

@@ -1,5 +1,5 @@
 import { t } from "../../logic/text";
-import { runAction } from "../../store/run";
+import { restart } from "../../store/run";
 import { Icon } from "../../ui/Icon";
 import type { InstanceState } from "../../wire/types";
 
@@ -14,8 +14,8 @@ export function RestartingBanner({ state }: { state: InstanceState }) {
         <span className="muted">{state.message || t("restarting.about")}</span>
       </span>
       {failed && (
-        <button type="button" className="btn danger sm" onClick={() => void runAction("restart")}>
-          {t("run.restart")}
+        <button type="button" className="btn danger sm" onClick={() => void restart("cold")}>
+          {t("restart.menu")}
         </button>
       )}
     </div>

@@ -1,7 +1,7 @@
 import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { openFile } from "../../store/navigate";
-import { runAction } from "../../store/run";
+import { restart } from "../../store/run";
 import { Icon } from "../../ui/Icon";
 import type { InstanceState } from "../../wire/types";
 
@@ -28,8 +28,8 @@ export function TrapBanner({ state }: { state: InstanceState }) {
         )}{" "}
         <span className="muted">{t("trap.about")}</span>
       </span>
-      <button type="button" className="btn danger sm" onClick={() => void runAction("restart")}>
-        {t("run.restart")}
+      <button type="button" className="btn danger sm" onClick={() => void restart("cold")}>
+        {t("restart.menu")}
       </button>
     </div>
   );

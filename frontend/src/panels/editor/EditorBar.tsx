@@ -1,9 +1,12 @@
 import { pouAt } from "../../logic/explorer";
+import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
+import { useBench } from "../../store/bench";
 import { build, isDirty, save, useDocuments } from "../../store/documents";
 import { showPanel } from "../../store/navigate";
-import { useLost } from "../../store/plc";
+import { useForbidden, useLost } from "../../store/plc";
 import { toggleChecks, usePrefs } from "../../store/prefs";
+import { rollBack } from "../../store/run";
 import { Icon } from "../../ui/Icon";
 import { StateWord } from "../../ui/StateWord";
 
@@ -25,6 +28,7 @@ export function EditorBar({ path }: { path: string }) {
       {pou && <span className="faint cut">{t(`kind.${pou.kind}`)}</span>}
       <span className="grow" />
       <BuildOutcome />
+      <RollBack />
       <ChecksToggle />
       <button
         type="button"
@@ -65,8 +69,36 @@ function ChecksToggle() {
   );
 }
 
+/** What the last online change did to the PLC that is looked at; empty when there was none. */
+function useChangeNote(): string {
+  const instance = useBench((bench) => bench.instance?.id);
+  const change = useDocuments((documents) => documents.change?.find((known) => known.instance === instance));
+  if (change?.refusal !== "") return "";
+  return t("change.note", { kept: grouped(change.kept), lost: grouped(change.lost_count) });
+}
+
+/** Stands beside the outcome of a build as long as there is a change to take back. */
+function RollBack() {
+  const note = useChangeNote();
+  const forbidden = useForbidden("change");
+  if (note === "") return null;
+  return (
+    <button
+      type="button"
+      className="btn quiet sm"
+      disabled={forbidden !== null}
+      title={forbidden ?? t("change.rollback.hint", { note })}
+      onClick={() => void rollBack()}
+    >
+      <Icon name="past" small />
+      {t("change.rollback")}
+    </button>
+  );
+}
+
 function BuildOutcome() {
   const state = useDocuments((documents) => documents.build);
+  const note = useChangeNote();
   if (state.phase !== "done") return null;
   const by = state.author ? t("build.by", { author: state.author }) : "";
   return (
@@ -78,7 +110,7 @@ function BuildOutcome() {
       onClick={() => showPanel("problems")}
     >
       {state.ok ? (
-        <StateWord tone="running" icon="check" word={`${t("build.ok")}${by}`} />
+        <StateWord tone="running" icon="check" word={`${t("build.ok")}${by}${note && `: ${note}`}`} />
       ) : (
         <StateWord tone="fatal" icon="error" word={`${t("build.refused")}${by}`} />
       )}

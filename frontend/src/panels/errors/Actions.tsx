@@ -1,6 +1,6 @@
 import { allErrors, inNames } from "../../logic/catalogue";
 import { t } from "../../logic/text";
-import { useOnline, usePlc } from "../../store/plc";
+import { useForbidden, usePlc } from "../../store/plc";
 import { generate, recover, targets, useSimulator } from "../../store/simulator";
 import { Icon } from "../../ui/Icon";
 import type { ModelInfo } from "../../wire/types";
@@ -9,7 +9,9 @@ import type { ModelInfo } from "../../wire/types";
 export function Actions({ model }: { model: ModelInfo }) {
   const state = useSimulator();
   const errors = usePlc((plc) => plc.errors);
-  const online = useOnline();
+  const forbidden = useForbidden("errors");
+  const locked = forbidden !== null;
+  const why = forbidden ?? undefined;
   const chosen = targets(state);
   const raised = chosen.filter((id) => errors.get(id)?.status === "generated").length;
   const any = [...errors.values()].some((row) => row.status === "generated");
@@ -30,17 +32,30 @@ export function Actions({ model }: { model: ModelInfo }) {
         <button
           type="button"
           className="btn primary sm"
-          disabled={!online || chosen.length === 0}
+          disabled={locked || chosen.length === 0}
+          title={why}
           onClick={() => void generate(model)}
         >
           <Icon name="generated" small />
           {chosen.length > 1 ? t("errors.generate.many", { count: chosen.length }) : t("errors.generate")}
         </button>
-        <button type="button" className="btn sm" disabled={!online || raised === 0} onClick={() => void recover(false)}>
+        <button
+          type="button"
+          className="btn sm"
+          disabled={locked || raised === 0}
+          title={why}
+          onClick={() => void recover(false)}
+        >
           {raised > 1 ? t("errors.recover.many", { count: raised }) : t("errors.recover")}
         </button>
         <span className="grow" />
-        <button type="button" className="btn quiet sm" disabled={!online || !any} onClick={() => void recover(true)}>
+        <button
+          type="button"
+          className="btn quiet sm"
+          disabled={locked || !any}
+          title={why}
+          onClick={() => void recover(true)}
+        >
           {t("errors.clearall")}
         </button>
       </div>

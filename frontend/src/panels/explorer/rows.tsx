@@ -1,10 +1,12 @@
 import { useEffect, useState } from "react";
 import { type FileNode, type PouGroup, type PouNode, pouGroups, shownAt } from "../../logic/explorer";
+import { percent } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { isDirty, useDocuments } from "../../store/documents";
 import { loadMembers, useMembers } from "../../store/members";
 import { openFile } from "../../store/navigate";
+import { usePlc } from "../../store/plc";
 import { addToWatch } from "../../store/watchlist";
 import type { IconName } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
@@ -51,7 +53,11 @@ export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) =>
   const open = useDocuments((documents) => documents.open);
 
   const { isOpen } = folding;
-  const showInstances = instance !== null && isOpen("instances");
+  // Before it runs, and while it is switched off, a PLC cannot tell its variables.
+  const answers = usePlc(
+    ({ state }) => state !== null && !["off", "starting", "restarting", "failed"].includes(state.state),
+  );
+  const showInstances = instance !== null && answers && isOpen("instances");
   useEffect(() => {
     if (showInstances && !members.has("")) void loadMembers("");
   }, [showInstances, members]);
@@ -179,22 +185,31 @@ function AddButton({ path, onAdd }: { path: string; onAdd: () => void }) {
 function modelRows(model: ModelInfo, folding: Folding, openMenu: OpenMenu): TreeRow[] {
   const memory: TreeRow = { ...folder(folding, "memory", t("explorer.memory"), model.areas.length), icon: "mem" };
   const plc: TreeRow = { ...folder(folding, "model", t("explorer.model")), icon: "plc", meta: model.name };
-  const facts = [model.vendor, model.description, t("explorer.errorcount", { count: model.error_count })].filter(
-    Boolean,
-  );
+  const facts = [t("explorer.vendor", model), model.description, verifiedOf(model)].filter(Boolean);
   return [
     memory,
-    ...(folding.isOpen("memory") ? model.areas.map((area) => areaRow(area, openMenu)) : []),
+    ...(folding.isOpen("memory") ? model.areas.flatMap((area) => areaRows(area, folding, openMenu)) : []),
     plc,
     ...(folding.isOpen("model") ? facts.map((fact) => factRow(fact)) : []),
   ];
 }
 
-function areaRow(area: Area, openMenu: OpenMenu): TreeRow {
+/** How many of the model's errors were looked up in its manuals. */
+function verifiedOf({ error_count: count, verified_count: verified }: ModelInfo): string {
+  if (count === 0) return t("explorer.errorcount", { count });
+  return t("explorer.verified", { count, verified, share: percent((100 * verified) / count) });
+}
+
+/** An area of the memory; unfolded, who may do what with it. */
+function areaRows(area: Area, folding: Folding, openMenu: OpenMenu): TreeRow[] {
   const add = () => addToWatch([area.first]);
-  return {
-    key: `area:${area.name}`,
+  const key = `area:${area.first}`;
+  const open = folding.isOpen(key);
+  const row: TreeRow = {
+    key,
     level: 1,
+    open,
+    onToggle: () => folding.toggle(key),
     icon: "mem",
     label: (
       <>
@@ -207,6 +222,12 @@ function areaRow(area: Area, openMenu: OpenMenu): TreeRow {
     drag: area.first,
     onMenu: (at) => openMenu([{ label: t("watch.add.path", { path: area.first }), icon: "eye", onSelect: add }], at),
   };
+  if (!open) return [row];
+  const who = (["program", "tool", "engine"] as const).map((side) =>
+    t("explorer.access", { who: t(`explorer.access.${side}`), access: t(`explorer.access.${area[side]}`) }),
+  );
+  const facts = [t("explorer.words", area), ...who, t(area.retain ? "explorer.retain" : "explorer.noretain")];
+  return [row, ...facts.map((fact) => ({ ...factRow(fact), key: `${key}:${fact}`, level: 2 }))];
 }
 
 function factRow(fact: string): TreeRow {

@@ -5,6 +5,7 @@ import { showPanel } from "../../store/navigate";
 import { useOnline, usePlc } from "../../store/plc";
 import { chooseLanguage, usePrefs } from "../../store/prefs";
 import { speedName, useRun } from "../../store/run";
+import { useTimeline } from "../../store/timeline";
 import { Icon } from "../../ui/Icon";
 import { MenuButton } from "../../ui/Menu";
 import { StateWord } from "../../ui/StateWord";
@@ -64,7 +65,9 @@ function Raised() {
 }
 
 function RunRefusal() {
-  const refused = useRun((run) => run.refused);
+  const order = useRun((run) => run.refused);
+  const journey = useTimeline((timeline) => timeline.refused);
+  const refused = order ?? journey;
   if (!refused) return null;
   return (
     <span className="st fatal" role="alert" title={refused}>

@@ -1,6 +1,6 @@
 import type { KeyboardEvent } from "react";
 import { t } from "../../logic/text";
-import { useOnline, usePlc } from "../../store/plc";
+import { useForbidden, usePlc } from "../../store/plc";
 import { chooseMode } from "../../store/run";
 import type { Mode } from "../../wire/types";
 
@@ -9,7 +9,7 @@ const MODES: readonly Mode[] = ["PROGRAM", "MONITOR", "RUN"];
 /** PROGRAM, MONITOR, RUN: what is chosen. What the PLC really does stands beside it. */
 export function ModeSwitch() {
   const mode = usePlc((plc) => plc.state?.mode ?? null);
-  const online = useOnline();
+  const forbidden = useForbidden("mode");
 
   function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
     const step = { ArrowRight: 1, ArrowDown: 1, ArrowLeft: -1, ArrowUp: -1 }[event.key];
@@ -22,7 +22,7 @@ export function ModeSwitch() {
 
   return (
     <div
-      className={`seg caps${online ? "" : " lock"}`}
+      className={`seg caps${forbidden === null ? "" : " lock"}`}
       role="radiogroup"
       aria-label={t("mode.label")}
       onKeyDown={onKeyDown}
@@ -35,7 +35,8 @@ export function ModeSwitch() {
           className={name === mode ? "on" : ""}
           aria-checked={name === mode}
           tabIndex={name === (mode ?? "PROGRAM") ? 0 : -1}
-          disabled={!online}
+          title={forbidden ?? t(`mode.${name}.about`)}
+          disabled={forbidden !== null}
           onClick={() => void chooseMode(name)}
         >
           {name}

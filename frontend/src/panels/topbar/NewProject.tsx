@@ -6,6 +6,7 @@ import { listModels } from "../../store/models";
 import { Dialog } from "../../ui/Dialog";
 import { Field } from "../../ui/Field";
 import type { ModelSummary } from "../../wire/types";
+import { ModelFacts } from "./ModelFacts";
 
 /** Asks for the name, the PLC model and the first instance of a new project. */
 export function NewProject({ onClose }: { onClose: () => void }) {
@@ -47,6 +48,7 @@ export function NewProject({ onClose }: { onClose: () => void }) {
     <Dialog
       title={t("newproject.title")}
       about={t("newproject.about")}
+      width={520}
       onClose={onClose}
       onSubmit={() => void create()}
       footer={
@@ -76,8 +78,8 @@ export function NewProject({ onClose }: { onClose: () => void }) {
             </option>
           ))}
         </select>
-        <span className="hint">{models.find((known) => known.name === model)?.description}</span>
       </label>
+      <ModelFacts model={models.find((known) => known.name === model)} />
       <Field
         label={t("newproject.instance")}
         value={instance}

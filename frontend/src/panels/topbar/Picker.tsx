@@ -1,6 +1,7 @@
 import { useState } from "react";
 import { t } from "../../logic/text";
 import { chooseInstance, chooseProject, refreshApp, useBench } from "../../store/bench";
+import { showInstances } from "../../store/instances";
 import { Icon } from "../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../ui/Menu";
 import type { AppInfo } from "../../wire/types";
@@ -64,10 +65,10 @@ function itemsOf(
   return [
     ...instances,
     ...projects,
+    { label: t("instances.show"), icon: "list", separated: true, onSelect: () => showInstances(true) },
     {
       label: t("picker.newinstance"),
       icon: "plc",
-      separated: true,
       disabled: project === undefined,
       onSelect: () => ask("instance"),
     },

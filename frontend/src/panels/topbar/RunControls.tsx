@@ -1,20 +1,31 @@
 import { t } from "../../logic/text";
-import { useOnline, usePlc } from "../../store/plc";
-import { runAction, SPEEDS, setSpeed, speedName } from "../../store/run";
-import { Icon } from "../../ui/Icon";
+import { useForbidden, useOnline, usePlc } from "../../store/plc";
+import { runAction, singleScan } from "../../store/run";
+import { stepBack, useTimeline } from "../../store/timeline";
 import { IconButton } from "../../ui/IconButton";
-import { MenuButton } from "../../ui/Menu";
+import { RestartMenu } from "./RestartMenu";
+import { RunMenu } from "./RunMenu";
+import { SpeedMenu } from "./SpeedMenu";
 
-/** Continue, pause, single scan, restart, speed: each at its place, usable when it means something. */
+/** Back, continue, pause, single scan, restart, speed: each at its place, usable when it means something. */
 export function RunControls() {
   const state = usePlc((plc) => plc.state);
   const online = useOnline();
-  const running = online && state?.state === "running";
-  const paused = online && state?.state === "paused";
-  const speed = state?.speed ?? 1;
+  const forbidden = useForbidden("run");
+  const first = useTimeline((timeline) => timeline.info?.first_scan ?? 0);
+  const past = online && state?.past != null;
+  const running = forbidden === null && state?.state === "running";
+  const paused = forbidden === null && state?.state === "paused";
   return (
     <>
       <div className="runset" role="toolbar" aria-label={t("run.label")}>
+        <IconButton
+          icon="step-back"
+          label={t("run.back")}
+          hint="Shift+F8"
+          disabled={!(past || paused) || (state?.scan ?? 0) <= first}
+          onClick={stepBack}
+        />
         <IconButton
           icon="play"
           label={t("run.continue")}
@@ -32,37 +43,16 @@ export function RunControls() {
         />
         <IconButton
           icon="scan"
-          label={t("run.scan")}
+          label={t(past ? "run.scan.past" : "run.scan")}
           hint="F8"
-          disabled={!paused}
-          onClick={() => void runAction("scan")}
+          disabled={!(past || paused)}
+          onClick={singleScan}
         />
+        <RunMenu disabled={!(running || paused)} />
         <span className="vr" />
-        <IconButton
-          icon="refresh"
-          label={t("run.restart")}
-          hint="Ctrl+Shift+F5"
-          disabled={!online}
-          onClick={() => void runAction("restart")}
-        />
+        <RestartMenu />
       </div>
-      <MenuButton
-        label={t("run.speed", { speed: speedName(speed) })}
-        className="btn quiet sm speed"
-        disabled={!online}
-        items={() =>
-          SPEEDS.map((value) => ({
-            label: speedName(value),
-            hint: value === 0 ? t("run.asfast") : value === 1 ? t("run.realtime") : undefined,
-            checked: value === speed,
-            onSelect: () => void setSpeed(value),
-          }))
-        }
-      >
-        <Icon name="clock" small />
-        <span className="mono">{speedName(speed)}</span>
-        <Icon name="chev-d" small />
-      </MenuButton>
+      <SpeedMenu />
     </>
   );
 }

@@ -1,6 +1,7 @@
 import type { KeyboardEvent } from "react";
 import { t } from "../../logic/text";
 import type { ValueRow } from "../../logic/watchrows";
+import { useForbidden, useOnline } from "../../store/plc";
 import { select, setDraft, useWatchList, write } from "../../store/watchlist";
 import { Icon } from "../../ui/Icon";
 import type { PlcSymbol } from "../../wire/types";
@@ -8,12 +9,16 @@ import type { PlcSymbol } from "../../wire/types";
 /** Where a value is typed. Enter writes it; what was refused stays, with the reason below: the PLC says why a read-only value is none. */
 export function ChangeCell({ row, symbol, forced }: { row: ValueRow; symbol: PlcSymbol | null; forced: boolean }) {
   const draft = useWatchList((list) => list.drafts.get(row.path)) ?? "";
+  const online = useOnline();
+  const forbidden = useForbidden("write");
   const bad = useWatchList((list) => list.notes.get(row.path)?.kind === "refused");
 
+  // Without a connection the entry is kept, and said not to be sent; what is typed must not be lost on the way.
+  const locked = online ? forbidden : null;
   if (!symbol || symbol.expandable) return <span className="edit" role="gridcell" />;
 
   function onKeyDown(event: KeyboardEvent<HTMLInputElement>): void {
-    if (event.key === "Enter" && draft !== "") void write(row.path, draft);
+    if (event.key === "Enter" && draft !== "" && locked === null) void write(row.path, draft);
     else if (event.key === "Escape") {
       setDraft(row.path, "");
       event.currentTarget.closest<HTMLElement>("[role=treegrid]")?.focus();
@@ -23,7 +28,7 @@ export function ChangeCell({ row, symbol, forced }: { row: ValueRow; symbol: Plc
   }
 
   return (
-    <span className={`edit${bad ? " bad" : ""}`} role="gridcell">
+    <span className={`edit${bad ? " bad" : ""}`} role="gridcell" title={locked ?? undefined}>
       {bad && <Icon name="error" />}
       {forced && draft === "" && (
         <span className="st forced over">
@@ -34,7 +39,9 @@ export function ChangeCell({ row, symbol, forced }: { row: ValueRow; symbol: Plc
       <input
         aria-label={t("watch.change.of", { path: row.path })}
         aria-invalid={bad}
-        placeholder={symbol.writable ? undefined : t("watch.readonly")}
+        readOnly={locked !== null}
+        aria-description={locked ?? undefined}
+        placeholder={locked !== null ? t("watch.locked") : symbol.writable ? undefined : t("watch.readonly")}
         value={draft}
         spellCheck={false}
         autoComplete="off"

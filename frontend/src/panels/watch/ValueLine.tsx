@@ -3,6 +3,7 @@ import { splitPath } from "../../logic/paths";
 import { t } from "../../logic/text";
 import type { ValueRow } from "../../logic/watchrows";
 import { forceOf, useForces } from "../../store/forces";
+import { useForbidden } from "../../store/plc";
 import { useWatches } from "../../store/watches";
 import { releaseForce, removeFromWatch, select, toggleOpen, useWatchList } from "../../store/watchlist";
 import { Icon } from "../../ui/Icon";
@@ -22,6 +23,7 @@ interface Props {
 export function ValueLine({ row, style, index, selected, onMenu }: Props) {
   const answered = useWatches((state) => state.symbols.get(row.path));
   const refusal = useWatches((state) => state.refusals.get(row.path));
+  const locked = useForbidden("force");
   const forced = useForces((forces) => forceOf(forces, row.path) !== undefined);
   const by = useForces((forces) => forces.written.get(row.path));
   const format = useWatchList((list) => list.formats.get(row.path)) ?? "default";
@@ -56,7 +58,8 @@ export function ValueLine({ row, style, index, selected, onMenu }: Props) {
             className="lock st forced"
             tabIndex={-1}
             aria-label={t("force.release.path", { path: row.path })}
-            title={t("force.release")}
+            title={locked ?? t("force.release")}
+            disabled={locked !== null}
             onClick={() => void releaseForce(row.path)}
           >
             <Icon name="forced" small />

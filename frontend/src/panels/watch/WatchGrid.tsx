@@ -1,20 +1,24 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { type KeyboardEvent, useRef, useState } from "react";
+import { type CSSProperties, type KeyboardEvent, useRef, useState } from "react";
 import { t } from "../../logic/text";
 import type { ValueRow, WatchRow } from "../../logic/watchrows";
+import { setColumn, useColumns, WATCH_COLUMNS, type WatchColumn } from "../../store/columns";
 import { removeFromWatch, select, toggleOpen, useWatchList } from "../../store/watchlist";
+import { Grip } from "../../ui/Grip";
 import { Menu, type MenuItem } from "../../ui/Menu";
 import { NoteLine } from "./NoteLine";
 import { rowMenu } from "./rowMenu";
 import { ValueLine } from "./ValueLine";
 
 const ROW = 24;
+const LOOK: Record<WatchColumn, string> = { current: "num", change: "num", type: "c-type", address: "" };
 
 /** The rows: only those in sight exist in the page. The grid holds the focus, the selected row is its active descendant. */
 export function WatchGrid({ rows }: { rows: readonly WatchRow[] }) {
   const scroll = useRef<HTMLDivElement>(null);
   const [menu, setMenu] = useState<{ items: MenuItem[]; at: { x: number; y: number } } | null>(null);
   const selected = useWatchList((list) => list.selected);
+  const columns = useColumnStyle();
   const virtual = useVirtualizer({
     count: rows.length,
     getScrollElement: () => scroll.current,
@@ -38,7 +42,7 @@ export function WatchGrid({ rows }: { rows: readonly WatchRow[] }) {
   }
 
   function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
-    if (event.target instanceof HTMLInputElement) return;
+    if ((event.target as HTMLElement).matches("input, .grip")) return;
     const row = rows[now] as ValueRow | undefined;
     switch (event.key) {
       case "ArrowDown":
@@ -79,6 +83,7 @@ export function WatchGrid({ rows }: { rows: readonly WatchRow[] }) {
       className="grid wt scroll"
       role="treegrid"
       aria-label={t("watch.table")}
+      style={columns}
       aria-rowcount={rows.length + 1}
       aria-activedescendant={now >= 0 ? `watch-${now}` : undefined}
       tabIndex={0}
@@ -93,16 +98,15 @@ export function WatchGrid({ rows }: { rows: readonly WatchRow[] }) {
         <span role="columnheader" className="first">
           {t("watch.target")}
         </span>
-        <span role="columnheader" className="num">
-          {t("watch.current")}
-        </span>
-        <span role="columnheader" className="num">
-          {t("watch.change")}
-        </span>
-        <span role="columnheader" className="c-type">
-          {t("watch.type")}
-        </span>
-        <span role="columnheader">{t("watch.address")}</span>
+        {WATCH_COLUMNS.map((column) => (
+          <span key={column} role="columnheader" className={LOOK[column]}>
+            {t(`watch.${column}`)}
+            <Grip
+              label={t("watch.width", { column: t(`watch.${column}`) })}
+              onWidth={(width) => setColumn(column, width)}
+            />
+          </span>
+        ))}
         <span role="columnheader" aria-label={t("watch.remove")} />
       </div>
       <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
@@ -127,4 +131,16 @@ export function WatchGrid({ rows }: { rows: readonly WatchRow[] }) {
       {menu && <Menu label={t("menu.label")} items={menu.items} at={menu.at} onClose={() => setMenu(null)} />}
     </div>
   );
+}
+
+/** The dragged widths as custom properties; a column without one keeps what the style sheet says. */
+function useColumnStyle(): CSSProperties {
+  const widths = useColumns();
+  const px = (width: number | undefined) => (width === undefined ? undefined : `${width}px`);
+  return {
+    "--c-current": px(widths.current),
+    "--c-change": px(widths.change),
+    "--c-type": px(widths.type),
+    "--c-address": px(widths.address),
+  };
 }

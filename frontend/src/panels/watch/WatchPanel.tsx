@@ -2,12 +2,13 @@ import { type DragEvent, useMemo, useState } from "react";
 import { pathsIn } from "../../logic/paths";
 import { t } from "../../logic/text";
 import { watchRows } from "../../logic/watchrows";
+import { useForces } from "../../store/forces";
 import { useMembers } from "../../store/members";
-import { usePlc } from "../../store/plc";
+import { useForbidden, usePlc } from "../../store/plc";
 import { useWatches } from "../../store/watches";
 import { addToWatch, releaseForce, useWatchList } from "../../store/watchlist";
 import { Icon } from "../../ui/Icon";
-import { MenuButton } from "../../ui/Menu";
+import { MenuButton, type MenuItem } from "../../ui/Menu";
 import { AddBox } from "./AddBox";
 import { EmptyWatch } from "./EmptyWatch";
 import { WatchGrid } from "./WatchGrid";
@@ -54,13 +55,33 @@ export function WatchPanel() {
   );
 }
 
+/** Every force that holds, each to be released, or all at once. */
 function ForceCount() {
   const count = usePlc((plc) => plc.state?.forces ?? 0);
+  const held = useForces((forces) => forces.held);
+  const locked = useForbidden("force");
   if (count === 0) return null;
   return (
     <MenuButton
       label={t("force.count", { count })}
-      items={() => [{ label: t("force.releaseall"), icon: "unforce", onSelect: () => void releaseForce(null) }]}
+      items={() => [
+        ...[...held.values()].map(
+          ({ path, value, author }): MenuItem => ({
+            label: t("force.release.menu", { path, value }),
+            icon: "unforce",
+            hint: locked ?? author,
+            disabled: locked !== null,
+            onSelect: () => void releaseForce(path),
+          }),
+        ),
+        {
+          label: t("force.releaseall"),
+          icon: "unforce",
+          separated: true,
+          disabled: locked !== null,
+          onSelect: () => void releaseForce(null),
+        },
+      ]}
     >
       <span className="st forced">
         <Icon name="forced" small />

@@ -1,3 +1,4 @@
+import { forbidden } from "../../logic/permits";
 import { t } from "../../logic/text";
 import type { Format } from "../../logic/values";
 import type { ValueRow } from "../../logic/watchrows";
@@ -15,7 +16,8 @@ export function rowMenu(row: ValueRow): MenuItem[] {
   const symbol = row.symbol ?? useWatches.getState().symbols.get(row.path) ?? null;
   const { drafts, formats } = useWatchList.getState();
   const forced = forceOf(useForces.getState(), row.path) !== undefined;
-  const online = usePlc.getState().link.state === "open";
+  const plc = usePlc.getState();
+  const locked = forbidden(plc.state, plc.link.state === "open", "force");
   const single = symbol !== null && !symbol.expandable;
   const value = drafts.get(row.path) || currentText(row.path);
   const items: MenuItem[] = [];
@@ -24,13 +26,14 @@ export function rowMenu(row: ValueRow): MenuItem[] {
       {
         label: t("force.to", { value }),
         icon: "forced",
-        disabled: !online || value === "",
+        hint: locked ? t(locked) : undefined,
+        disabled: locked !== null || value === "",
         onSelect: () => void force(row.path, value),
       },
       {
         label: t("force.release"),
         icon: "unforce",
-        disabled: !online || !forced,
+        disabled: locked !== null || !forced,
         onSelect: () => void releaseForce(row.path),
       },
     );
