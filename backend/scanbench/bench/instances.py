@@ -22,7 +22,7 @@ from scanbench.engines.cache import BlobCache
 from scanbench.session import protocol
 from scanbench.session.events import PlcState
 from scanbench.session.host.build import find_model
-from scanbench.session.instance import Instance, Memory
+from scanbench.session.instance import Instance, Remembered
 from scanbench.session.known import keep, key_of
 from scanbench.session.load import Loads
 from scanbench.session.nursery import nursery
@@ -67,7 +67,7 @@ class _Plc:
 
     def __init__(self, number: int, sources: protocol.Sources, directory: Path) -> None:
         self._changed, self._heard = asyncio.Event(), 0.0
-        memory = Memory(
+        memory = Remembered(
             f"line-{number}",
             sources,
             run_path(directory, number),
@@ -75,7 +75,6 @@ class _Plc:
             speed=1.0,
             paused=True,
             scan=0,
-            restarted=False,
         )
         self.instance = Instance(memory, self._on_state, lambda _: None, directory / "cache")
 

@@ -38,8 +38,13 @@ _BLOCK = Struct("<4sBBHIQI")
 _CRC = Struct("<I")
 _PACKED = 1
 _WORTH_PACKING = 200
-_LARGEST = 1 << 30
-"""Bytes of a payload once unpacked: no image is larger, and a file from elsewhere must not fill the memory."""
+_CHUNK = 1 << 20
+LARGEST = 1 << 26
+"""Bytes of a payload once unpacked, where nobody knows better: a file from elsewhere must not fill the memory."""
+_SEARCH = 1 << 28
+"""Bytes that are looked at for blocks behind damage, ..."""
+_LOOK = 1 << 12
+"""... where each place that might be one counts at least so much."""
 
 
 class RunFileError(Exception):
@@ -95,12 +100,17 @@ class Damage:
 
 
 class RunFile:
-    """A run file open for reading, or for reading and appending. One thread at a time, but for `fileno`."""
+    """A run file open for reading, or for reading and appending.
+
+    One thread appends. Others may read in front of an `end` that they were told.
+    """
 
     def __init__(self, path: Path, fd: int, end: int) -> None:
         self.path, self.fd = path, fd
         self.end = end
         """Behind the last block that is no trailing mark."""
+        self.damage: Damage | None = None
+        """What `scan_blocks` came upon."""
         self._marked: int | None = None
         self._packer = zstandard.ZstdCompressor(level=1)
 
@@ -153,38 +163,65 @@ class RunFile:
             self._put(_encode(Kind.MARK, 0, scan, b""))
             self._marked = scan
 
-    def payload(self, block: Block) -> bytes:
-        """What a block holds, unpacked."""
-        return _unpacked(os.pread(self.fd, block.length, block.payload_offset), block.packing)
+    def payload(self, block: Block, most: int = LARGEST) -> bytes:
+        """What a block holds, unpacked; `RunFileError` when that is more than `most` bytes, or none at all."""
+        data = os.pread(self.fd, block.length, block.payload_offset)
+        size = len(data)
+        try:
+            if block.packing == _PACKED:
+                size = zstandard.frame_content_size(data)
+            if 0 <= size <= most:
+                return zstandard.ZstdDecompressor().decompress(data) if block.packing == _PACKED else data
+        except zstandard.ZstdError as error:
+            raise self.unreadable(block, str(error)) from error
+        raise self.unreadable(block, f"it says that it holds {size} bytes, and {most} is the most that can be")
+
+    def beginning(self, block: Block, count: int) -> bytes:
+        """The first bytes of what a block holds."""
+        if block.packing != _PACKED:
+            return os.pread(self.fd, min(count, block.length), block.payload_offset)
+        data = os.pread(self.fd, block.length, block.payload_offset)
+        try:
+            return zstandard.ZstdDecompressor().stream_reader(data).read(count)
+        except zstandard.ZstdError as error:
+            raise self.unreadable(block, str(error)) from error
+
+    def unreadable(self, block: Block, why: str) -> RunFileError:
+        """What to say of a block that is whole, and cannot be understood."""
+        return RunFileError(
+            f"{self.path.name}: the {block.kind.name.lower()} at byte {block.offset} cannot be read: {why}. "
+            "Open it with the version of scanbench that wrote it"
+        )
 
     def read(self, offset: int, length: int) -> bytes:
         """Bytes as they are stored."""
         return os.pread(self.fd, length, offset)
 
     def walk(self, end: int) -> Iterator[Block]:
-        """The blocks from the first up to the byte `end`, which are known to be good."""
+        """The blocks from the first up to the byte `end`, which were good."""
         offset = _HEAD.size
         while offset < end:
             block = _decode(os.pread(self.fd, _BLOCK.size, offset), offset)
-            assert block is not None, f"no block at byte {offset} of {self.path}"
+            if block is None:
+                raise RunFileError(f"{self.path.name} was damaged at byte {offset} while it was in use")
             yield block
             offset = block.end
 
-    def scan_blocks(self) -> tuple[list[Block], Damage | None]:
-        """Every good block from the beginning, each with a right checksum; `end` moves behind the last of them."""
+    def scan_blocks(self) -> Iterator[Block]:
+        """Every good block from the beginning, each with a right checksum; `end` moves behind them, `damage` says why they end."""
         size = os.fstat(self.fd).st_size
-        blocks, offset, damage = [], _HEAD.size, None
+        offset, block = _HEAD.size, None
+        self.damage = None
         while offset < size:
-            block = self._good_block(offset, size)
-            if block is None:
-                damage = Damage(offset, self._is_torn(offset, size), self._last_scan(offset + 1, size))
+            good = self._good_block(offset, size)
+            if good is None:
+                self.damage = self._damage(offset, size)
                 break
-            blocks.append(block)
-            offset = block.end
+            yield good
+            block, offset = good, good.end
         self.end, self._marked = offset, None
-        if blocks and blocks[-1].kind is Kind.MARK:
-            self.end, self._marked = blocks[-1].offset, blocks[-1].scan
-        return blocks, damage
+        if block is not None and block.kind is Kind.MARK:
+            self.end, self._marked = block.offset, block.scan
 
     def cut(self, offset: int, aside: Path | None) -> None:
         """Ends the file at `offset`; what was behind it is moved to `aside`."""
@@ -209,26 +246,38 @@ class RunFile:
         block = _decode(head, offset)
         if block is None or block.end > size:
             return None
-        crc = zlib.crc32(os.pread(self.fd, block.length, block.payload_offset), zlib.crc32(head[: -_CRC.size]))
+        crc = zlib.crc32(head[: -_CRC.size])
+        for at in range(block.payload_offset, block.end, _CHUNK):
+            crc = zlib.crc32(os.pread(self.fd, min(_CHUNK, block.end - at), at), crc)
         return block if crc == _CRC.unpack_from(head, _BLOCK.size - _CRC.size)[0] else None
 
-    def _is_torn(self, offset: int, size: int) -> bool:
+    def _damage(self, offset: int, size: int) -> Damage:
+        last = self._last_scan(offset + 1, size)
         head = os.pread(self.fd, _BLOCK.size, offset)
-        if len(head) < _BLOCK.size:
-            return True
         block = _decode(head, offset)
-        return block is not None and block.end > size and self._last_scan(offset + 1, size) < 0
+        torn = len(head) < _BLOCK.size or (block is not None and block.end > size and last < 0)
+        return Damage(offset, torn, last)
 
     def _last_scan(self, offset: int, size: int) -> int:
-        """The last scan that a good block behind the damage names."""
-        rest, last, at = os.pread(self.fd, size - offset, offset), -1, 0
-        while (at := rest.find(_SYNC, at)) >= 0:
-            block = self._good_block(offset + at, size)
-            if block is None:
-                at += 1
-            else:
-                last, at = max(last, block.scan), block.end - offset
+        """The last scan that a good block behind the damage names, as far as that is found with reasonable trouble."""
+        last, left = -1, _SEARCH
+        while left > 0 and (at := self._find_sync(offset, size)) is not None:
+            block = self._good_block(at, size)
+            claimed = _decode(os.pread(self.fd, _BLOCK.size, at), at)
+            left -= max(_LOOK, claimed.length if claimed is not None and claimed.end <= size else 0)
+            offset = at + 1 if block is None else block.end
+            last = last if block is None else max(last, block.scan)
         return last
+
+    def _find_sync(self, offset: int, size: int) -> int | None:
+        """Where a block may begin next."""
+        while offset < size:
+            chunk = os.pread(self.fd, _CHUNK, offset)
+            at = chunk.find(_SYNC)
+            if at >= 0:
+                return offset + at
+            offset += max(1, len(chunk) - len(_SYNC) + 1)
+        return None
 
 
 def _check_head(path: Path, head: bytes) -> None:
@@ -255,15 +304,6 @@ def _decode(head: bytes, offset: int) -> Block | None:
     if sync != _SYNC or reserved or packing > _PACKED or not Kind.ABOUT <= kind <= Kind.MARK:
         return None
     return Block(Kind(kind), scan, offset, length, packing)
-
-
-def _unpacked(data: bytes, packing: int) -> bytes:
-    if packing != _PACKED:
-        return data
-    size = zstandard.frame_content_size(data)
-    if not 0 <= size <= _LARGEST:
-        raise RunFileError(f"a block says that it holds {size} bytes: more than any image has")
-    return zstandard.ZstdDecompressor().decompress(data)
 
 
 def _write(fd: int, data: bytes, offset: int) -> None:

@@ -19,6 +19,7 @@ from scanbench.session import protocol
 from scanbench.session.codec import LENGTH, BadMessage, pack, unpack
 from scanbench.session.events import PlcState
 from scanbench.session.nursery import NoProcess, Process, nursery
+from scanbench.session.runs import set_aside
 from scanbench.store.records import Limits
 
 log = logging.getLogger("scanbench")
@@ -38,7 +39,7 @@ class Unavailable(Exception):
 
 
 @dataclass(slots=True)
-class Memory:
+class Remembered:
     """What a new host is told, so that it goes on where the last one stopped."""
 
     name: str
@@ -48,14 +49,13 @@ class Memory:
     speed: float = 1.0
     paused: bool = False
     scan: int = 0
-    restarted: bool = False
 
     def start(self) -> protocol.Start:
         """The first message to a new host."""
         limits = self.limits
         return protocol.Start(
             self.name, self.sources, str(self.run), limits.run_mib, limits.memory_mib, limits.cpu_percent,
-            self.speed, self.paused, self.scan, self.restarted,
+            self.speed, self.paused, self.scan,
         )  # fmt: skip
 
 
@@ -63,7 +63,7 @@ class Instance:
     """Supervises the process of one PLC. `on_message` gets what the host says, in order."""
 
     def __init__(
-        self, memory: Memory, on_state: Callable[[PlcState], None], on_message: Callable[[object], None],
+        self, memory: Remembered, on_state: Callable[[PlcState], None], on_message: Callable[[object], None],
         cache: Path | None = None,
     ) -> None:  # fmt: skip
         """`cache` is a directory where hosts keep what they built."""
@@ -77,6 +77,7 @@ class Instance:
         self._writer: asyncio.StreamWriter | None = None
         self._task: asyncio.Task[None] | None = None
         self._connected = asyncio.Event()
+        self._turning = asyncio.Lock()  # one at a time is switched on, off, or to a new run
         self._answers: dict[int, asyncio.Future[object]] = {}
         self._next_ref = 1
         self._deaths = 0
@@ -101,12 +102,18 @@ class Instance:
 
     def start(self) -> None:
         """Starts the process, and keeps it alive until `stop`."""
+        if self.on:
+            return
         self._stopping = False
         self._set_state(state="starting", message="starting")
         self._task = asyncio.get_running_loop().create_task(self._supervise())
 
     async def stop(self) -> None:
         """Ends the process, and waits for it."""
+        async with self._turning:
+            await self._stop()
+
+    async def _stop(self) -> None:
         self._stopping = True
         if self._writer is not None:
             self._writer.write(pack(protocol.Quit()))
@@ -186,11 +193,10 @@ class Instance:
             case protocol.HostState():
                 self._see(message)
             case protocol.Entered():
-                self._memory.scan = max(self._memory.scan, message.entry.scan)
+                self._memory.scan = max(self._memory.scan, message.entries[-1].scan)
                 self._on_message(message)
             case protocol.Ready():
                 self._memory.sources = message.sources
-                self._memory.restarted = False
                 if message.fresh:
                     self._memory.scan = 0
                 self._on_message(message)
@@ -251,16 +257,22 @@ class Instance:
 
     async def begin_anew(self, sources: protocol.Sources | None = None) -> protocol.Ack:
         """A new run, at scan 0; the old run file is kept aside."""
-        if self.on:
-            await self.stop()
+        async with self._turning:
+            if not self.on and self.state.state != "failed":
+                raise Unavailable(f"the PLC is {self.state.state}: {self.state.message}. Switch it on first")
+            await self._stop()
+            await asyncio.to_thread(set_aside, self._memory.run)
+            self._begin(sources)
+        return protocol.Ack(0, True, "a new run begins at scan 0", 0)
+
+    def _begin(self, sources: protocol.Sources | None) -> None:
         memory = self._memory
         memory.sources = sources or memory.sources
-        memory.scan, memory.restarted, self._deaths = 0, True, 0
+        memory.scan = self._deaths = 0
         self._set_state(
             scan=0, live_scan=0, time_ns=0, trap=None, past_by="", target="", version=memory.sources.version
         )
         self.start()
-        return protocol.Ack(0, True, "a new run begins at scan 0", 0)
 
     def limit(self, limits: Limits) -> None:
         """New limits; that of memory holds from the next start of the process."""
@@ -287,9 +299,10 @@ class Instance:
             hint = "Switch it on first" if self.state.state == "off" else "Try again in a moment"
             raise Unavailable(f"the PLC is {self.state.state}: {self.state.message}. {hint}")
         ref, self._next_ref = self._next_ref, self._next_ref + 1
+        packed = pack(make(ref))
         future: asyncio.Future[object] = asyncio.get_running_loop().create_future()
         self._answers[ref] = future
-        self._writer.write(pack(make(ref)))
+        self._writer.write(packed)
         return await future
 
     async def _reached(self) -> None:

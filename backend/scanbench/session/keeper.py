@@ -11,6 +11,9 @@ from scanbench.store.records import HistoryRow, LogRow
 from scanbench.store.store import Store
 
 log = logging.getLogger("scanbench")
+LOG_KEPT = 20_000
+"""Lines of each instance; older ones go."""
+LOG_TRIMMED_EVERY = 1000
 
 
 class Keeper:
@@ -20,6 +23,7 @@ class Keeper:
         self._store = store
         self._jobs: asyncio.Queue[Callable[[], object]] = asyncio.Queue()
         self._task: asyncio.Task[None] | None = None
+        self._lines: dict[int, int] = {}
 
     def start(self) -> None:
         """Begins to write."""
@@ -45,6 +49,9 @@ class Keeper:
         """A line of the log."""
         at, scan, author, kind, text = line.at, line.scan, line.author, line.kind, line.text
         self._jobs.put_nowait(lambda: self._store.add_log(instance, at, scan, author, kind, text))
+        self._lines[instance] = self._lines.get(instance, 0) + 1
+        if self._lines[instance] % LOG_TRIMMED_EVERY == 0:
+            self._jobs.put_nowait(lambda: self._store.trim_log(instance, LOG_KEPT))
 
     async def _work(self) -> None:
         while True:
@@ -73,15 +80,17 @@ def line_of(kept: LogRow) -> LogEntry:
 
 
 def _row_job(store: Store, instance: int, row: ErrorRow, program_version: int) -> Callable[[], object]:
-    if row.status == "cleared" and row.recovered_at is not None:
-        at, scan = row.recovered_at, row.recovered_scan or 0
-        return lambda: store.record_cleared(instance, row.id, at=at, scan=scan)
-    generated_at = row.generated_at
-    assert generated_at is not None
-    return lambda: store.record_generated(
-        instance, row.id, program_version=program_version, code=row.code, details=row.details, at=generated_at,
-        scan=row.generated_scan or 0, by=row.by or "", origin=row.origin or "simulator",
-    )  # fmt: skip
+    def job() -> None:
+        assert row.generated_at is not None
+        store.record_generated(
+            instance, row.id, program_version=program_version, code=row.code, details=row.details,
+            at=row.generated_at, scan=row.generated_scan or 0, by=row.by or "", origin=row.origin or "simulator",
+            count=row.count,
+        )  # fmt: skip
+        if row.status == "cleared" and row.recovered_at is not None:
+            store.record_cleared(instance, row.id, at=row.recovered_at, scan=row.recovered_scan or 0)
+
+    return job
 
 
 def _run_all(jobs: Sequence[Callable[[], object]]) -> None:

@@ -53,6 +53,10 @@ class Marks:
         del self._marks[:-LIMIT]
         return TimelineChanged(told.info, told.marks, told.fresh)
 
+    def add(self, entries: Sequence[Entry]) -> TimelineChanged:
+        """Marks of new entries; the event for everybody."""
+        return self.take(RunMarks(self._info, marks_of(entries), fresh=False))
+
     @property
     def all(self) -> TimelineChanged:
         """Everything, for somebody who comes."""

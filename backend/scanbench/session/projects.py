@@ -7,18 +7,11 @@ from scanbench.plcmodel.model import Model
 from scanbench.session.builds import INTERVAL_NS, BuildOutcome, Change, Checker, CheckOutcome
 from scanbench.session.instance import Unavailable
 from scanbench.session.protocol import Sources
+from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.store.records import FileInfo, FileRow, ProjectRow
 from scanbench.store.store import Store
 from scanbench.syntax.parse_file import ENDINGS, is_program_file
-
-
-class Refused(Exception):
-    """A request that makes no sense; the message says why, and what to do."""
-
-    def __init__(self, message: str, near: tuple[str, ...] = ()) -> None:
-        super().__init__(message)
-        self.message, self.near = message, near
 
 
 class Projects:
@@ -113,6 +106,8 @@ class Projects:
 
     async def from_sources(self, name: str, sources: Sources, author: str) -> ProjectRow:
         """A project with these files, as if they had been built as this version."""
+        for path in sources.files:
+            _check_path(path)
         project = await self.create(name, sources.model)
         for path, text in sources.files.items():
             await asyncio.to_thread(self._store.save_file, project.id, path, text, 0, author)

@@ -41,8 +41,6 @@ class Start:
     speed: float
     paused: bool
     until: int
-    restarted: bool
-    """Begins a new run even where there is a file: the old one is kept aside."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -55,7 +53,7 @@ class Submit:
 
 @dataclass(frozen=True, slots=True)
 class Drive:
-    """Pace: `continue` (for `scans`, or until a condition holds), `pause`, `scan` (one), or only a new speed; answered
+    """`continue` (for `scans`, or until a condition holds), `pause`, `scan` (one); `speed` changes that alone. Answered
     with `Ack`."""
 
     ref: int
@@ -227,7 +225,7 @@ class RunMark:
 
 @dataclass(frozen=True, slots=True)
 class RunMarks:
-    """What the run file holds. `marks` are the new ones, or with `fresh` all of them, the last 5,000."""
+    """What the run file holds. With `fresh` `marks` are all there are, the last 5,000; later ones follow from `Entered`."""
 
     info: RecordingInfo
     marks: tuple[RunMark, ...]
@@ -266,9 +264,9 @@ class Diagnosed:
 
 @dataclass(frozen=True, slots=True)
 class Entered:
-    """A new entry of the journal."""
+    """New entries of the journal, in order: together what came since the last tick or answer."""
 
-    entry: Entry
+    entries: tuple[Entry, ...]
 
 
 @dataclass(frozen=True, slots=True)

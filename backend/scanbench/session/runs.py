@@ -22,6 +22,19 @@ def fresh_path(directory: Path, purpose: str) -> Path:
     return directory / f"{purpose}-{fresh_token()}{RUN_SUFFIX}"
 
 
+def set_aside(path: Path) -> None:
+    """Keeps a run file beside the one that begins; the one before it is gone."""
+    if path.exists():
+        path.replace(path.with_name(f"{path.name}.previous"))
+
+
+def sweep(directory: Path) -> None:
+    """Removes what a server that was killed left half done."""
+    for pattern in (f"export-*{RUN_SUFFIX}", f"import-*{RUN_SUFFIX}", "*.part"):
+        for path in directory.glob(pattern):
+            discard(path)
+
+
 def discard(path: Path) -> None:
     """Removes a file, if it is there."""
     path.unlink(missing_ok=True)

@@ -13,14 +13,17 @@ from scanbench.runtime.write import Write
 from scanbench.session import events, protocol
 from scanbench.session.builds import BuildOutcome
 from scanbench.session.events import Event, LogEntry, PlcState, Subscriber, User
-from scanbench.session.instance import Instance, Memory, Unavailable
+from scanbench.session.instance import Instance, Remembered, Unavailable
 from scanbench.session.keeper import Keeper
 from scanbench.session.load import Load, Loads
 from scanbench.session.marks import Marks, kind_of
+from scanbench.session.refused import Refused
 from scanbench.session.watches import Watches
 from scanbench.store.records import InstanceRow
 
 LOG_LINES = 500
+LISTED = 100
+"""Entries of one moment that get a line each."""
 _EVERYBODY = 0
 
 
@@ -28,7 +31,7 @@ class Session:
     """Everything that one instance is to the rest of the server."""
 
     def __init__(
-        self, row: InstanceRow, model: Model, memory: Memory, keeper: Keeper,
+        self, row: InstanceRow, model: Model, memory: Remembered, keeper: Keeper,
         rows: dict[str, ErrorRow], lines: Sequence[LogEntry], loads: Loads, cache: Path | None = None,
     ) -> None:  # fmt: skip
         self.row, self.model = row, model
@@ -74,6 +77,11 @@ class Session:
     def sources(self) -> protocol.Sources:
         """What the program that runs is made of."""
         return self._instance.sources
+
+    @property
+    def on(self) -> bool:
+        """Whether the PLC has a process, or will have one again in a moment."""
+        return self._instance.on
 
     @property
     def run_file(self) -> Path:
@@ -130,7 +138,7 @@ class Session:
         before, self.row = self.row, row
         if row.limits != before.limits:
             self._instance.limit(row.limits)
-        if row.powered == self._instance.on:
+        if row.powered == self.on:
             return
         self._add_line(
             LogEntry(wall_time(), self.state.scan, author, "switched on" if row.powered else "switched off", "run")
@@ -174,10 +182,10 @@ class Session:
         return await self._refusing(self._instance.roll_back(author))
 
     async def cut(self, path: Path, scan: int | None) -> None:
-        """Writes a run file of its own that ends before `scan`, or now; `Unavailable` says why it cannot."""
+        """Writes a run file of its own that ends before `scan`, or now; `Refused` or `Unavailable` say why it cannot."""
         ack = await self._instance.cut(path, scan)
         if not ack.ok:
-            raise Unavailable(ack.message)
+            raise Refused(ack.message, ack.near)
 
     def _logged(self, ack: protocol.Ack, author: str) -> protocol.Ack:
         if ack.ok:
@@ -267,7 +275,7 @@ class Session:
             case protocol.Frame():
                 self._on_frame(message)
             case protocol.Entered():
-                self._on_entry(message.entry)
+                self._on_entries(message.entries)
             case protocol.Standing():
                 self._on_standing(message)
             case protocol.RunMarks():
@@ -286,14 +294,23 @@ class Session:
         elif frame.to in self._subscribers:
             self._subscribers[frame.to].on_snapshot(frame.data)
 
-    def _on_entry(self, entry: Entry) -> None:
-        command = entry.command
-        self._publish_rows(self._history.fold(entry))
-        if isinstance(command, Write | Force):
-            forced = isinstance(command, Force)
-            self._publish(events.ValueWritten(command.path, command.author, entry.scan, forced))
-        kind = kind_of(command)
-        self._add_line(LogEntry(entry.at, entry.scan, command.author, entry.plan.message, kind))
+    def _on_entries(self, entries: Sequence[Entry]) -> None:
+        """What was entered; a program that raises errors all the time is summed up, not listed."""
+        rows: dict[str, ErrorRow] = {}
+        for entry in entries:
+            rows.update((row.id, row) for row in self._history.fold(entry))
+            command = entry.command
+            if isinstance(command, Write | Force):
+                forced = isinstance(command, Force)
+                self._publish(events.ValueWritten(command.path, command.author, entry.scan, forced))
+        self._publish_rows(list(rows.values()))
+        self._publish(self._timeline.add(entries))
+        for entry in entries[:LISTED]:
+            command = entry.command
+            self._add_line(LogEntry(entry.at, entry.scan, command.author, entry.plan.message, kind_of(command)))
+        if len(entries) > LISTED:
+            last, more = entries[-1], len(entries) - LISTED
+            self._add_line(LogEntry(last.at, last.scan, last.command.author, f"... and {more} more entries", "system"))
 
     def _on_standing(self, standing: protocol.Standing) -> None:
         """What holds now: also after a start, when entries of an earlier life or of a lost one count."""

@@ -14,15 +14,16 @@ from scanbench.plcmodel.model import Model
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.runfile import RunFileError
 from scanbench.session.builds import Checker
-from scanbench.session.instance import Memory, Unavailable
+from scanbench.session.instance import Remembered
 from scanbench.session.keeper import Keeper, line_of, row_of
 from scanbench.session.load import Loads
 from scanbench.session.nursery import nursery
-from scanbench.session.projects import Projects, Refused
-from scanbench.session.runs import discard, discard_all, fresh_path, run_path, sources_of
+from scanbench.session.projects import Projects
+from scanbench.session.refused import Refused
+from scanbench.session.runs import discard, discard_all, fresh_path, run_path, sources_of, sweep
 from scanbench.session.samples import samples
 from scanbench.session.session import LOG_LINES, Session
-from scanbench.store.records import InstanceRow, Limits, NotFound
+from scanbench.store.records import InstanceRow, Limits, NotFound, ProjectRow
 from scanbench.store.store import Store
 
 log = logging.getLogger("scanbench")
@@ -50,6 +51,7 @@ class Workbench:
     async def start(self) -> None:
         """Opens what the store holds, or the samples on the first start, and runs every instance."""
         self._keeper.start()
+        await asyncio.to_thread(sweep, self._runs)
         await asyncio.to_thread(nursery().start)
         if not await self.projects.all():
             await self._first_start()
@@ -116,9 +118,10 @@ class Workbench:
         origin = self.session(id)
         row = await asyncio.to_thread(self._store.create_instance, origin.project_id, name)
         try:
-            await origin.cut(run_path(self._runs, row.id), scan)
-        except Unavailable:
+            await self._copied(origin, run_path(self._runs, row.id), scan)
+        except BaseException:
             await asyncio.to_thread(self._store.delete_instance, row.id)
+            await asyncio.to_thread(discard_all, self._runs, row.id)
             raise
         session = await self._open(row, paused=scan is not None)
         session.told(author, f"branched from {origin.name} {'now' if scan is None else f'at scan {scan}'}")
@@ -129,28 +132,41 @@ class Workbench:
         session = self.session(id)
         path = fresh_path(self._runs, "export")
         try:
-            if session.state.state == "off" and scan is None:
-                await asyncio.to_thread(shutil.copyfile, session.run_file, path)
-            else:
-                await session.cut(path, scan)
-        except (Unavailable, OSError) as error:
+            await self._copied(session, path, scan)
+        except BaseException:
             await asyncio.to_thread(discard, path)
-            raise Refused(f"the run of {session.name} cannot be exported: {error}") from error
+            raise
         return path
+
+    @staticmethod
+    async def _copied(session: Session, path: Path, scan: int | None) -> None:
+        """Of a PLC without a process the file as it is: also of one that failed, when it is wanted most."""
+        if session.on or scan is not None:
+            await session.cut(path, scan)
+            return
+        try:
+            await asyncio.to_thread(shutil.copyfile, session.run_file, path)
+        except OSError as error:
+            raise Refused(f"the run of {session.name} cannot be copied: {error.strerror}") from error
 
     async def bring_in(self, path: Path, name: str, author: str) -> Session:
         """A new PLC that goes on with a run from elsewhere; its sources become a project of that name.
 
         Takes the file over.
         """
+        project: ProjectRow | None = None
         try:
             sources = await asyncio.to_thread(sources_of, path)
-        except (RunFileError, OSError) as error:
+            project = await self.projects.from_sources(name, sources, author)
+            row = await asyncio.to_thread(self._store.create_instance, project.id, name)
+            await asyncio.to_thread(os.replace, path, run_path(self._runs, row.id))
+        except BaseException as error:
             await asyncio.to_thread(discard, path)
-            raise Refused(str(error)) from error
-        project = await self.projects.from_sources(name, sources, author)
-        row = await asyncio.to_thread(self._store.create_instance, project.id, name)
-        await asyncio.to_thread(os.replace, path, run_path(self._runs, row.id))
+            if project is not None:
+                await self.projects.delete(project.id)
+            if isinstance(error, RunFileError | OSError):
+                raise Refused(str(error)) from error
+            raise
         session = await self._open(row, paused=True)
         session.told(author, "the run was imported")
         return session
@@ -186,7 +202,7 @@ class Workbench:
         rows = [row_of(model, each) for each in await asyncio.to_thread(self._store.history, row.id)]
         lines = [line_of(each) for each in await asyncio.to_thread(self._store.log, row.id, LOG_LINES)]
         kept = {each.id: each for each in rows if each is not None}
-        memory = Memory(row.name, sources, run_path(self._runs, row.id), row.limits, paused=paused)
+        memory = Remembered(row.name, sources, run_path(self._runs, row.id), row.limits, paused=paused)
         session = Session(row, model, memory, self._keeper, kept, lines, self._loads, self._cache)
         self._sessions[row.id] = session
         if row.powered:

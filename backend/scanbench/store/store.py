@@ -243,8 +243,9 @@ class Store:
         scan: int,
         by: str,
         origin: Origin,
+        count: int | None = None,
     ) -> HistoryRow:
-        """An error was raised: its row says so, and counts."""
+        """An error was raised: its row says so, and counts, or takes over the count."""
         with self._writing() as session:
             _instance(session, instance, lock=True)
             row = session.get(ErrorHistory, (instance, error))
@@ -258,7 +259,7 @@ class Store:
                 by[:AUTHOR],
                 origin,
             )
-            row.status, row.count = "generated", row.count + 1
+            row.status, row.count = "generated", row.count + 1 if count is None else count
             row.generated_at, row.generated_scan, row.recovered_at, row.recovered_scan = at, scan, None, None
             session.flush()
             return rows.history(row)
@@ -287,6 +288,14 @@ class Store:
         with self._writing() as session:
             _instance(session, instance)
             session.add(Log(instance_id=instance, at=at, scan=scan, author=author[:AUTHOR], kind=kind, text=text))
+
+    def trim_log(self, instance: int, keep: int) -> None:
+        """Deletes all but the last `keep` lines."""
+        ids = select(Log.id).where(Log.instance_id == instance).order_by(Log.id.desc())
+        with self._writing() as session:
+            first = session.scalars(ids.offset(keep).limit(1)).first()
+            if first is not None:
+                session.execute(delete(Log).where(Log.instance_id == instance, Log.id <= first))
 
 
 def _check(what: str, text: str, limit: int | None = None) -> None:

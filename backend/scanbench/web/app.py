@@ -13,7 +13,7 @@ from starlette.exceptions import HTTPException
 
 from scanbench import __version__
 from scanbench.session.instance import Unavailable
-from scanbench.session.projects import Refused
+from scanbench.session.refused import Refused
 from scanbench.session.workbench import Workbench
 from scanbench.store.records import Conflict, NameTaken, NotFound, StoreError
 from scanbench.web import messages as wire

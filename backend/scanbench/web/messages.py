@@ -15,6 +15,9 @@ class Wire(BaseModel):
     model_config = ConfigDict(extra="forbid")
 
 
+Scan = Annotated[int, Field(ge=0, lt=1 << 63)]
+"""Number of a scan, or of scans."""
+
 # ---- programs, files, problems -------------------------------------------------------------------------------
 
 
@@ -292,7 +295,7 @@ class Branch(Wire):
     """A new instance that begins as this one was before `scan`; null is now (a clone)."""
 
     name: str = Field(min_length=1, max_length=100)
-    scan: int | None = Field(default=None, ge=0)
+    scan: Scan | None = None
 
 
 class ChangeInstance(Wire):
@@ -492,9 +495,9 @@ class Run(Wire):
 
     type: Literal["run"] = "run"
     ref: int
-    action: Literal["continue", "pause", "scan"]
+    action: Literal["continue", "pause", "scan", "speed"] = Field(description="speed: only that, a target stays")
     speed: float | None = Field(default=None, description="0.01 to 1000; 0 is as fast as possible")
-    scans: int | None = Field(default=None, ge=1)
+    scans: Annotated[int, Field(ge=1, lt=1 << 53)] | None = None
     until: str | None = Field(default=None, description="a BOOL expression over instance paths and addresses")
 
 
@@ -516,7 +519,7 @@ class Travel(Wire):
 
     type: Literal["travel"] = "travel"
     ref: int
-    scan: int | None
+    scan: Scan | None
 
 
 class RollBack(Wire):

@@ -7,7 +7,7 @@ from fastapi.responses import FileResponse
 from starlette.background import BackgroundTask
 
 from scanbench import __version__
-from scanbench.session.projects import Refused
+from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.session.workbench import Workbench
 from scanbench.store.records import Limits, NotFound
@@ -71,7 +71,7 @@ async def on_branch(bench: Bench, request: Request, instance: int, branch: wire.
 
 
 @router.get("/instances/{instance}/export", response_class=FileResponse)
-async def on_export(bench: Bench, instance: int, scan: int | None = None) -> FileResponse:
+async def on_export(bench: Bench, instance: int, scan: wire.Scan | None = None) -> FileResponse:
     """The run as one file, which replays byte for byte elsewhere; it ends before `scan`, or now."""
     path = await bench.export(instance, scan)
     name = f"{bench.session(instance).name}.scanrun"

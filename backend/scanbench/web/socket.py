@@ -62,6 +62,7 @@ class Client:
         self._stale = False
         self._asked = False
         self._wake = asyncio.Event()
+        self._slow: set[asyncio.Task[None]] = set()
 
     # ---- from the session -----------------------------------------------------------------------------------------
 
@@ -127,8 +128,10 @@ class Client:
             pass  # gone, or it sent bytes where only text is understood
         finally:
             self._session.leave(self._id)
-            writer.cancel()
-            await asyncio.gather(writer, return_exceptions=True)
+            tasks = (writer, *self._slow)
+            for task in tasks:
+                task.cancel()
+            await asyncio.gather(*tasks, return_exceptions=True)
 
     async def _write(self) -> None:
         while True:
@@ -174,9 +177,16 @@ class Client:
             case wire.Unwatch():
                 self._ids.difference_update(message.ids)
                 self._session.unwatch(self._id, message.ids)
+            case wire.Travel() | wire.NewRun() | wire.RollBack():  # may take a build: the rest must not wait for it
+                task = asyncio.get_running_loop().create_task(self._serve(message))
+                self._slow.add(task)
+                task.add_done_callback(self._slow.discard)
             case _:
-                ack = await self._done(message)
-                self._answer(message.ref, ack.ok, ack.message, ack.scan, ack.near)
+                await self._serve(message)
+
+    async def _serve(self, message: _Wanted) -> None:
+        ack = await self._done(message)
+        self._answer(message.ref, ack.ok, ack.message, ack.scan, ack.near)
 
     async def _done(self, message: _Wanted) -> Ack:
         session, author = self._session, self.user.name

@@ -8,7 +8,9 @@ from shutil import copy
 import pytest
 
 BACKEND = Path(__file__).parents[2]
-ROOMS = "cli web session verify comm store taps faults debug runtime engines check syntax plcmodel problems garbage".split()
+ROOMS = (
+    "cli web session verify comm store taps faults debug runtime engines check syntax plcmodel problems garbage".split()
+)
 INNER = ["engines.interpreter", "engines.native", "runtime.clock"]
 
 

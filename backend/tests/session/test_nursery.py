@@ -16,7 +16,7 @@ import pytest
 from scanbench.session import protocol
 from scanbench.session.codec import Splitter, pack
 from scanbench.session.events import PlcState
-from scanbench.session.instance import Instance, Memory
+from scanbench.session.instance import Instance, Remembered
 from scanbench.session.nursery import HostProcess, NoProcess, Nursery
 from scanbench.store.records import Limits
 
@@ -43,7 +43,7 @@ class Talk:
 
     def start(self, text: str = COUNTING, memory_mib: int | None = None) -> None:
         self.sock.sendall(
-            pack(protocol.Start("line", sources(text), str(self._run), None, memory_mib, None, 1.0, False, 0, False))
+            pack(protocol.Start("line", sources(text), str(self._run), None, memory_mib, None, 1.0, False, 0))
         )
 
     def say(self, message: object) -> None:
@@ -247,7 +247,7 @@ def test_a_plc_that_is_out_of_memory_is_not_started_again(tmp_path: Path) -> Non
             if state.state == "failed":
                 failed.set()
 
-        memory = Memory("line", sources(LARGE.format(8_000_000)), tmp_path / "line.run", Limits(memory_mib=64))
+        memory = Remembered("line", sources(LARGE.format(8_000_000)), tmp_path / "line.run", Limits(memory_mib=64))
         instance = Instance(memory, on_state, lambda _: None, tmp_path / "cache")
         instance.start()
         await asyncio.wait_for(failed.wait(), PATIENCE_S)

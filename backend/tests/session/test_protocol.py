@@ -21,7 +21,7 @@ from scanbench.runtime.trap import TrapInfo, Trapped
 from scanbench.runtime.write import Write
 from scanbench.session import protocol
 from scanbench.session.codec import ENTRIES, LENGTH, BadMessage, Splitter, pack, pack_body, unpack
-from scanbench.session.instance import Memory
+from scanbench.session.instance import Remembered
 from scanbench.session.watches import Watches
 from scanbench.store.records import Limits
 
@@ -50,13 +50,13 @@ def entry(command: object, scan: int = 5) -> Entry:
 
 @pytest.mark.parametrize("command", COMMANDS, ids=lambda each: type(each).__name__)
 def test_entries_come_back_equal(command: object) -> None:
-    for message in (protocol.Entered(entry(command)), protocol.Submit(9, entry(command).command)):
+    for message in (protocol.Entered((entry(command),)), protocol.Submit(9, entry(command).command)):
         assert unpack(pack(message)[LENGTH.size :]) == message
 
 
 def test_a_start_comes_back_equal_in_whatever_pieces() -> None:
-    memory = Memory("line-1", SOURCES, Path("/data/1.run"), Limits(memory_mib=128), speed=0.5, paused=True, scan=99)
-    entered = [protocol.Entered(entry(command)) for command in COMMANDS]
+    memory = Remembered("line-1", SOURCES, Path("/data/1.run"), Limits(memory_mib=128), speed=0.5, paused=True, scan=99)
+    entered = [protocol.Entered(tuple(map(entry, COMMANDS)))]
     messages = [memory.start(), *entered, protocol.Quit(), protocol.Frame(b"x", 3)]
     stream = b"".join(map(pack, messages))
     for size in (1, 3, 1000, len(stream)):

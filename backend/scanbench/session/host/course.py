@@ -1,5 +1,7 @@
 """The course of a run: its pace, and where it was asked to stop."""
 
+from collections import deque
+
 from scanbench.check.condition import Condition
 from scanbench.engines.engine import Pace
 from scanbench.runtime.clock import monotonic_ns
@@ -21,7 +23,8 @@ class Course:
         self._end = 0
         self.condition: Condition | None = None
         self.pace = Pace(0, 0)
-        self._seen: list[tuple[int, int, int]] = []
+        self._seen: deque[tuple[int, int, int]] = deque()
+        self._rest_until = 0
         self.set_pace(interval_ns)
 
     # ---- what people want -----------------------------------------------------------------------------------------
@@ -70,18 +73,28 @@ class Course:
             return
         self.pause()
 
-    def rest_ns(self, busy_ns: int) -> int:
-        """How long a run as fast as possible rests after so much work, to keep to the limit of the CPU."""
-        if self.cpu_percent is None or self.speed != MAX_SPEED:
-            return 0
-        return busy_ns * (100 - self.cpu_percent) // self.cpu_percent
+    def worked(self, busy_ns: int) -> None:
+        """After so much work a run as fast as possible has to rest, to keep to the limit of the CPU."""
+        if self.cpu_percent is not None and self.speed == MAX_SPEED:
+            self._rest_until = monotonic_ns() + busy_ns * (100 - self.cpu_percent) // self.cpu_percent
 
-    def late_percent(self) -> float:
-        """The share of the last seconds' scans that began after the next one was due."""
+    @property
+    def rest_s(self) -> float:
+        """How long it has to rest yet, whoever knocks meanwhile."""
+        return max(0.0, (self._rest_until - monotonic_ns()) / 1e9)
+
+    def look(self) -> None:
+        """Notes how the pace was kept until now."""
         now = monotonic_ns()
         self._seen.append((now, self.pace.scans, self.pace.late_scans))
         while len(self._seen) > 2 and self._seen[1][0] < now - _WINDOW_NS:
-            self._seen.pop(0)
+            self._seen.popleft()
+
+    @property
+    def late_percent(self) -> float:
+        """The share of the last seconds' scans that began after the next one was due."""
+        if not self._seen:
+            return 0.0
         _, scans, late = self._seen[0]
         ran = self.pace.scans - scans
         return 100 * (self.pace.late_scans - late) / ran if ran else 0.0

@@ -106,6 +106,9 @@ class Loop:
                 self._wake.wait()
                 self._wake.clear()
                 self._rested = True
+            elif rest := self._course.rest_s:
+                self._wake.wait(rest)
+                self._wake.clear()
             else:
                 if self._rested:  # what was missed meanwhile is not late
                     self._rested = False
@@ -124,14 +127,11 @@ class Loop:
         first, busy = resource.header.scan, resource.measured.busy_ns
         stop = self.timeline.run(course.scans, course.pace)
         scan = resource.header.scan
-        self._services.entered()
         course.ran(scan - first, stop.reason is Reason.CONDITION, scan)
         if course.paused:
             resource.engine.stop_when(None)
             self._tick = True
-        elif rest := course.rest_ns(resource.measured.busy_ns - busy):
-            self._wake.wait(rest / 1e9)
-            self._wake.clear()
+        course.worked(resource.measured.busy_ns - busy)
 
     def _serve(self, message: object) -> None:
         match message:
@@ -180,17 +180,19 @@ class Loop:
     # ---- pace -----------------------------------------------------------------------------------------------------
 
     def _drive(self, drive: protocol.Drive) -> None:
-        if drive.speed is not None and drive.speed != self._course.speed:
-            self._course.speed = drive.speed
-            self._course.set_pace(self.resource.program.interval_ns)
         said = self._drive_action(drive)
         if isinstance(said, Refusal):
             self._answer(drive.ref, said, "")
             return
+        if drive.speed is not None and drive.speed != self._course.speed:
+            self._course.speed = drive.speed
+            self._course.set_pace(self.resource.program.interval_ns)
         speed = "as fast as possible" if self._course.speed == MAX_SPEED else f"speed x{self._course.speed:g}"
         self._ack(drive.ref, True, f"{said}, {speed}")
 
     def _drive_action(self, drive: protocol.Drive) -> str | Refusal:
+        if drive.action == "speed":
+            return "go on"
         if drive.action == "pause":
             self._course.pause()
             return "pause"

@@ -22,8 +22,6 @@ from scanbench.session.runs import run_limit, sources_in
 def open_loop(start: protocol.Start, builder: Builder, link: Link) -> Loop:
     """The loop of a PLC, ready to run; `BuildFailed` says why there can be none. Tells the parent what it goes on with."""
     path = Path(start.run)
-    if start.restarted and path.exists():
-        path.replace(path.with_name(f"{path.name}.previous"))
     fresh = not path.exists()
     try:
         timeline, programs = _begun(start, path, builder) if fresh else _resumed(start, path, builder)

@@ -85,10 +85,8 @@ class Services:
     def entered(self) -> None:
         """Tells of the journal's new entries."""
         entries = self._timeline.new_entries()
-        for entry in entries:
-            self._link.post(protocol.Entered(entry))
         if entries:
-            self._link.post(protocol.RunMarks(self._timeline.recording.info, marks_of(entries), fresh=False))
+            self._link.post(protocol.Entered(tuple(entries)))
 
     def moved(self) -> None:
         """Another program is shown: every variable may have another place."""
@@ -99,6 +97,8 @@ class Services:
     def tick(self) -> None:
         """Tells what changed."""
         now = monotonic_ns()
+        self.entered()
+        self._course.look()
         header = self._resource.header
         if len(self._plan) and not self._link.backlogged:
             frame = self._plan.sample(self._resource.memory, header.scan, header.clock_ns)
