@@ -29,7 +29,7 @@ help:
 	@echo "make run     set up what is missing, start the bench, print its address (ARGS=\"--port 9000\")"
 	@echo "make test    everything: lint, types, layers, unit and case tests, frontend, browser stories"
 	@echo "make check   lint, types and layers only"
-	@echo "make bench   time the native engine beside C, and what watched values cost"
+	@echo "make bench   time the native engine beside C, builds, live values, pace, time travel, many PLCs"
 	@echo "make fuzz    compare the engines on fresh random programs (N=100000, SEED=1 to begin with)"
 	@echo "make features  write docs/features.md: the features of the standard and the cases that show them"
 	@echo "make shots   take the README's screenshots again"
@@ -53,7 +53,10 @@ check: $(VENV)/.stamp-runtime $(VENV)/.stamp-dev $(NODE_ROOTS:%=%/node_modules/.
 
 bench: $(VENV)/.stamp-runtime
 	@$(BIN)/scanbench bench $(ARGS)
-	@$(BIN)/python -m scanbench.bench.watch
+	@$(BIN)/scanbench bench watch
+	@$(BIN)/scanbench bench pace
+	@$(BIN)/scanbench bench goto
+	@$(BIN)/scanbench bench instances
 
 N ?= 10000
 SEED ?=
