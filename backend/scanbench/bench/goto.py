@@ -115,7 +115,6 @@ def _recorded(timeline: Timeline, scans: int) -> float:
         timeline.note()
         if timeline.live_scan == next_command:
             timeline.submit(Write("bench", "Main.gain", str(next_command % 17)))
-            timeline.recording.sync()
             next_command += every
     return scans / (perf_counter_ns() - start) * 1e9
 

@@ -1,12 +1,12 @@
 """`scanbench run --record FILE`: the run as a file, as the bench itself keeps it."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
 from pathlib import Path
 
 from scanbench.check.program import Program
 from scanbench.cli.inputs import usage
-from scanbench.runtime.fingerprints import program_digest
-from scanbench.runtime.header import Mode, fresh_image
-from scanbench.runtime.recording import About, Recording
+from scanbench.runtime.recording import Recording
 from scanbench.runtime.resource import Resource
 from scanbench.session.codec import ENTRIES, pack_body
 from scanbench.session.protocol import Sources
@@ -14,24 +14,32 @@ from scanbench.session.protocol import Sources
 _VERSION = 1
 
 
-def begin(path: Path, program: Program, files: dict[str, str], interval_ns: int) -> Recording:
-    """A new run file for a run from a cold start."""
+@contextmanager
+def recorded(
+    path: Path | None, program: Program, files: dict[str, str], interval_ns: int
+) -> Iterator[Recording | None]:
+    """A run file for a run from a cold start, if one is wanted. Of a run that fails no file is left."""
+    if path is None:
+        yield None
+        return
     sources = Sources(program.layout.model.name, files, interval_ns, _VERSION)
     try:
-        recording = Recording.create(path, About.of(program, "command line"), ENTRIES)
-        recording.program(_VERSION, pack_body(sources), program_digest(program))
-        recording.checkpoint(0, _VERSION, bytes(fresh_image(program, Mode.MONITOR)[: program.layout.state_size]))
+        recording = Recording.begin(path, program, _VERSION, pack_body(sources), ENTRIES, "command line")
     except FileExistsError:
         usage(f"{path} is there already: remove it, or choose another name")
     except OSError as error:
         usage(f"{path} cannot be written: {error.strerror}")
-    return recording
+    try:
+        with recording:
+            yield recording
+    except BaseException:
+        path.unlink(missing_ok=True)
+        raise
 
 
 def end(recording: Recording, resource: Resource) -> None:
     """The state at the end, so that whoever opens the file sees it at once."""
     written = recording.checkpoint(resource.header.scan, _VERSION, resource.state)
     recording.note(resource.header.scan)
-    recording.close()
     if not written:
         usage(f"the run could not be recorded whole: {recording.trouble}")

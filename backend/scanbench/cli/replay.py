@@ -11,8 +11,8 @@ from scanbench.check.build import check_sources
 from scanbench.cli.inputs import find_model_named, usage
 from scanbench.cli.run import ENGINES, EngineChoice
 from scanbench.engines.pair import Differs
+from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
-from scanbench.runtime.recording import KeptProgram
 from scanbench.runtime.replay import Diverged
 from scanbench.runtime.replay_file import Replayed, replay_file
 from scanbench.runtime.runfile import RunFileError

@@ -1,13 +1,17 @@
 """The journal: every entry of a run, in order. In memory; with image and program it determines every later byte."""
 
+from bisect import bisect_right
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
+from operator import itemgetter
 from typing import TYPE_CHECKING, Generic, TypeVar, cast, overload
 
 if TYPE_CHECKING:
     from scanbench.runtime.command import Entry
 
 T = TypeVar("T")
+_STRIDE = 512
+"""Entries from one state of a fold that is kept to the next."""
 
 
 @dataclass(frozen=True, slots=True, eq=False)
@@ -35,7 +39,8 @@ class Journal(Sequence["Entry"]):
 
     def __init__(self, entries: "Iterable[Entry]" = ()) -> None:
         self._entries: list[Entry] = []
-        self._derived: dict[object, tuple[int, object]] = {}
+        self._derived: dict[object, list[tuple[int, object]]] = {}
+        """Of each fold that was asked for: how many entries were behind it and its state, now and then, and at last."""
         for entry in entries:
             self.append(entry)
 
@@ -60,10 +65,35 @@ class Journal(Sequence["Entry"]):
 
     def derived(self, fold: Fold[T]) -> T:
         """The state of `fold` behind the last entry: only entries that came since it was last asked for are stepped."""
-        done, known = self._derived.get(fold, (0, fold.begin))
-        state = cast(T, known)
-        if done != len(self._entries):
-            for index in range(done, len(self._entries)):
-                state = fold.step(state, self._entries[index])
-            self._derived[fold] = (len(self._entries), state)
+        known = self._derived.setdefault(fold, [(0, fold.begin)])
+        done, last = known[-1]
+        if done == len(self._entries):
+            return cast(T, last)
+        state = cast(T, last)
+        if len(known) > 1 and done - known[-2][0] < _STRIDE:
+            known.pop()
+        for index in range(done, len(self._entries)):
+            state = fold.step(state, self._entries[index])
+            if index + 1 - known[-1][0] >= _STRIDE:
+                known.append((index + 1, state))
+        if known[-1][0] != len(self._entries):
+            known.append((len(self._entries), state))
         return state
+
+    def prefix(self, count: int) -> "Journal":
+        """A journal of the first `count` entries, which knows what this one knows of them."""
+        made = Journal()
+        made._entries = self._entries[:count]
+        made._derived = {
+            fold: known[: bisect_right(known, count, key=itemgetter(0))] for fold, known in self._derived.items()
+        }
+        return made
+
+    def without_front(self, kept: "Sequence[int]", cut: int) -> "Journal":
+        """A journal that has of the first `cut` entries only those at `kept`: the others mean nothing to any fold."""
+        made = Journal()
+        made._entries = [*(self._entries[index] for index in kept), *self._entries[cut:]]
+        gone = cut - len(kept)
+        for fold, known in self._derived.items():
+            made._derived[fold] = [known[0], *((done - gone, state) for done, state in known if done >= cut and done)]
+        return made

@@ -1,15 +1,18 @@
 """A run file replayed from its beginning, with every checkpoint on the way compared: the proof that it determines its run."""
 
 import hashlib
+from collections.abc import Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
-from scanbench.runtime.recording import Codec, Recording
+from scanbench.runtime.command import Entry
+from scanbench.runtime.contents import Codec
+from scanbench.runtime.recording import Recording
 from scanbench.runtime.replay import Diverged, replay
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.runfile import RunFileError
 from scanbench.runtime.thinning import Checkpoint
-from scanbench.runtime.timeline import KeptPrograms, ProgramsOf, open_at
+from scanbench.runtime.timeline import NOT_AS_RECORDED, KeptPrograms, ProgramsOf, open_at
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,6 +27,10 @@ class Replayed:
     checkpoints: int
     """So many agreed."""
     damage: str
+    by: str
+    """Who began the run, ..."""
+    created: str
+    """... and when, ISO 8601."""
 
     @property
     def scans(self) -> int:
@@ -36,40 +43,48 @@ def replay_file(path: Path, programs_of: ProgramsOf, codec: Codec, until: int | 
 
     `Diverged` when the run does not go as recorded, with the scan; `RunFileError` when the file cannot be used.
     """
-    recording = Recording.open(path, codec, read_only=True)
-    try:
-        resource = open_at(recording, KeptPrograms(recording, programs_of(recording.programs)), 0)
+    with Recording.open(path, codec, read_only=True) as recording:
+        entries = recording.take_entries()
+        programs = KeptPrograms(recording, programs_of(recording.programs))
         first, end = recording.first_scan, recording.last_scan
         if until is not None:
             if not first <= until <= end:
                 raise RunFileError(f"{path.name} holds scans {first} to {end}: scan {until} is none of them")
             end = until
-        agreed = _compare(recording, resource, end)
-        upto = [entry for entry in recording.entries[len(resource.journal) :] if entry.scan <= end]
-        replay(resource, upto, end)
+        try:
+            resource = open_at(recording, programs, recording.checkpoints[0], entries)
+            agreed = _compare(recording, resource, entries, end)
+            replay(resource, [entry for entry in entries[len(resource.journal) :] if entry.scan <= end], end)
+        except NOT_AS_RECORDED as error:
+            raise RunFileError(f"{path.name} cannot be replayed: {error}") from error
         digest = hashlib.sha256(resource.state).hexdigest()
-        return Replayed(first, resource.header.scan, digest, len(resource.journal), agreed, recording.damage)
-    finally:
-        recording.close()
+        about = recording.about
+        return Replayed(
+            first, resource.header.scan, digest, len(resource.journal), agreed, recording.damage, about.by, about.created
+        )  # fmt: skip
 
 
-def _compare(recording: Recording, resource: Resource, end: int) -> int:
+def _compare(recording: Recording, resource: Resource, entries: Sequence[Entry], end: int) -> int:
     """Runs from checkpoint to checkpoint; how many there are up to `end`."""
     agreed = 0
     for checkpoint in recording.checkpoints:
         if checkpoint.scan > end:
             break
-        replay(resource, recording.entries[len(resource.journal) : checkpoint.entries], checkpoint.scan)
-        if resource.version != checkpoint.version or resource.state != recording.state(checkpoint):
+        replay(resource, entries[len(resource.journal) : checkpoint.entries], checkpoint.scan)
+        if resource.version != checkpoint.version or resource.state != _recorded(recording, resource, checkpoint):
             raise Diverged(_difference(recording, resource, checkpoint))
         agreed += 1
     return agreed
 
 
+def _recorded(recording: Recording, resource: Resource, checkpoint: Checkpoint) -> bytes:
+    return recording.state(checkpoint, resource.program.layout.state_size)
+
+
 def _difference(recording: Recording, resource: Resource, checkpoint: Checkpoint) -> str:
     if resource.version != checkpoint.version:
         return f"before scan {checkpoint.scan} program {resource.version} runs, and {checkpoint.version} was recorded"
-    recorded, found = recording.state(checkpoint), resource.state
+    recorded, found = _recorded(recording, resource, checkpoint), resource.state
     at = next(index for index, (one, other) in enumerate(zip(recorded, found, strict=True)) if one != other)
     return (
         f"before scan {checkpoint.scan} byte {at} of the image is {found[at]:02X}, and {recorded[at]:02X} was recorded"

@@ -137,10 +137,10 @@ class Resource:
         """Replay of an entry: its plan, not its command, so that the planner need not be the same any more."""
         self._apply(entry)
 
-    def restore(self, version: int, state: bytes, journal: Journal) -> None:
+    def restore(self, loaded: Loaded, state: bytes, journal: Journal) -> None:
         """The PLC as it was: the program, its image, and the journal that led to it."""
-        if version != self.version:
-            self._load(self.programs.get(version))
+        if loaded is not self.loaded:
+            self._load(loaded)
         self.memory[: len(state)] = state
         self.journal = journal
 

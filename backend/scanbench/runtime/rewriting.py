@@ -14,11 +14,26 @@ _CHUNK = 1 << 20
 class Rewritten:
     """A new file beside the old one."""
 
+    source: RunFile
     file: RunFile
+    tail: int
+    """From this byte on all blocks of the source follow each other in the new file too."""
     upto: int
     """Bytes of the source that it stands for; what was appended behind them is still to be copied."""
     blocks: dict[int, Block] = field(default_factory=dict)
-    """Where keyframes and deltas are now, by their old offsets."""
+    """Where keyframes and deltas in front of the tail are now, by their old offsets."""
+
+    def follow(self, end: int) -> None:
+        """Copies what was appended to the source meanwhile, up to the byte `end`."""
+        for begin in range(self.upto, end, _CHUNK):
+            self.file.append_raw(self.source.read(begin, min(_CHUNK, end - begin)))
+        self.upto = end
+
+    def moved(self, block: Block) -> Block | None:
+        """Where a keyframe or delta of the source is in the new file, if it is."""
+        if block.offset >= self.tail:
+            return replace(block, offset=block.offset + self.file.end - self.upto)
+        return self.blocks.get(block.offset)
 
     def abandon(self) -> None:
         """It is not wanted after all."""
@@ -27,16 +42,13 @@ class Rewritten:
             self.file.path.unlink()
 
 
-def rewrite(
-    source: RunFile, path: Path, about: bytes, keep: Callable[[Block, int], bool], upto: int | None = None
-) -> Rewritten:
-    """Copies the blocks that `keep(block, entries in front of it)` wants, behind a new ABOUT. Any thread."""
-    end = source.end if upto is None else upto
-    made = Rewritten(RunFile.create(path), end)
+def rewrite(source: RunFile, end: int, path: Path, about: bytes, keep: Callable[[Block, int], bool]) -> Rewritten:
+    """Copies the blocks up to the byte `end` that `keep(block, entries in front of it)` wants, behind a new ABOUT. Any thread."""
+    made = Rewritten(source, RunFile.create(path), end, end)
     try:
         made.file.append(Kind.ABOUT, 0, about)
         _copy(source, made, keep)
-    except OSError:
+    except BaseException:
         made.abandon()
         raise
     return made
@@ -52,15 +64,15 @@ def _copy(source: RunFile, made: Rewritten, keep: Callable[[Block, int], bool]) 
         if not wanted:
             continue
         if block.offset != end or end - begin > _CHUNK:
-            copy_range(source, made.file, begin, end)
+            _copy_range(source, made.file, begin, end)
             begin = block.offset
         end = block.end
         if block.kind in (Kind.KEYFRAME, Kind.DELTA):
             made.blocks[block.offset] = replace(block, offset=made.file.end + block.offset - begin)
-    copy_range(source, made.file, begin, end)
+    _copy_range(source, made.file, begin, end)
 
 
-def copy_range(source: RunFile, target: RunFile, begin: int, end: int) -> None:
-    """Appends the bytes of whole blocks."""
+def _copy_range(source: RunFile, target: RunFile, begin: int, end: int) -> None:
+    """Appends bytes, which are whole blocks in the end."""
     if end > begin:
         target.append_raw(source.read(begin, end - begin))

@@ -260,24 +260,27 @@ class RunFile:
 
     def _last_scan(self, offset: int, size: int) -> int:
         """The last scan that a good block behind the damage names, as far as that is found with reasonable trouble."""
-        last, left = -1, _SEARCH
-        while left > 0 and (at := self._find_sync(offset, size)) is not None:
-            block = self._good_block(at, size)
+        last, behind, left = -1, offset, _SEARCH
+        for at in self._places(offset, size):
+            if at < behind:
+                continue
+            if left <= 0:
+                break
             claimed = _decode(os.pread(self.fd, _BLOCK.size, at), at)
             left -= max(_LOOK, claimed.length if claimed is not None and claimed.end <= size else 0)
-            offset = at + 1 if block is None else block.end
-            last = last if block is None else max(last, block.scan)
+            block = self._good_block(at, size)
+            if block is not None:
+                last, behind = max(last, block.scan), block.end
         return last
 
-    def _find_sync(self, offset: int, size: int) -> int | None:
-        """Where a block may begin next."""
-        while offset < size:
-            chunk = os.pread(self.fd, _CHUNK, offset)
+    def _places(self, offset: int, size: int) -> Iterator[int]:
+        """Where blocks may begin."""
+        for begin in range(offset, size, _CHUNK):
+            chunk = os.pread(self.fd, _CHUNK + len(_SYNC) - 1, begin)
             at = chunk.find(_SYNC)
-            if at >= 0:
-                return offset + at
-            offset += max(1, len(chunk) - len(_SYNC) + 1)
-        return None
+            while at >= 0:
+                yield begin + at
+                at = chunk.find(_SYNC, at + 1)
 
 
 def _check_head(path: Path, head: bytes) -> None:

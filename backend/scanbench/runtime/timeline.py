@@ -5,33 +5,43 @@ its place, and the journal is re-entered up to the scan; to return the state is 
 that people see are those of then, through the same doors, and nothing but a return can change the run.
 """
 
+from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
+from operator import attrgetter
 from pathlib import Path
+from struct import error as struct_error
 
-from scanbench.engines.engine import Pace, Stop
+from scanbench.check.condition import Condition, compile_condition
+from scanbench.engines.engine import Engine, Pace, Stop
 from scanbench.runtime.checkpoints import Checkpoints
 from scanbench.runtime.command import Command, Entry, Refusal
+from scanbench.runtime.contents import Codec, KeptProgram
 from scanbench.runtime.detect import Detect
 from scanbench.runtime.fingerprints import model_fingerprint, program_digest
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.programs import Loaded, Programs
-from scanbench.runtime.recording import DEFAULT_LIMIT, About, Codec, KeptProgram, Recording
+from scanbench.runtime.recording import DEFAULT_LIMIT, Recording
 from scanbench.runtime.replay import Diverged, replay
 from scanbench.runtime.resource import Measured, Resource
 from scanbench.runtime.runfile import RunFileError
+from scanbench.runtime.smaller import Standing
+from scanbench.runtime.thinning import Checkpoint
 
 PAST = "this is the past: return to live, or branch from here"
+
+NOT_AS_RECORDED = (ValueError, TypeError, AttributeError, IndexError, OverflowError, struct_error)
+"""What re-entering a journal comes to that nobody has recorded: plans that are none, patches outside of the image."""
 
 ProgramsOf = Callable[[Mapping[int, KeptProgram]], Programs]
 """Makes programs of what a run file kept of them. The mapping grows with the run."""
 
 
 @dataclass(frozen=True, slots=True)
-class _Standing:
-    """All that a resource is at one moment."""
+class _Moment:
+    """All that a resource is at one moment. It holds the program itself, so that going back to it cannot fail."""
 
-    version: int
+    loaded: Loaded
     scan: int
     state: bytes
     journal: Journal
@@ -39,14 +49,18 @@ class _Standing:
 
 
 class Timeline:
-    """A run with its recording. Everything but `recording.sync` in the thread that runs the scans."""
+    """A run with its recording. Everything in the thread that runs the scans, but for `live`."""
 
     def __init__(self, recording: Recording, resource: Resource, programs: "KeptPrograms") -> None:
         """See `begin` and `resume`."""
         self.recording, self.resource = recording, resource
-        self._programs = programs
+        self._kept = programs
         self._checkpoints = Checkpoints(recording)
-        self._live: _Standing | None = None
+        self._condition: Condition | None = None
+        self._armed: Engine | None = None
+        """What has the condition now: always the engine of the live PLC, and never while anything is run again."""
+        self._live: _Moment | None = None
+        """Where the PLC stands while the past is shown."""
         self._sent = 0
         self._whole = True
         """What is shown began with the journal as it is: nothing was dropped since."""
@@ -58,18 +72,9 @@ class Timeline:
     ) -> "Timeline":  # fmt: skip
         """A new run at scan 0 with a new file. `FileExistsError` when there is one of this name; `OSError`."""
         loaded = programs.get(version)
-        recording = Recording.create(path, About.of(loaded.program, by), codec, limit)
-        try:
-            recording.program(version, sources, program_digest(loaded.program))
-            kept = KeptPrograms(recording, programs)
-            resource = Resource(loaded, programs=kept, detect=detect, recorder=recording)
-            if not recording.checkpoint(0, version, resource.state):
-                raise OSError(recording.trouble)
-        except OSError:
-            recording.close()
-            path.unlink(missing_ok=True)
-            raise
-        return cls(recording, resource, kept)
+        recording = Recording.begin(path, loaded.program, version, sources, codec, by, limit)
+        kept = KeptPrograms(recording, programs)
+        return cls(recording, Resource(loaded, programs=kept, detect=detect, recorder=recording), kept)
 
     @classmethod
     def resume(
@@ -83,18 +88,17 @@ class Timeline:
         recording = Recording.open(path, codec, limit)
         try:
             programs = KeptPrograms(recording, programs_of(recording.programs))
-            resource = open_at(recording, programs, len(recording.checkpoints) - 1, detect)
-            entries = recording.entries[recording.checkpoints[-1].entries :]
+            checkpoint, entries = recording.checkpoints[-1], recording.take_entries()
+            resource = open_at(recording, programs, checkpoint, entries, detect)
             end = recording.last_scan if recording.lost else max(until, recording.last_scan)
-            replay(resource, entries, end)
+            replay(resource, entries[checkpoint.entries :], end)
             resource.settle()
-        except Diverged as error:
+        except (Diverged, *NOT_AS_RECORDED) as error:
             recording.close()
             raise RunFileError(f"{path.name} cannot be gone on with: {error}") from error
-        except RunFileError:
+        except BaseException:
             recording.close()
             raise
-        recording.entries = []  # the resource has them
         return cls(recording, resource, programs)
 
     def close(self) -> None:
@@ -115,9 +119,15 @@ class Timeline:
         return self._live.scan if self._live is not None else self.resource.header.scan
 
     @property
+    def live(self) -> Loaded:
+        """The program that the PLC runs. Any thread."""
+        live = self._live
+        return live.loaded if live is not None else self.resource.loaded
+
+    @property
     def live_version(self) -> int:
-        """The program that the PLC runs."""
-        return self._live.version if self._live is not None else self.resource.version
+        """Its version. Any thread."""
+        return self.live.version
 
     @property
     def version(self) -> int:
@@ -130,9 +140,9 @@ class Timeline:
         return self._live.journal if self._live is not None else self.resource.journal
 
     @property
-    def marks(self) -> Sequence[Entry]:
-        """The points of the run that mean something to people."""
-        return self.live_journal
+    def programs(self) -> Programs:
+        """The programs as they were given."""
+        return self._kept.inner
 
     def new_entries(self) -> list[Entry]:
         """Those that nobody was told of yet: the first time all of them."""
@@ -147,7 +157,11 @@ class Timeline:
         """Enters a command in the seam of the live PLC."""
         if self._live is not None:
             return Refusal(PAST)
+        program = self.resource.program
         outcome = self.resource.submit(command)
+        if self.resource.program is not program and self._condition is not None:
+            again = compile_condition(self.resource.program, self._condition.text)
+            self.stop_when(again if isinstance(again, Condition) else None)
         self._checkpoints.take_due(self.resource)
         return outcome
 
@@ -156,7 +170,7 @@ class Timeline:
         if version in self.recording.programs:
             return Refusal(f"there is a program version {version} in {self.recording.path.name} already")
         try:
-            program = self._programs.inner.get(version).program
+            program = self._kept.inner.get(version).program
         except LookupError as error:
             return Refusal(str(error.args[0]))
         try:
@@ -169,6 +183,7 @@ class Timeline:
         """Runs up to `scans` scans, but no more than to the next checkpoint: callers go on as long as they want to."""
         if self._live is not None:
             raise RuntimeError("the past is shown: the PLC waits")
+        self._arm()
         stop = self.resource.run(min(scans, self.slice()), pace)
         self._checkpoints.take_due(self.resource)
         return stop
@@ -177,14 +192,35 @@ class Timeline:
         """Scans until the next checkpoint is due."""
         return self._checkpoints.slice(self.resource)
 
-    def pass_time(self, scans: int) -> None:
-        """Virtual time goes on while the program is stopped."""
-        if self._live is None:
-            self.resource.pass_time(scans)
+    @property
+    def condition(self) -> Condition | None:
+        """What `stop_when` was given; after a change of the program the same for the new one, if that is possible."""
+        return self._condition
+
+    def stop_when(self, condition: Condition | None) -> None:
+        """From now on the live PLC comes back after scans after which the condition holds; see `Engine.stop_when`.
+
+        It stays in force through time travel, other programs and other engines.
+        """
+        self._disarm()
+        self._condition = condition
+
+    def _arm(self) -> None:
+        engine = self.resource.engine
+        if self._condition is None or self._armed is engine:
+            return
+        self._disarm()
+        engine.stop_when(self._condition)
+        self._armed = engine
+
+    def _disarm(self) -> None:
+        if self._armed is not None:
+            self._armed.stop_when(None)
+            self._armed = None
 
     def note(self) -> None:
-        """Marks where the run stands; takes over what `recording.sync` made smaller. A few times a second is enough."""
-        trim = self.recording.commit()
+        """Marks where the run stands; keeps the file within its bounds. A few times a second is enough."""
+        trim = self.recording.tidy()
         if trim is not None:
             self._forget(trim.kept, trim.cut)
         if self.recording.trouble and self._live is None:
@@ -194,24 +230,19 @@ class Timeline:
     def _forget(self, kept: tuple[int, ...], cut: int) -> None:
         """The front of the journal was dropped, but for what forces and errors are known by."""
         journal = self.live_journal
-        left = Journal([*(journal[index] for index in kept), *journal[cut:]])
+        left = journal.without_front(kept, cut)
         self._sent = max(0, self._sent - len(journal) + len(left))
         if self._live is None:
             self.resource.journal = left
         else:
-            live = self._live
-            self._live = _Standing(live.version, live.scan, live.state, left, live.measured)
+            self._live = replace(self._live, journal=left)
             self._whole = False
 
     # ---- the past -------------------------------------------------------------------------------------------------
 
     def goto(self, scan: int) -> Refusal | None:
         """Shows the state in which `scan` begins, with all that was entered in front of it."""
-        before = self._standing()
-        refusal = self._move(scan)
-        if refusal is None:
-            self._live = self._live or before
-        return refusal
+        return self._visit(scan, stay=True)
 
     def step(self, scans: int = 1) -> Refusal | None:
         """Shows a later scan of the past."""
@@ -228,26 +259,52 @@ class Timeline:
             self._stand(self._live)
             self._live, self._whole = None, True
 
-    def cut(self, path: Path, scan: int | None, by: str) -> Refusal | None:
-        """A new run file that ends in front of `scan`, or where the PLC stands now: for a branch, a clone, an export."""
-        shown, live = self._standing(), self._live
-        if scan is None:
-            wanted = live or shown
-        else:
-            refusal = self._move(scan)
-            if refusal is not None:
-                return refusal
-            wanted = self._standing()
-            self._stand(shown)
-        entries = len(wanted.journal)
-        try:
-            self.recording.copy(path, entries, wanted.scan, wanted.version, wanted.state, by)
-        except OSError as error:
-            return Refusal(f"the run cannot be written to {path.name}: {error.strerror}")
-        return None
+    def copy(self, path: Path, scan: int | None, by: str, on_done: Callable[[Refusal | None], None]) -> None:
+        """A new run file that ends in front of `scan`, or where the PLC stands now: for a branch, a clone, an export.
 
-    def _move(self, scan: int) -> Refusal | None:
-        """Puts the resource into the past; where that cannot be, it stays as it is."""
+        All that it takes of the PLC is taken now; it is written in another thread, where `on_done` is called when that is
+        done. When it is refused at once, `on_done` is called at once.
+        """
+
+        def done(error: Exception | None) -> None:
+            reason = error.strerror if isinstance(error, OSError) and error.strerror else str(error)
+            on_done(Refusal(f"the run cannot be written to {path.name}: {reason}") if error is not None else None)
+
+        wanted = self._live or self._moment()
+        if scan is not None:
+            found: list[_Moment] = []
+            refusal = self._visit(scan, stay=False, look=lambda: found.append(self._moment()))
+            if refusal is not None:
+                on_done(refusal)
+                return
+            wanted = found[0]
+        standing = Standing(wanted.scan, len(wanted.journal), wanted.loaded.version, wanted.state)
+        try:
+            self.recording.copy(path, standing, by, done)
+        except OSError as error:
+            done(error)
+
+    def cut(self, path: Path, scan: int | None, by: str) -> Refusal | None:
+        """For callers of before, until they are gone."""
+        answers: list[Refusal | None] = []
+        self.copy(path, scan, by, answers.append)
+        self.recording.wait()
+        return answers[0]
+
+    def _visit(self, scan: int, stay: bool, look: Callable[[], None] = lambda: None) -> Refusal | None:
+        """Goes to a scan, looks at it there, and comes back unless it is to `stay`, and always when it cannot be shown."""
+        live, shown = self._live, self._moment()
+        self._live = live or shown  # before anything is moved: other threads ask for what is live
+        refusal = self._move(scan, was_past=live is not None)
+        if refusal is None:
+            look()
+        if refusal is not None or not stay:
+            self._stand(shown)
+            self._live = live
+        return refusal
+
+    def _move(self, scan: int, was_past: bool) -> Refusal | None:
+        """Puts the resource into the past. Where it cannot, somebody has to put it back."""
         live = self.live_scan
         if scan > live:
             return Refusal(f"scan {scan} has not come yet: the PLC is at scan {live}")
@@ -257,29 +314,31 @@ class Timeline:
                 f"scan {scan} is not kept any more: the run can be gone back to scan {self.recording.first_scan}"
             )
         journal, resource = self.live_journal, self.resource
-        before, shown = self._standing(), resource.header.scan
-        resource.engine.stop_when(None)
+        self._disarm()
         try:
-            if not (self.past and self._whole and checkpoint.scan <= shown <= scan):
-                state = self.recording.state(checkpoint)
-                resource.restore(checkpoint.version, state, Journal(journal[: checkpoint.entries]))
+            if was_past and self._whole and checkpoint.scan <= resource.header.scan <= scan:
+                resource.journal = resource.journal.prefix(len(resource.journal))  # what was shown keeps its own
+            else:
+                loaded = self._kept.get(checkpoint.version)
+                state = _state(self.recording, checkpoint, loaded)
+                resource.restore(loaded, state, journal.prefix(checkpoint.entries))
+                self._whole = True
             resource.measured = Measured()
-            done = len(resource.journal)
-            replay(resource, journal[done : _entries_upto(journal, scan)], scan)
-        except (Diverged, LookupError, RunFileError, OSError) as error:
-            self._stand(before)
+            entered = len(resource.journal)
+            replay(resource, journal[entered : bisect_right(journal, scan, key=attrgetter("scan"))], scan)
+        except (Diverged, *NOT_AS_RECORDED, LookupError, RunFileError, OSError) as error:
             return Refusal(f"scan {scan} cannot be shown: {error}")
         return None
 
-    def _standing(self) -> _Standing:
+    def _moment(self) -> _Moment:
         resource = self.resource
-        return _Standing(
-            resource.version, resource.header.scan, resource.state, resource.journal, resource.measured
+        return _Moment(
+            resource.loaded, resource.header.scan, resource.state, resource.journal, resource.measured
         )  # fmt: skip
 
-    def _stand(self, standing: _Standing) -> None:
-        self.resource.restore(standing.version, standing.state, standing.journal)
-        self.resource.measured = standing.measured
+    def _stand(self, moment: _Moment) -> None:
+        self.resource.restore(moment.loaded, moment.state, moment.journal)
+        self.resource.measured = moment.measured
 
 
 class KeptPrograms:
@@ -305,9 +364,11 @@ class KeptPrograms:
         return loaded
 
 
-def open_at(recording: Recording, programs: KeptPrograms, index: int, detect: Detect | None = None) -> Resource:
+def open_at(
+    recording: Recording, programs: KeptPrograms, checkpoint: Checkpoint, entries: Sequence[Entry],
+    detect: Detect | None = None,
+) -> Resource:  # fmt: skip
     """A resource that stands at a checkpoint of a run file; `RunFileError` when its programs are not what they were."""
-    checkpoint = recording.checkpoints[index]
     try:
         loaded = programs.get(checkpoint.version)
     except LookupError as error:
@@ -319,17 +380,9 @@ def open_at(recording: Recording, programs: KeptPrograms, index: int, detect: De
             f"one that is installed: use the models it was recorded with"
         )
     resource = Resource(loaded, programs=programs, detect=detect, recorder=recording)
-    resource.restore(checkpoint.version, recording.state(checkpoint), Journal(recording.entries[: checkpoint.entries]))
+    resource.restore(loaded, _state(recording, checkpoint, loaded), Journal(entries[: checkpoint.entries]))
     return resource
 
 
-def _entries_upto(journal: Sequence[Entry], scan: int) -> int:
-    """How many entries there are up to the seam of `scan`."""
-    low, high = 0, len(journal)
-    while low < high:
-        middle = (low + high) // 2
-        if journal[middle].scan <= scan:
-            low = middle + 1
-        else:
-            high = middle
-    return low
+def _state(recording: Recording, checkpoint: Checkpoint, loaded: Loaded) -> bytes:
+    return recording.state(checkpoint, loaded.program.layout.state_size)

@@ -235,9 +235,9 @@ class Instance:
         """Shows the past, or live again."""
         return self._ack(await self._ask(lambda ref: protocol.Travel(ref, scan, author)))
 
-    async def cut(self, path: Path, scan: int | None) -> protocol.Ack:
+    async def copy(self, path: Path, scan: int | None, author: str) -> protocol.Ack:
         """A run file of its own."""
-        return self._ack(await self._ask(lambda ref: protocol.Cut(ref, str(path), scan)))
+        return self._ack(await self._ask(lambda ref: protocol.Copy(ref, str(path), scan, author)))
 
     async def preview(self, sources: protocol.Sources) -> protocol.Previewed:
         """What a swap would do."""

@@ -74,12 +74,13 @@ class Travel:
 
 
 @dataclass(frozen=True, slots=True)
-class Cut:
+class Copy:
     """Writes a run file of its own that ends before `scan`, or now; answered with `Ack`."""
 
     ref: int
     path: str
     scan: int | None
+    author: str
 
 
 @dataclass(frozen=True, slots=True)

@@ -3,9 +3,10 @@
 from pathlib import Path
 
 from scanbench.runtime.clock import fresh_token
-from scanbench.runtime.recording import DEFAULT_LIMIT, KeptProgram, Recording
+from scanbench.runtime.contents import KeptProgram
+from scanbench.runtime.recording import DEFAULT_LIMIT, Recording
 from scanbench.runtime.runfile import RunFileError
-from scanbench.session.codec import ENTRIES, unpack
+from scanbench.session.codec import ENTRIES, BadMessage, unpack
 from scanbench.session.protocol import Sources
 
 RUN_SUFFIX = ".run"
@@ -48,16 +49,29 @@ def discard_all(directory: Path, instance: int) -> None:
 
 def sources_of(path: Path) -> Sources:
     """What the program in a run file was made of last; `RunFileError` when it is none, or cannot be used here."""
-    recording = Recording.open(path, ENTRIES, read_only=True)
-    return sources_in(recording.programs[max(recording.programs)])
+    with Recording.open(path, ENTRIES, read_only=True) as recording:
+        return sources_in(recording.programs[max(recording.programs)])
 
 
 def sources_in(kept: KeptProgram) -> Sources:
     """What a program in a run file was made of."""
-    sources = unpack(kept.sources)
-    if not isinstance(sources, Sources):
+    try:
+        sources = unpack(kept.sources)
+    except BadMessage as error:
+        raise RunFileError(f"program version {kept.version} of the run file cannot be read: {error}") from error
+    if not isinstance(sources, Sources) or not _is_right(sources):
         raise RunFileError(f"program version {kept.version} of the run file has no sources")
     return sources
+
+
+def _is_right(sources: Sources) -> bool:
+    """The file may come from anywhere."""
+    files: object = sources.files
+    if not isinstance(files, dict):
+        return False
+    texts: list[object] = [sources.model, *files.keys(), *files.values()]
+    numbers: list[object] = [sources.interval_ns, sources.version]
+    return all(isinstance(each, str) for each in texts) and all(isinstance(each, int) and each > 0 for each in numbers)
 
 
 def run_limit(mib: int | None) -> int:

@@ -181,9 +181,9 @@ class Session:
         """Swaps back in what ran before the last change."""
         return await self._refusing(self._instance.roll_back(author))
 
-    async def cut(self, path: Path, scan: int | None) -> None:
+    async def copy(self, path: Path, scan: int | None, author: str) -> None:
         """Writes a run file of its own that ends before `scan`, or now; `Refused` or `Unavailable` say why it cannot."""
-        ack = await self._instance.cut(path, scan)
+        ack = await self._instance.copy(path, scan, author)
         if not ack.ok:
             raise Refused(ack.message, ack.near)
 

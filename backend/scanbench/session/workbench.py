@@ -118,7 +118,7 @@ class Workbench:
         origin = self.session(id)
         row = await asyncio.to_thread(self._store.create_instance, origin.project_id, name)
         try:
-            await self._copied(origin, run_path(self._runs, row.id), scan)
+            await self._copied(origin, run_path(self._runs, row.id), scan, author)
         except BaseException:
             await asyncio.to_thread(self._store.delete_instance, row.id)
             await asyncio.to_thread(discard_all, self._runs, row.id)
@@ -127,22 +127,22 @@ class Workbench:
         session.told(author, f"branched from {origin.name} {'now' if scan is None else f'at scan {scan}'}")
         return session
 
-    async def export(self, id: int, scan: int | None) -> Path:
+    async def export(self, id: int, scan: int | None, author: str) -> Path:
         """A file with the run of this PLC, for the caller to delete; it ends before `scan`, or now."""
         session = self.session(id)
         path = fresh_path(self._runs, "export")
         try:
-            await self._copied(session, path, scan)
+            await self._copied(session, path, scan, author)
         except BaseException:
             await asyncio.to_thread(discard, path)
             raise
         return path
 
     @staticmethod
-    async def _copied(session: Session, path: Path, scan: int | None) -> None:
+    async def _copied(session: Session, path: Path, scan: int | None, author: str) -> None:
         """Of a PLC without a process the file as it is: also of one that failed, when it is wanted most."""
         if session.on or scan is not None:
-            await session.cut(path, scan)
+            await session.copy(path, scan, author)
             return
         try:
             await asyncio.to_thread(shutil.copyfile, session.run_file, path)

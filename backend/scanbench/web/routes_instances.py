@@ -71,9 +71,9 @@ async def on_branch(bench: Bench, request: Request, instance: int, branch: wire.
 
 
 @router.get("/instances/{instance}/export", response_class=FileResponse)
-async def on_export(bench: Bench, instance: int, scan: wire.Scan | None = None) -> FileResponse:
+async def on_export(bench: Bench, request: Request, instance: int, scan: wire.Scan | None = None) -> FileResponse:
     """The run as one file, which replays byte for byte elsewhere; it ends before `scan`, or now."""
-    path = await bench.export(instance, scan)
+    path = await bench.export(instance, scan, user_of(request).name)
     name = f"{bench.session(instance).name}.scanrun"
     return FileResponse(
         path, media_type="application/octet-stream", filename=name, background=BackgroundTask(path.unlink)

@@ -30,10 +30,14 @@ def call(*arguments: str) -> Result:
     return CliRunner().invoke(app, list(arguments))
 
 
+def run(program: str, *arguments: str) -> Result:
+    return call("run", program, "--model", "CJ1M-CPU63", *arguments)
+
+
 def test_a_recorded_run_replays_to_the_same_state(program: str, tmp_path: Path) -> None:
     record = str(tmp_path / "a.scanrun")
-    ran = call(
-        "run", program, "--model", "CJ1M-CPU63", "--scans", "5000", "--set", "Main.n=40@100", "--restart", "warm@300",
+    ran = run(
+        program, "--scans", "5000", "--set", "Main.n=40@100", "--restart", "warm@300",
         "--raise", "battery-error@400", "--mode", "PROGRAM@500", "--mode", "RUN@510", "--record", record, "--hash",
     )  # fmt: skip
     assert ran.exit_code == 0, ran.output
@@ -47,7 +51,7 @@ def test_a_recorded_run_replays_to_the_same_state(program: str, tmp_path: Path) 
     part = json.loads(call("replay", record, "--scans", "200", "--json").stdout)
     assert (part["scan"], part["entries"]) == (200, 1)
     assert part["hash"] != hash
-    there = call("run", program, "--scans", "1", "--record", record)
+    there = run(program, "--scans", "1", "--record", record)
     assert there.exit_code == 2
     assert "is there already" in there.output
 
@@ -60,7 +64,7 @@ def test_a_file_that_is_no_run(program: str, tmp_path: Path) -> None:
         assert refused.exit_code == 2
         assert "a.scanrun" in refused.output
     assert call("replay", str(tmp_path / "none.scanrun")).exit_code == 2
-    call("run", program, "--scans", "3000", "--set", "Main.n=5@7", "--record", str(tmp_path / "b.scanrun"))
+    run(program, "--scans", "3000", "--set", "Main.n=5@7", "--record", str(tmp_path / "b.scanrun"))
     whole = (tmp_path / "b.scanrun").read_bytes()
     file.write_bytes(whole[:-20])
     damaged = call("replay", str(file))
@@ -69,23 +73,23 @@ def test_a_file_that_is_no_run(program: str, tmp_path: Path) -> None:
 
 
 def test_a_run_ends_when_its_condition_holds(program: str) -> None:
-    ran = call(
-        "run", program, "--scans", "1000", "--until", "Main.n >= 5 AND NOT (Main.n = 6)", "--print", "Main.n", "--json"
+    ran = run(
+        program, "--scans", "1000", "--until", "Main.n >= 5 AND NOT (Main.n = 6)", "--print", "Main.n", "--json"
     )
     assert ran.exit_code == 0, ran.output
     assert json.loads(ran.stdout)["scans"] == 5
-    never = call("run", program, "--scans", "10", "--until", "Main.n < 0")
+    never = run(program, "--scans", "10", "--until", "Main.n < 0")
     assert never.exit_code == 2
     assert "it was not so that Main.n < 0" in never.output
-    wrong = call("run", program, "--scans", "10", "--until", "Main.m > 0")
+    wrong = run(program, "--scans", "10", "--until", "Main.m > 0")
     assert wrong.exit_code == 2
     assert "no member `m`" in wrong.output
 
 
 @pytest.mark.parametrize(("kind", "total", "kept"), [("warm", 15, 7), ("power", 15, 7), ("cold", 5, 7)])
 def test_restarts(program: str, kind: str, total: int, kept: int) -> None:
-    ran = call(
-        "run", program, "--model", "CJ1M-CPU63", "--scans", "15", "--restart", f"{kind}@10",
+    ran = run(
+        program, "--scans", "15", "--restart", f"{kind}@10",
         "--print", "Main.n", "--print", "Main.total", "--print", "D100", "--json",
     )  # fmt: skip
     assert ran.exit_code == 0, ran.output
@@ -93,10 +97,10 @@ def test_restarts(program: str, kind: str, total: int, kept: int) -> None:
 
 
 def test_wrong_modes_and_restarts(program: str) -> None:
-    refused = call("run", program, "--scans", "5", "--mode", "FAST@2")
+    refused = run(program, "--scans", "5", "--mode", "FAST@2")
     assert refused.exit_code == 2
     assert "FAST is not a mode" in refused.output
-    wrong = call("run", program, "--scans", "5", "--restart", "hot")
+    wrong = run(program, "--scans", "5", "--restart", "hot")
     assert wrong.exit_code == 2
     assert "cold, warm, power" in wrong.output
 

@@ -102,7 +102,7 @@ def again(programs: Shelf, points: Sequence[Point], entries: Sequence[Entry], st
     """The states at the points from `start` on, replayed from there."""
     first = points[start]
     resource = Resource(programs.get(1), programs=programs)
-    resource.restore(first.version, first.state, Journal(entries[: first.entries]))
+    resource.restore(programs.get(first.version), first.state, Journal(entries[: first.entries]))
     states, done = [], first.entries
     for point in points[start:]:
         replay(resource, entries[done : point.entries], point.scan)

@@ -7,9 +7,10 @@ from pathlib import Path
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.runtime.command import Refusal
+from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import EngineFactory, Loaded
-from scanbench.runtime.recording import DEFAULT_LIMIT, KeptProgram
+from scanbench.runtime.recording import DEFAULT_LIMIT
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.timeline import Timeline
 from scanbench.session.codec import ENTRIES
@@ -75,8 +76,15 @@ def advance(timeline: Timeline, scans: int) -> Resource:
     while timeline.live_scan < end and timeline.resource.runnable:
         timeline.run(end - timeline.live_scan)
     if not timeline.resource.header.halted_by_trap:
-        timeline.pass_time(end - timeline.live_scan)
+        timeline.resource.pass_time(end - timeline.live_scan)
     return timeline.resource
+
+
+def tidy(timeline: Timeline) -> None:
+    """Brings the file back within its bounds, if it is outside."""
+    timeline.note()
+    timeline.recording.wait()
+    timeline.note()
 
 
 def to_program(timeline: Timeline, version: int, source: str) -> str:

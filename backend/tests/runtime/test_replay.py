@@ -46,7 +46,7 @@ def test_a_run_can_be_gone_on_with_from_any_checkpoint(engine: EngineFactory, ch
     whole = run_headless(code, 30, engine, COMMANDS).resource
     part = run_headless(code, checkpoint, engine, [each for each in COMMANDS if each[0] <= checkpoint]).resource
     again = Resource(Loaded.make(code, engine))
-    again.restore(1, part.state, Journal(part.journal))
+    again.restore(again.loaded, part.state, Journal(part.journal))
     replay(again, whole.journal[len(part.journal) :], 30)
     assert again.state == whole.state
     assert [(each.scan, each.command, each.plan) for each in again.journal] == [

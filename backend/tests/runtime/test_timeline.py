@@ -33,6 +33,7 @@ from tests.runtime.recorded import (
     of_file_native,
     resumed,
     spare,
+    tidy,
     to_program,
 )
 
@@ -102,7 +103,10 @@ def test_goto_any_scan_equals_what_was_recorded_live(
             assert timeline.resource.state == states[scan]
             assert timeline.live_scan == end
         branch = data.draw(st.sampled_from(sorted(states)))
-        assert timeline.cut(Path(folder, "branch"), branch, "Bob") is None
+        answers: list[Refusal | None] = []
+        timeline.copy(Path(folder, "branch"), branch, "Bob", answers.append)
+        timeline.recording.wait()
+        assert answers == [None]
         assert timeline.resource.state == states[gone[-1]]
         timeline.return_live()
         assert timeline.resource.state == states[end]
@@ -250,8 +254,7 @@ def test_the_oldest_part_may_go_while_the_past_is_shown(tmp_path: Path, monkeypa
     state, size = timeline.resource.state, timeline.recording.info.bytes
     assert timeline.goto(250) is None
     timeline.recording.set_limit(size // 2)
-    timeline.recording.sync()
-    timeline.note()
+    tidy(timeline)
     info = timeline.recording.info
     assert 0 < info.dropped_before <= info.first_scan < 250
     assert info.bytes < size // 2

@@ -16,17 +16,15 @@ from scanbench.runtime.header import Mode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.rights import Right, may
-from scanbench.runtime.timeline import Timeline
+from scanbench.runtime.timeline import PAST, Timeline
 from scanbench.session import protocol
 from scanbench.session.codec import pack_body
 from scanbench.session.host.course import MAX_SPEED, Course
 from scanbench.session.host.link import Link
 from scanbench.session.host.services import Services
 from scanbench.session.host.shelf import HostPrograms
-from scanbench.session.host.swaps import BuildRefused, Optimising, Recode, Swap
+from scanbench.session.host.swaps import BuildRefused, Copied, Optimising, Recode, Swap
 from scanbench.session.runs import run_limit
-
-PAST = "this is the past: return to live, or branch from here"
 
 
 class Loop:
@@ -55,7 +53,7 @@ class Loop:
     @property
     def live_program(self) -> Program:
         """The program that runs, also while the past is shown."""
-        return self.programs.get(self.timeline.live_version).program
+        return self.timeline.live.program
 
     def previous_sources(self) -> protocol.Sources | None:
         """What ran before the last change of the program; None where there was none."""
@@ -81,10 +79,9 @@ class Loop:
         self._knock()
 
     def tick(self) -> None:
-        """Time for frames and state; what was recorded goes to the disk, in the thread that ticks."""
+        """Time for frames and state."""
         self._tick = True
         self._knock()
-        self.timeline.recording.sync()
 
     def tick_ns(self) -> int:
         """How soon the next tick is wanted."""
@@ -129,7 +126,7 @@ class Loop:
         scan = resource.header.scan
         course.ran(scan - first, stop.reason is Reason.CONDITION, scan)
         if course.paused:
-            resource.engine.stop_when(None)
+            self.timeline.stop_when(None)
             self._tick = True
         course.worked(resource.measured.busy_ns - busy)
 
@@ -141,8 +138,10 @@ class Loop:
                 self._drive(message)
             case protocol.Travel():
                 self._travel(message)
-            case protocol.Cut():
-                self._answer(message.ref, self.timeline.cut(Path(message.path), message.scan, "branch"), "written")
+            case protocol.Copy():
+                self._copy(message)
+            case Copied():
+                self._answer(message.ref, message.refusal, "written")
             case Swap():
                 self._swap(message)
             case Recode():
@@ -210,14 +209,14 @@ class Loop:
             if not isinstance(compiled, Condition):
                 return Refusal(compiled.message, compiled.near)
             condition = compiled
-        self.resource.engine.stop_when(condition)
+        self.timeline.stop_when(condition)
         self._course.run_on(self.resource.header.scan, drive.scans, condition)
         return f"continue: {self._course.target}" if self._course.target else "continue"
 
     def _single(self) -> str:
         """One scan, whatever knocks meanwhile."""
         self._course.pause()
-        self.resource.engine.stop_when(None)
+        self.timeline.stop_when(None)
         scan = self.resource.header.scan
         while self.resource.runnable and self.resource.header.scan == scan:
             if self.timeline.run(1).reason is Reason.TRAP:
@@ -233,7 +232,6 @@ class Loop:
             self.timeline.return_live()
             self._services.past_by = ""
             self._course.set_pace(self.resource.program.interval_ns)
-            self.resource.engine.stop_when(self._course.condition)
             refusal = None
         else:
             refusal = self.timeline.goto(travel.scan)
@@ -242,6 +240,14 @@ class Loop:
             self._services.moved()
         self.programs.drop_idle(self.timeline.version, self.timeline.live_version)
         self._answer(travel.ref, refusal, f"scan {self.resource.header.scan}" if travel.scan is not None else "live")
+
+    def _copy(self, copy: protocol.Copy) -> None:
+        """Writing takes a while, and another thread."""
+
+        def done(refusal: Refusal | None) -> None:
+            self.give(Copied(copy.ref, refusal))
+
+        self.timeline.copy(Path(copy.path), copy.scan, copy.author, done)
 
     # ---- program --------------------------------------------------------------------------------------------------
 
@@ -260,15 +266,10 @@ class Loop:
     def _moved(self) -> None:
         """Another program runs: its places, pace and conditions are others."""
         self._course.set_pace(self.resource.program.interval_ns)
-        if self._course.condition is not None:
-            again = compile_condition(self.resource.program, self._course.condition.text)
-            self._course.condition = again if isinstance(again, Condition) else None
-            self.resource.engine.stop_when(self._course.condition)
+        self._course.condition = self.timeline.condition
         self.programs.drop_idle(self.timeline.version, self.timeline.live_version)
         self._services.moved()
 
     def _recode(self, recode: Recode) -> None:
-        if recode.engine is None or not self.programs.recode(recode.program, recode.engine):
-            return
-        if recode.program is self.resource.program:
-            recode.engine.stop_when(self._course.condition)
+        if recode.engine is not None:
+            self.programs.recode(recode.program, recode.engine)

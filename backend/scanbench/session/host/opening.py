@@ -6,7 +6,7 @@ from pathlib import Path
 from scanbench.faults.detect import Detection
 from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Refusal
-from scanbench.runtime.recording import KeptProgram
+from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.runfile import RunFileError
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.timeline import Timeline
@@ -46,11 +46,9 @@ def _begun(start: protocol.Start, path: Path, builder: Builder) -> tuple[Timelin
 
 
 def _resumed(start: protocol.Start, path: Path, builder: Builder) -> tuple[Timeline, HostPrograms]:
-    made: list[HostPrograms] = []
-
     def programs_of(kept: Mapping[int, KeptProgram]) -> HostPrograms:
-        made.append(HostPrograms(builder, {each.version: sources_in(each) for each in kept.values()}))
-        return made[-1]
+        return HostPrograms(builder, {each.version: sources_in(each) for each in kept.values()})
 
-    limit = run_limit(start.run_mib)
-    return Timeline.resume(path, programs_of, ENTRIES, start.until, Detection(), limit), made[-1]
+    timeline = Timeline.resume(path, programs_of, ENTRIES, start.until, Detection(), run_limit(start.run_mib))
+    assert isinstance(timeline.programs, HostPrograms)
+    return timeline, timeline.programs

@@ -13,7 +13,7 @@ _KEPT = 3
 
 
 class HostPrograms:
-    """`runtime.Programs` of a host."""
+    """`runtime.Programs` of a host. The loop's thread alone asks; `make` is for any."""
 
     def __init__(self, builder: Builder, sources: Mapping[int, Sources]) -> None:
         self._builder = builder
@@ -55,10 +55,8 @@ class HostPrograms:
         for version in idle[: max(0, len(self._ready) - _KEPT)]:
             del self._ready[version]
 
-    def recode(self, program: Program, engine: Engine) -> bool:
-        """Optimised code for a program; false when it is not here any more."""
+    def recode(self, program: Program, engine: Engine) -> None:
+        """Optimised code for a program, if it is still here."""
         for loaded in self._ready.values():
             if loaded.program is program:
                 loaded.engine = engine
-                return True
-        return False

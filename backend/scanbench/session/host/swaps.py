@@ -5,6 +5,7 @@ from typing import Protocol
 
 from scanbench.check.program import Program
 from scanbench.engines.engine import Engine
+from scanbench.runtime.command import Refusal
 from scanbench.runtime.programs import Loaded
 from scanbench.session.protocol import Sources
 
@@ -33,6 +34,14 @@ class Recode:
 
     program: Program
     engine: Engine | None
+
+
+@dataclass(frozen=True, slots=True)
+class Copied:
+    """A copy of the run was written, or could not be."""
+
+    ref: int
+    refusal: Refusal | None
 
 
 class Optimising(Protocol):

@@ -1,0 +1,137 @@
+"""What is made of a run file beside it, in the recording's own thread: a smaller one, and copies."""
+
+import errno
+import os
+from collections.abc import Sequence
+from dataclasses import dataclass, replace
+from pathlib import Path
+
+from scanbench.runtime.contents import About, Codec, keyframe
+from scanbench.runtime.rewriting import Rewritten, rewrite
+from scanbench.runtime.runfile import Block, Kind, RunFile, RunFileError
+from scanbench.runtime.thinning import Checkpoint, plan_thinning
+from scanbench.runtime.write import Write
+
+ENTRY_LIMIT = 50_000
+"""Entries are in memory too, so that there is a bound of them besides the file's."""
+
+
+class Bounds:
+    """When a run file is too large. After each attempt to make it smaller it may grow by an eighth before the next."""
+
+    def __init__(self, limit: int) -> None:
+        self.limit = limit
+        self._enough, self._enough_entries = limit, ENTRY_LIMIT
+
+    def set_limit(self, limit: int) -> None:
+        """Another bound for the file."""
+        self.limit = self._enough = limit
+
+    def over(self, bytes: int, entries: int) -> bool:
+        """Whether it is time."""
+        return bytes > self._enough or entries > self._enough_entries
+
+    def tried(self, bytes: int, entries: int) -> None:
+        """It is as small as it gets now, or could not be made smaller."""
+        self._enough = max(self.limit, bytes + self.limit // 8)
+        self._enough_entries = max(ENTRY_LIMIT, entries + ENTRY_LIMIT // 8)
+
+
+@dataclass(frozen=True, slots=True)
+class Seen:
+    """A run file as it was at one moment."""
+
+    file: RunFile
+    end: int
+    about: About
+    checkpoints: Sequence[Checkpoint]
+    entries: int
+
+
+@dataclass(frozen=True, slots=True)
+class Smaller:
+    """A smaller file, and what is not in it: of the entries in front of `cut` only `heritage` are left."""
+
+    rewritten: Rewritten
+    about: About
+    heritage: tuple[int, ...]
+    cut: int
+
+
+def make_smaller(seen: Seen, limit: int, codec: Codec) -> Smaller | None:
+    """Makes a smaller file; None when it cannot be written."""
+    file = seen.file
+    excess_entries = seen.entries - ENTRY_LIMIT * 3 // 4 if seen.entries > ENTRY_LIMIT else 0
+    plan = plan_thinning(seen.checkpoints, seen.end - limit * 3 // 4, excess_entries)
+    cut, heritage = plan.cut, list[int]()
+
+    def keep(block: Block, in_front: int) -> bool:
+        if block.offset in plan.dropped:
+            return False
+        if block.kind is Kind.PROGRAM or cut is None or block.offset >= cut.block.offset:
+            return True
+        if block.kind is not Kind.ENTRY or isinstance(codec.unpack(file.payload(block)).command, Write):
+            return False
+        heritage.append(in_front)
+        return True
+
+    about = replace(
+        seen.about,
+        thinned_before=max(seen.about.thinned_before, plan.thinned_before),
+        dropped_before=cut.scan if cut is not None else seen.about.dropped_before,
+    )
+    try:
+        made = rewrite(file, seen.end, _part(file.path), about.packed(), keep)
+    except (OSError, RunFileError, MemoryError):
+        return None
+    try:
+        os.fdatasync(made.file.fd)
+        made.follow(file.end)  # what came meanwhile: all but the very last is on the disk before the names change
+        os.fdatasync(made.file.fd)
+    except (OSError, MemoryError):
+        made.abandon()
+        return None
+    return Smaller(made, about, tuple(heritage), cut.entries if cut is not None else 0)
+
+
+@dataclass(frozen=True, slots=True)
+class Standing:
+    """Where a copy of a run ends: the state before `scan`, and how many entries led there."""
+
+    scan: int
+    entries: int
+    version: int
+    state: bytes
+
+
+def write_copy(seen: Seen, path: Path, standing: Standing) -> None:
+    """A new run file that ends with this state, and has in front of it what led there; `OSError`, `RunFileError`."""
+    refuse_existing(path)
+
+    def keep(block: Block, in_front: int) -> bool:
+        if block.kind is Kind.ENTRY:
+            return in_front < standing.entries
+        return block.kind is Kind.PROGRAM or (block.scan <= standing.scan and in_front <= standing.entries)
+
+    made = rewrite(seen.file, seen.end, _part(path), seen.about.packed(), keep)
+    try:
+        made.file.append(Kind.KEYFRAME, standing.scan, keyframe(standing.version, standing.state))
+        os.fsync(made.file.fd)
+        os.replace(made.file.path, path)
+    except (OSError, MemoryError):
+        made.abandon()
+        raise
+    made.file.close()
+
+
+def refuse_existing(path: Path) -> None:
+    """Nothing is overwritten."""
+    if path.exists():
+        raise FileExistsError(errno.EEXIST, "there is a file of this name already", str(path))
+
+
+def _part(path: Path) -> Path:
+    """Where a file is written that gets this name in the end."""
+    part = path.with_name(path.name + ".part")
+    part.unlink(missing_ok=True)
+    return part
