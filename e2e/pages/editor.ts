@@ -45,7 +45,32 @@ export class Editor {
     await expect(this.text).toBeAttached();
   }
 
+  /** Turns the wheel until a line stands clear of the edges; lines out of sight are not in the page at all. */
+  async reveal(part: string): Promise<void> {
+    const line = this.line(part).first();
+    const area = await this.region
+      .locator('.view-lines')
+      .locator('xpath=ancestor::*[contains(@class, "overflow-guard")][1]')
+      .boundingBox();
+    if (!area) throw new Error('the editor is not to be seen');
+    await this.page.mouse.move(area.x + area.width / 2, area.y + area.height / 2);
+    const offset = async () => {
+      const box = (await line.count()) > 0 ? await line.boundingBox() : null;
+      if (!box) return null;
+      if (box.y < area.y) return -1;
+      return box.y + box.height > area.y + area.height - 10 ? 1 : 0;
+    };
+    for (let turn = 0, seen = await offset(); turn < 60 && seen !== 0; turn += 1) {
+      // Not in the page at all: from the top downward.
+      await this.page.mouse.wheel(0, seen === null && turn === 0 ? -100_000 : 40 * (seen ?? 1));
+      await this.page.evaluate(() => new Promise((drawn) => requestAnimationFrame(() => requestAnimationFrame(drawn))));
+      seen = await offset();
+    }
+  }
+
   async caretAfter(part: string): Promise<void> {
+    await expect(this.region.locator('.view-line').first()).toBeVisible();
+    await this.reveal(part);
     await this.line(part).first().click();
     await this.page.keyboard.press('End');
   }

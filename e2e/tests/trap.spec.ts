@@ -33,7 +33,6 @@ const FAULTS = [
 ];
 
 test('a program that goes wrong stops with file and line, and nothing else stops with it', async ({ openAs }) => {
-  test.setTimeout(120_000);
   const jo = await openAs('Jo');
   await jo.runs();
   const mika = await openAs('Mika');

@@ -1297,9 +1297,10 @@ export interface components {
         Run: {
             /**
              * Action
+             * @description speed: only that, a target stays
              * @enum {string}
              */
-            action: "continue" | "pause" | "scan";
+            action: "continue" | "pause" | "scan" | "speed";
             /** Ref */
             ref: number;
             /**
@@ -1309,7 +1310,7 @@ export interface components {
             scans: number | null;
             /**
              * Speed
-             * @description 0 is as fast as possible
+             * @description 0.01 to 1000; 0 is as fast as possible
              * @default null
              */
             speed: number | null;

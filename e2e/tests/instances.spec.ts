@@ -1,0 +1,56 @@
+import { expect, test } from '../fixtures/test';
+
+test('the list of instances: what they cost, clone, off and on, export and import', async ({ openAs }) => {
+  const ann = await openAs('Ann');
+  await ann.runs();
+  await ann.watch.set('start', 'TRUE');
+  await expect.poll(() => ann.watch.number('Main.parts.total')).toBeGreaterThan(0);
+  await ann.top.showInstances();
+  const list = ann.instances;
+
+  await test.step('each with its state and its load', async () => {
+    await expect(list.row('line-1')).toContainText('Running');
+    await expect(list.row('line-1')).toContainText(/\d MiB/);
+    await expect(list.row('line-1')).toContainText('CJ1M-CPU63');
+  });
+
+  await test.step('a clone is a PLC of its own', async () => {
+    await list.choose('line-1');
+    await list.pressAndName('Clone…', 'copy');
+    await expect(list.row('copy')).toContainText('Running');
+    await list.dialog.getByRole('searchbox').fill('copy');
+    await expect(list.row('line-1')).toHaveCount(0);
+    await list.dialog.getByRole('searchbox').fill('');
+  });
+
+  await test.step('switched off it costs nothing; switched on it goes on where it was', async () => {
+    await list.choose('copy');
+    await list.press('Switch off');
+    await expect(list.row('copy')).toContainText('Off');
+    await list.open('copy');
+    await expect(ann.banner).toContainText('copy is switched off');
+    await ann.banner.getByRole('button', { name: 'Switch on' }).click();
+    await ann.runs();
+    expect(await ann.watch.number('Main.parts.total')).toBeGreaterThan(0);
+  });
+
+  await test.step('exported and imported it is the same run', async () => {
+    await ann.top.showInstances();
+    await list.choose('copy');
+    const file = await list.export();
+    await list.import(file, 'back');
+    await expect(list.row('back')).toBeVisible();
+    await list.open('back');
+    await expect(ann.top.state).toContainText('Paused');
+    await ann.watch.add('Main.parts.total');
+    await expect.poll(() => ann.watch.number('Main.parts.total')).toBeGreaterThan(0);
+    await ann.top.press('Continue');
+    await ann.runs();
+  });
+
+  await test.step('and deleted it is gone', async () => {
+    await ann.top.showInstances();
+    await list.delete('back');
+    await expect(list.row('copy')).toBeVisible();
+  });
+});

@@ -1,0 +1,46 @@
+import { expect, test } from '../fixtures/test';
+
+test('a warm restart keeps the retained memory, a cold one clears it', async ({ openAs }) => {
+  const ann = await openAs('Ann');
+  await ann.runs();
+  for (const address of ['D500', 'W500']) {
+    await ann.watch.add(address);
+    await ann.watch.set(address, '4711');
+    await ann.watch.shows(address, /4711|1267/);
+  }
+  const scan = await ann.top.scan();
+
+  await test.step('warm: D is kept, W is not, and the scans go on counting', async () => {
+    await ann.top.restart('Warm restart');
+    await ann.watch.shows('W500', /^(16#0+|0)$/);
+    await ann.watch.shows('D500', /4711|1267/);
+    await ann.top.scansGoOn(scan);
+  });
+
+  await test.step('power cycle: as the device, D is kept', async () => {
+    await ann.top.restart('Power cycle');
+    await expect(ann.timeline.mark(/[Pp]ower/).first()).toBeVisible();
+    await ann.watch.shows('D500', /4711|1267/);
+  });
+
+  await test.step('cold: everything begins anew', async () => {
+    await ann.top.restart('Cold restart');
+    await ann.watch.shows('D500', /^(16#0+|0)$/);
+    await ann.runs();
+  });
+});
+
+test('in RUN a tool may only look, and the page says so', async ({ openAs }) => {
+  const ann = await openAs('Ann');
+  await ann.runs();
+  await ann.top.chooseMode('RUN');
+  await expect(ann.watch.entry('start')).not.toBeEditable();
+  await expect(ann.watch.entry('start')).toHaveAccessibleDescription(/Mode RUN: tools may only look/);
+  await ann.watch.row('start').click({ button: 'right' });
+  await expect(ann.page.getByRole('menuitem', { name: /^Force to/ })).toBeDisabled();
+  await ann.page.keyboard.press('Escape');
+  await ann.simulator.generate('Battery error');
+  await ann.top.chooseMode('MONITOR');
+  await ann.watch.set('start', 'TRUE');
+  await ann.watch.shows('motor', 'TRUE');
+});

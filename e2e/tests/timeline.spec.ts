@@ -1,0 +1,89 @@
+import { expect, test } from '../fixtures/test';
+
+test('everybody goes back in time, sees the values of then, and returns to live', async ({ openAs }) => {
+  const ann = await openAs('Ann');
+  const bob = await openAs('Bob');
+  await ann.runs();
+  await ann.watch.set('start', 'TRUE');
+  await ann.watch.shows('motor', 'TRUE');
+  await expect.poll(() => ann.watch.number('Main.parts.total')).toBeGreaterThan(1);
+
+  await test.step('a click on the mark of the write leads to its scan', async () => {
+    await ann.timeline.mark(/Write: .*start/).click();
+    await expect(ann.timeline.banner).toContainText(/Scan .* the past, shown by Ann/);
+    await expect(ann.top.state).toContainText('In the past');
+    await ann.watch.shows('start', 'TRUE');
+    await ann.watch.shows('Main.parts.total', '0');
+  });
+
+  const written = await ann.timeline.position();
+
+  await test.step('one scan before, it was not written yet; the other browser sees the past too', async () => {
+    await ann.timeline.goTo(written - 1);
+    await ann.watch.shows('start', 'FALSE');
+    await ann.watch.shows('motor', 'FALSE');
+    await expect(bob.timeline.banner).toContainText('shown by Ann');
+    await bob.watch.shows('start', 'FALSE');
+    await expect.poll(() => bob.timeline.position()).toBe(written - 1);
+  });
+
+  await test.step('keys and controls go scan by scan, and from mark to mark', async () => {
+    await ann.timeline.axis.focus();
+    await ann.page.keyboard.press('ArrowRight');
+    await ann.watch.shows('start', 'TRUE');
+    await ann.top.press('Back one scan');
+    await ann.watch.shows('start', 'FALSE');
+    await ann.top.press('Forward one scan');
+    await ann.watch.shows('start', 'TRUE');
+  });
+
+  await test.step('the past cannot be changed, and says so', async () => {
+    await expect(ann.watch.entry('start')).not.toBeEditable();
+    await expect(ann.watch.entry('start')).toHaveAccessibleDescription(/the past/);
+    await expect(ann.top.mode('RUN')).toBeDisabled();
+    await ann.simulator.select('Battery error');
+    await expect(ann.page.getByRole('button', { name: 'Generate', exact: true })).toBeDisabled();
+  });
+
+  await test.step('live goes on where it was', async () => {
+    await bob.timeline.returnToLive();
+    await expect(ann.timeline.banner).toBeHidden();
+    await ann.runs();
+    await expect.poll(() => ann.watch.number('Main.parts.total')).toBeGreaterThan(1);
+  });
+});
+
+test('a branch begins as the PLC was then, and goes its own way', async ({ openAs }) => {
+  const ann = await openAs('Ann');
+  await ann.runs();
+  await ann.watch.set('start', 'TRUE');
+  await expect.poll(() => ann.watch.number('Main.parts.total')).toBeGreaterThan(1);
+  await ann.timeline.mark(/Write: .*start/).click();
+  await expect(ann.timeline.banner).toBeVisible();
+  const before = (await ann.timeline.position()) - 1;
+  await ann.timeline.goTo(before);
+  await ann.watch.shows('start', 'FALSE');
+
+  await test.step('it waits where it was cut off, without what came later', async () => {
+    await ann.timeline.branch('what-if');
+    await expect(ann.top.picker).toContainText('what-if');
+    await expect(ann.top.state).toContainText('Paused');
+    await expect.poll(() => ann.top.scan()).toBe(before);
+    await ann.watch.shows('start', 'FALSE');
+    await expect(ann.timeline.mark(/Write: /)).toHaveCount(0);
+  });
+
+  await test.step('it goes its own way', async () => {
+    await ann.top.press('Continue');
+    await ann.top.scansGoOn(before);
+    await ann.watch.shows('motor', 'FALSE');
+  });
+
+  await test.step('the first one is still shown in the past', async () => {
+    await ann.top.goTo(/Conveyor \/ line-1/i);
+    await expect(ann.timeline.banner).toContainText('shown by Ann');
+    await ann.timeline.returnToLive();
+    await ann.watch.shows('start', 'TRUE');
+    await ann.runs();
+  });
+});

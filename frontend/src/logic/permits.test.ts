@@ -1,0 +1,46 @@
+import { describe, expect, it } from "vitest";
+import type { InstanceState } from "../wire/types";
+import { forbidden } from "./permits";
+
+const monitor: InstanceState = {
+  state: "running",
+  mode: "MONITOR",
+  message: "",
+  scan: 1,
+  time_ns: 0,
+  interval_ns: 10_000_000,
+  cycle_us: 1,
+  speed: 1,
+  pid: 1,
+  restarts: 0,
+  trap: null,
+  forces: 0,
+  program_version: 1,
+  past: null,
+  target: "",
+  late_percent: 0,
+};
+
+describe("permits", () => {
+  it("MONITOR takes everything", () => {
+    for (const deed of ["write", "force", "errors", "mode", "run", "restart", "change"] as const)
+      expect(forbidden(monitor, true, deed)).toBeNull();
+  });
+
+  it("RUN takes neither writes nor changes, but errors, modes and restarts", () => {
+    const run = { ...monitor, mode: "RUN" } as const;
+    expect(forbidden(run, true, "write")).toBe("permit.run");
+    expect(forbidden(run, true, "force")).toBe("permit.run");
+    expect(forbidden(run, true, "change")).toBe("permit.run.change");
+    for (const deed of ["errors", "mode", "run", "restart"] as const) expect(forbidden(run, true, deed)).toBeNull();
+  });
+
+  it("nothing is done to the past, to a PLC that is off, and without a connection", () => {
+    const past = { ...monitor, past: { live_scan: 9, by: "Ann" } };
+    expect(forbidden(past, true, "errors")).toBe("permit.past");
+    expect(forbidden(past, true, "travel")).toBeNull();
+    expect(forbidden({ ...monitor, state: "off" }, true, "mode")).toBe("permit.off");
+    expect(forbidden(monitor, false, "run")).toBe("permit.offline");
+    expect(forbidden(null, true, "run")).toBe("permit.offline");
+  });
+});

@@ -1,0 +1,17 @@
+/** What may be done to a PLC now, and if not, why: one table for every control of the page. The PLC itself has the last word. */
+import type { InstanceState } from "../wire/types";
+import type { TextKey } from "./text.en";
+
+export type Deed = "write" | "force" | "errors" | "mode" | "run" | "restart" | "change" | "travel";
+
+/** Devices in RUN take nothing from a tool; errors come from the machine, so the error simulator goes on. */
+const NOT_IN_RUN: readonly Deed[] = ["write", "force", "change"];
+
+/** The text that says why something cannot be done now; null when it can. */
+export function forbidden(state: InstanceState | null, connected: boolean, deed: Deed): TextKey | null {
+  if (!connected || state === null) return "permit.offline";
+  if (state.past !== null) return deed === "travel" ? null : "permit.past";
+  if (state.state === "off") return "permit.off";
+  if (state.mode === "RUN" && NOT_IN_RUN.includes(deed)) return deed === "change" ? "permit.run.change" : "permit.run";
+  return null;
+}

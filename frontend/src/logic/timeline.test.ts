@@ -1,0 +1,114 @@
+import { describe, expect, it } from "vitest";
+import type { Mark } from "../wire/types";
+import {
+  clusters,
+  countKinds,
+  including,
+  neighbour,
+  placeOf,
+  readScan,
+  scanAt,
+  stepTo,
+  ticks,
+  zoomed,
+} from "./timeline";
+
+const axis = { from: 1000, to: 2000 };
+const mark = (scan: number, kind: Mark["kind"] = "write"): Mark => ({ scan, kind, author: "Ann", text: `${kind}` });
+
+describe("places", () => {
+  it("go from edge to edge and back", () => {
+    expect(placeOf(1000, axis)).toBe(0);
+    expect(placeOf(1500, axis)).toBe(0.5);
+    expect(placeOf(9999, axis)).toBe(1);
+    expect(scanAt(0.25, axis)).toBe(1250);
+    expect(scanAt(-1, axis)).toBe(1000);
+    expect(scanAt(2, axis)).toBe(2000);
+  });
+
+  it("of a run without scans are at the end", () => {
+    expect(placeOf(0, { from: 0, to: 0 })).toBe(1);
+    expect(scanAt(0.5, { from: 0, to: 0 })).toBe(0);
+  });
+});
+
+describe("ticks", () => {
+  it("are round numbers with room between them", () => {
+    expect(ticks({ from: 0, to: 128_411 }, 1000)).toEqual([0, 20_000, 40_000, 60_000, 80_000, 100_000, 120_000]);
+    expect(ticks({ from: 4711, to: 4731 }, 1000)).toEqual([4712, 4714, 4716, 4718, 4720, 4722, 4724, 4726, 4728, 4730]);
+  });
+
+  it("are whole scans, and none where there is no axis", () => {
+    expect(ticks({ from: 0, to: 3 }, 1000)).toEqual([0, 1, 2, 3]);
+    expect(ticks({ from: 5, to: 5 }, 1000)).toEqual([]);
+    expect(ticks(axis, 0)).toEqual([1000, 2000]);
+  });
+});
+
+describe("clusters", () => {
+  it("take together what lies too close; the most serious mark speaks", () => {
+    const found = clusters([mark(1000), mark(1001, "error"), mark(1002), mark(1500, "force")], axis, 320);
+    expect(found.map(({ first, marks }) => [first.kind, first.scan, marks.length])).toEqual([
+      ["error", 1001, 3],
+      ["force", 1500, 1],
+    ]);
+    expect(found.map(({ place }) => place)).toEqual([0, 0.5]);
+  });
+
+  it("leave out what is not on the axis, and lose none that is", () => {
+    const many = Array.from({ length: 5000 }, (_, index) => mark(index));
+    const found = clusters(many, axis, 1000);
+    expect(found.reduce((sum, { marks }) => sum + marks.length, 0)).toBe(1001);
+    const places = found.map(({ place }) => place * 1000);
+    for (const [index, place] of places.entries())
+      if (index > 0) expect(place - (places[index - 1] ?? 0)).toBeGreaterThanOrEqual(16);
+  });
+
+  it("count their kinds", () => {
+    expect(countKinds([mark(1), mark(2, "error"), mark(3)])).toEqual([
+      ["error", 1],
+      ["write", 2],
+    ]);
+  });
+});
+
+describe("moving", () => {
+  it("zooms around a scan, inside of the run", () => {
+    const whole = { from: 0, to: 1000 };
+    expect(zoomed(whole, whole, 0.5, 500)).toEqual({ from: 250, to: 750 });
+    expect(zoomed(whole, whole, 0.5, 1000)).toEqual({ from: 500, to: 1000 });
+    expect(zoomed({ from: 250, to: 750 }, whole, 2, 500)).toBeNull();
+    expect(zoomed({ from: 0, to: 20 }, whole, 0.5, 10)).toEqual({ from: 0, to: 20 });
+  });
+
+  it("keeps a scan in sight", () => {
+    const whole = { from: 0, to: 1000 };
+    expect(including({ from: 100, to: 200 }, whole, 150)).toEqual({ from: 100, to: 200 });
+    expect(including({ from: 100, to: 200 }, whole, 600)).toEqual({ from: 550, to: 650 });
+    expect(including({ from: 100, to: 200 }, whole, 1000)).toEqual({ from: 900, to: 1000 });
+  });
+
+  it("follows the keys", () => {
+    expect(stepTo("ArrowLeft", 1500, axis)).toBe(1499);
+    expect(stepTo("PageDown", 1500, axis)).toBe(1600);
+    expect(stepTo("PageUp", 1050, axis)).toBe(1000);
+    expect(stepTo("ArrowRight", 1999, axis)).toBe("live");
+    expect(stepTo("Home", 1500, axis)).toBe(1000);
+    expect(stepTo("End", 1500, axis)).toBe("live");
+    expect(stepTo("x", 1500, axis)).toBeUndefined();
+  });
+
+  it("finds the next mark", () => {
+    const marks = [mark(10), mark(20), mark(30)];
+    expect(neighbour(marks, 20, 1)?.scan).toBe(30);
+    expect(neighbour(marks, 20, -1)?.scan).toBe(10);
+    expect(neighbour(marks, 30, 1)).toBeUndefined();
+  });
+
+  it("reads a scan as it is typed", () => {
+    expect(readScan(" 4,711 ")).toBe(4711);
+    expect(readScan("12 000")).toBe(12_000);
+    expect(readScan("x1")).toBeNull();
+    expect(readScan("")).toBeNull();
+  });
+});

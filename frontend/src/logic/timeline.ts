@@ -1,0 +1,114 @@
+/** The arithmetic of the timeline: scans to places on an axis and back, marks that lie too close taken together. */
+import type { Mark } from "../wire/types";
+
+/** The scans that are shown, from the left edge to the right one. */
+export interface Axis {
+  from: number;
+  to: number;
+}
+
+/** Where a scan stands: 0 at the left edge, 1 at the right one. */
+export function placeOf(scan: number, axis: Axis): number {
+  if (axis.to <= axis.from) return 1;
+  return Math.min(1, Math.max(0, (scan - axis.from) / (axis.to - axis.from)));
+}
+
+/** The scan at a place, inside of the axis. */
+export function scanAt(place: number, axis: Axis): number {
+  const inside = Math.min(1, Math.max(0, place));
+  return Math.round(axis.from + inside * (axis.to - axis.from));
+}
+
+/** Round numbers along the axis, as many as have room. */
+export function ticks(axis: Axis, width: number, apart = 92): number[] {
+  const most = Math.max(1, Math.floor(width / apart));
+  const least = (axis.to - axis.from) / most;
+  if (!(least > 0)) return [];
+  const step = [1, 2, 5, 10]
+    .map((digit) => digit * 10 ** Math.floor(Math.log10(Math.max(1, least))))
+    .find((candidate) => candidate >= least);
+  if (step === undefined) return [];
+  const found: number[] = [];
+  for (let scan = Math.ceil(axis.from / step) * step; scan <= axis.to; scan += step) found.push(scan);
+  return found;
+}
+
+/** Marks at one place of the axis, that of the earliest; `first` speaks for them: it is the most serious one. */
+export interface Cluster {
+  place: number;
+  first: Mark;
+  marks: readonly Mark[];
+}
+
+/** What is most worth seeing when several marks share a place. */
+const SERIOUS: readonly Mark["kind"][] = ["error", "system", "build", "recover", "mode", "force", "run", "write"];
+
+/** Marks closer than `apart` pixels to the first of a group join it. They come, and the groups stay, in the order of their scans. */
+export function clusters(marks: readonly Mark[], axis: Axis, width: number, apart = 16): Cluster[] {
+  const found: { place: number; marks: Mark[] }[] = [];
+  for (const mark of marks) {
+    if (mark.scan < axis.from || mark.scan > axis.to) continue;
+    const place = placeOf(mark.scan, axis);
+    const group = found.at(-1);
+    if (group && (place - group.place) * width < apart) group.marks.push(mark);
+    else found.push({ place, marks: [mark] });
+  }
+  return found.map(({ place, marks: group }) => ({
+    place,
+    first: group.reduce((best, mark) => (rank(mark) < rank(best) ? mark : best)),
+    marks: group,
+  }));
+}
+
+function rank(mark: Mark): number {
+  return SERIOUS.indexOf(mark.kind);
+}
+
+/** How many marks of each kind, the most serious kind first. */
+export function countKinds(marks: readonly Mark[]): [Mark["kind"], number][] {
+  return SERIOUS.map((kind): [Mark["kind"], number] => [
+    kind,
+    marks.filter((mark) => mark.kind === kind).length,
+  ]).filter(([, count]) => count > 0);
+}
+
+/** The next mark in a direction, for the keyboard. */
+export function neighbour(marks: readonly Mark[], scan: number, direction: 1 | -1): Mark | undefined {
+  return direction > 0 ? marks.find((mark) => mark.scan > scan) : marks.findLast((mark) => mark.scan < scan);
+}
+
+const LEAST_SHOWN = 20;
+
+/** A closer or wider look around a scan; null is the whole run. */
+export function zoomed(axis: Axis, whole: Axis, factor: number, around: number): Axis | null {
+  const length = Math.max(LEAST_SHOWN, Math.round((axis.to - axis.from) * factor));
+  if (length >= whole.to - whole.from) return null;
+  const share = placeOf(around, axis);
+  const from = Math.min(whole.to - length, Math.max(whole.from, Math.round(around - share * length)));
+  return { from, to: from + length };
+}
+
+/** A zoomed axis moved so that a scan is on it. */
+export function including(axis: Axis, whole: Axis, scan: number): Axis {
+  if (scan >= axis.from && scan <= axis.to) return axis;
+  const length = axis.to - axis.from;
+  const from = Math.min(whole.to - length, Math.max(whole.from, Math.round(scan - length / 2)));
+  return { from, to: from + length };
+}
+
+/** Where a key leads from a scan; "live" is the live end, undefined a key that means nothing here. */
+export function stepTo(key: string, scan: number, whole: Axis): number | "live" | undefined {
+  const by = { ArrowLeft: -1, ArrowDown: -1, ArrowRight: 1, ArrowUp: 1, PageUp: -100, PageDown: 100 }[key];
+  if (by !== undefined) {
+    const target = Math.max(whole.from, scan + by);
+    return target >= whole.to ? "live" : target;
+  }
+  if (key === "Home") return whole.from;
+  return key === "End" || key === "Escape" ? "live" : undefined;
+}
+
+/** A scan as somebody types it: digits, with blanks, commas or dots between them. */
+export function readScan(text: string): number | null {
+  const digits = text.replace(/[\s,.'\u2009]/g, "");
+  return /^\d{1,15}$/.test(digits) ? Number(digits) : null;
+}

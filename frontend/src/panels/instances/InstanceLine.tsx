@@ -1,0 +1,91 @@
+import { memo } from "react";
+import { bytes, grouped, interval, percent } from "../../logic/numbers";
+import { showState } from "../../logic/plcstate";
+import { t } from "../../logic/text";
+import { Icon } from "../../ui/Icon";
+import type { Instance, InstanceLimits } from "../../wire/types";
+
+interface Props {
+  instance: Instance;
+  index: number;
+  top: number;
+  selected: boolean;
+  onSelect: (id: number) => void;
+  onOpen: (instance: Instance) => void;
+}
+
+/** More than this share of late scans is worth seeing. */
+const LATE = 1;
+
+/** One instance. A row is drawn again only when something of it changed. */
+export const InstanceLine = memo(
+  function InstanceLine({ instance, index, top, selected, onSelect, onOpen }: Props) {
+    const { state, load } = instance;
+    const shown = showState(state, true);
+    const off = state.state === "off";
+    const cost = (text: string) => (off ? "–" : text);
+    return (
+      <div
+        id={`instance-${instance.id}`}
+        className={`gr${selected ? " on" : ""}`}
+        role="row"
+        data-instance={instance.name}
+        aria-rowindex={index + 2}
+        aria-selected={selected}
+        style={{ transform: `translateY(${top}px)` }}
+        onClick={() => onSelect(instance.id)}
+        onDoubleClick={() => onOpen(instance)}
+      >
+        <span role="gridcell" className="cut" title={instance.name}>
+          <b>{instance.name}</b>
+        </span>
+        <span role="gridcell" className="muted cut" title={instance.project.name}>
+          {instance.project.name}
+        </span>
+        <span role="gridcell" className="muted cut c-model" title={instance.model}>
+          {instance.model}
+        </span>
+        <span role="gridcell" className={`st ${shown.tone}`} title={state.message || shown.detail}>
+          <Icon name={shown.icon} small />
+          <span className="cut">{shown.word}</span>
+          {!off && <span className="muted modeword">{state.mode}</span>}
+        </span>
+        <span role="gridcell" className="num">
+          {grouped(state.scan)}
+        </span>
+        <span role="gridcell" className="num muted">
+          {interval(state.interval_ns)}
+        </span>
+        <span role="gridcell" className="num">
+          {cost(percent(load.cpu_percent))}
+        </span>
+        <span role="gridcell" className="num">
+          {cost(bytes(load.memory_bytes))}
+        </span>
+        <span role="gridcell" className={`num${!off && state.late_percent >= LATE ? " late" : ""}`}>
+          {cost(percent(state.late_percent))}
+        </span>
+        <span role="gridcell" className="num">
+          {bytes(load.run_bytes)}
+        </span>
+        <span role="gridcell" className="muted cut c-limits" title={limitsIn(instance.limits)}>
+          {limitsIn(instance.limits)}
+        </span>
+      </div>
+    );
+  },
+  (a, b) =>
+    a.index === b.index &&
+    a.top === b.top &&
+    a.selected === b.selected &&
+    JSON.stringify(a.instance) === JSON.stringify(b.instance),
+);
+
+function limitsIn({ memory_mib: memory, cpu_percent: cpu, run_mib: run }: InstanceLimits): string {
+  const parts = [
+    cpu === null ? "" : `CPU ${cpu} %`,
+    memory === null ? "" : `${memory} MiB`,
+    run === null ? "" : `${t("instances.column.run")} ${run} MiB`,
+  ].filter(Boolean);
+  return parts.join(", ") || t("instances.limit.none");
+}

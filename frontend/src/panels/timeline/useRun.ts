@@ -1,0 +1,56 @@
+import { useEffect, useState } from "react";
+import type { Axis } from "../../logic/timeline";
+import { bindClock, readClock } from "../../store/clock";
+import { usePlc } from "../../store/plc";
+import { useTimeline } from "../../store/timeline";
+
+/** Scans come by the thousand: the axis grows with them, but is drawn a few times a second only. */
+const REDRAW = 250;
+
+export interface RunOnAxis {
+  /** All scans that can be gone back to. */
+  whole: Axis;
+  /** What is shown of them. */
+  axis: Axis;
+  /** The scan that is shown, or on its way to be. */
+  position: number;
+  past: boolean;
+}
+
+/** The run as the timeline draws it; null while there is none. */
+export function useRun(): RunOnAxis | null {
+  const clock = useSlowClock();
+  const { info, view, aim } = useTimeline();
+  const past = usePlc((plc) => plc.state?.past ?? null);
+  const shown = usePlc((plc) => plc.state?.scan ?? 0);
+  if (!info) return null;
+  const whole = { from: info.first_scan, to: Math.max(info.first_scan, past?.live_scan ?? clock) };
+  // Live and zoomed in: the axis moves along, so that now stays in sight.
+  const length = view ? view.to - view.from : 0;
+  const axis = view === null ? whole : past || aim !== null ? view : { from: whole.to - length, to: whole.to };
+  return { whole, axis, position: aim ?? (past ? shown : whole.to), past: past !== null };
+}
+
+function useSlowClock(): number {
+  const [scan, setScan] = useState(() => readClock().scan);
+  useEffect(() => {
+    let timer: ReturnType<typeof setTimeout> | undefined;
+    const unbind = bindClock(() => {
+      timer ??= setTimeout(() => {
+        timer = undefined;
+        setScan(readClock().scan);
+      }, REDRAW);
+    });
+    return () => {
+      unbind();
+      clearTimeout(timer);
+    };
+  }, []);
+  return scan;
+}
+
+/** PLC time of a scan: the clock of a PLC is its scans times its task interval. */
+export function timeOf(scan: number, intervalNs: number): number {
+  const clock = readClock();
+  return Math.max(0, clock.timeNs + (scan - clock.scan) * intervalNs);
+}

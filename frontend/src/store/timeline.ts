@@ -1,0 +1,80 @@
+/** The run from its first scan to the live one, and the way back into it. */
+import { create } from "zustand";
+import type { Axis } from "../logic/timeline";
+import { send } from "../wire/send";
+import type { Mark, Timeline, TimelineInfo } from "../wire/types";
+import { readClock } from "./clock";
+import { usePlc } from "./plc";
+
+const MARK_LIMIT = 5000;
+
+interface Run {
+  info: TimelineInfo | null;
+  marks: readonly Mark[];
+  /** What is shown of the run; null is all of it. */
+  view: Axis | null;
+  /** Where one is on the way to, until the PLC is there. */
+  aim: number | null;
+  refused: string | null;
+  /** The damage report that was read and put away. */
+  read: string;
+}
+
+const nothing: Run = { info: null, marks: [], view: null, aim: null, refused: null, read: "" };
+
+export const useTimeline = create<Run>(() => nothing);
+const set = useTimeline.setState;
+
+export function resetTimeline(): void {
+  set(nothing);
+}
+
+export function onTimeline({ info, marks, fresh }: Timeline): void {
+  set((run) => ({ info, marks: fresh ? marks : [...run.marks, ...marks].slice(-MARK_LIMIT) }));
+}
+
+export const setView = (view: Axis | null) => set({ view });
+export const aimAt = (aim: number | null) => set({ aim });
+export const putAwayDamage = () => set(({ info }) => ({ read: info?.damage ?? "" }));
+
+/** The newest scan there is, whatever is shown. */
+export function liveScan(): number {
+  return usePlc.getState().state?.past?.live_scan ?? readClock().scan;
+}
+
+let underWay = false;
+let next: { scan: number | null } | null = null;
+
+/** Shows the PLC as it was before a scan; null returns to live. While one request is answered, only the last wish is kept. */
+export async function travel(scan: number | null): Promise<void> {
+  set({ aim: scan ?? liveScan() });
+  next = { scan };
+  if (underWay) return;
+  underWay = true;
+  while (next !== null) {
+    const wish: { scan: number | null } = next;
+    next = null;
+    const answer = await send({ type: "travel", scan: wish.scan });
+    set({ refused: answer.ok ? null : answer.message });
+  }
+  underWay = false;
+  set({ aim: null });
+}
+
+/** One scan back from what is shown: into the past, or further into it. */
+export function stepBack(): void {
+  const first = useTimeline.getState().info?.first_scan ?? 0;
+  const { scan } = readClock();
+  if (scan > first) void travel(scan - 1);
+}
+
+/** One scan forward while the past is shown; at its end one is live again. */
+export function stepForward(): void {
+  const { scan } = readClock();
+  void travel(scan + 1 >= liveScan() ? null : scan + 1);
+}
+
+/** Shift+Esc, and the button of the banner. */
+export function returnToLive(): void {
+  if (usePlc.getState().state?.past) void travel(null);
+}

@@ -1,0 +1,63 @@
+import { type ReactNode, useState } from "react";
+import { t } from "../logic/text";
+import { Dialog } from "./Dialog";
+import { Field } from "./Field";
+
+interface Props {
+  title: string;
+  about?: string;
+  label: string;
+  /** What the button that does it says. */
+  action: string;
+  initial?: string;
+  /** Throws what was wrong; it is shown below the field. */
+  onName: (name: string) => Promise<void>;
+  onClose: () => void;
+  /** More to fill in, above the name. */
+  children?: ReactNode;
+}
+
+/** A dialog that asks for one name. */
+export function AskName({ title, about, label, action, initial = "", onName, onClose, children }: Props) {
+  const [name, setName] = useState(initial);
+  const [refused, setRefused] = useState<string | null>(null);
+  const [busy, setBusy] = useState(false);
+
+  async function submit(): Promise<void> {
+    if (name.trim() === "") {
+      setRefused(t("name.missing"));
+      return;
+    }
+    setBusy(true);
+    try {
+      await onName(name.trim());
+      onClose();
+    } catch (error) {
+      setRefused(error instanceof Error ? error.message : String(error));
+      setBusy(false);
+    }
+  }
+
+  return (
+    <Dialog
+      title={title}
+      about={about}
+      onClose={onClose}
+      onSubmit={() => void submit()}
+      footer={
+        <>
+          <span className="grow" />
+          <button type="button" className="btn quiet" onClick={onClose}>
+            {t("cancel")}
+          </button>
+          <button type="submit" className="btn primary" disabled={busy}>
+            {action}
+          </button>
+        </>
+      }
+    >
+      {children}
+      <Field label={label} value={name} onChange={setName} refused={refused} />
+    </Dialog>
+  );
+}
