@@ -54,6 +54,7 @@ def _load(kept: KeptProgram, engine_factory: EngineFactory) -> Loaded:
 
 def _text(result: Replayed) -> str:
     lines = [
+        f"begun by {result.by}, {result.created}",
         f"scans {result.first_scan} to {result.scan}: {result.entries} commands, "
         f"{result.checkpoints} checkpoints, all the same",
         f"state {result.hash}",

@@ -1,13 +1,14 @@
 """What was tested: one row for every error of the catalogue, folded from journal entries as they come."""
 
-from collections.abc import Iterable, Mapping, Sequence
+from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
 from datetime import datetime
 from typing import Literal
 
 from scanbench.check.layout import Layout
 from scanbench.faults.details import choose
-from scanbench.faults.inject import Generate, Origin, Recover
+from scanbench.faults.inject import Active, Generate, Origin, Recover
+from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.model import Model
 from scanbench.runtime.command import Entry, Refusal
 
@@ -62,9 +63,14 @@ class History:
             return self._cleared(self._present if command.ids is None else command.ids, entry.at, entry.scan)
         return []
 
-    def reconcile(self, present: Sequence[str], at: datetime) -> list[ErrorRow]:
-        """Only these errors are present now, whatever was heard of before; the rows that it changed."""
-        return self._cleared([id for id in self._present if id not in present], at, 0)
+    def reconcile(self, present: Mapping[str, Active], at: datetime) -> list[ErrorRow]:
+        """These errors are present now and no others, whatever was heard of before (a branch has a past that nobody told);
+        the rows that it changed."""
+        changed = self._cleared([id for id in self._present if id not in present], at, 0)
+        for id, active in present.items():
+            if id in self._rows and self._rows[id].status != "generated":
+                changed += self._raised(active.refs[-1], at, active.scan, active.by, active.origin)
+        return changed
 
     @property
     def _present(self) -> list[str]:
@@ -73,19 +79,21 @@ class History:
     def _generated(self, entry: Entry, command: Generate) -> list[ErrorRow]:
         changed = []
         for ref in command.errors:
-            error = self._model.error(ref.id)
-            chosen = choose(error, dict(ref.details), self._layout) if error is not None else None
-            if error is None or chosen is None or isinstance(chosen, Refusal):
-                continue
-            row = self._rows[error.id]
-            self._rows[error.id] = replace(
-                row,
-                status="generated", code=chosen.code_text, details=str(chosen), generated_at=entry.at,
-                recovered_at=None, generated_scan=entry.scan, recovered_scan=None, by=command.author,
-                origin=command.origin, count=row.count + 1,
-            )  # fmt: skip
-            changed.append(self._rows[error.id])
+            changed += self._raised(ref, entry.at, entry.scan, command.author, command.origin)
         return changed
+
+    def _raised(self, ref: ErrorRef, at: datetime, scan: int, by: str, origin: Origin) -> list[ErrorRow]:
+        error = self._model.error(ref.id)
+        chosen = choose(error, dict(ref.details), self._layout) if error is not None else None
+        if error is None or chosen is None or isinstance(chosen, Refusal):
+            return []
+        row = self._rows[error.id]
+        self._rows[error.id] = replace(
+            row,
+            status="generated", code=chosen.code_text, details=str(chosen), generated_at=at, recovered_at=None,
+            generated_scan=scan, recovered_scan=None, by=by, origin=origin, count=row.count + 1,
+        )  # fmt: skip
+        return [self._rows[error.id]]
 
     def _cleared(self, ids: Iterable[str], at: datetime, scan: int) -> list[ErrorRow]:
         changed = []

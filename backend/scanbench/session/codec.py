@@ -10,7 +10,7 @@ from dataclasses import fields, is_dataclass
 import msgpack  # type: ignore[import-untyped]
 
 from scanbench.check.violations import Violation, Violations
-from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.inject import Active, Generate, Recover
 from scanbench.faults.reference import ErrorRef
 from scanbench.problems import Span
 from scanbench.runtime.carry_over import Lost
@@ -33,7 +33,7 @@ _OBJECT = 1
 _CLASSES: dict[str, type] = {
     cls.__name__: cls
     for cls in (
-        ClearViolations, Entry, Force, Generate, Patch, Plan, ErrorRef, ProgramChange, Recover, Release, SetMode, Span, TrapInfo, Trapped,
+        Active, ClearViolations, Entry, Force, Generate, Patch, Plan, ErrorRef, ProgramChange, Recover, Release, SetMode, Span, TrapInfo, Trapped,
         Violation, Violations, Write,
         Lost, RecordingInfo, Restart, Restarted, SetClock, Swapped,
         protocol.Ack, protocol.Attend, protocol.Build, protocol.Copy, protocol.Diagnosed, protocol.Drive,

@@ -19,7 +19,7 @@ from scanbench.session import protocol
 from scanbench.session.codec import LENGTH, BadMessage, pack, unpack
 from scanbench.session.events import PlcState
 from scanbench.session.nursery import NoProcess, Process, nursery
-from scanbench.session.runs import set_aside
+from scanbench.session.runs import bring_back, set_aside
 from scanbench.store.records import Limits
 
 log = logging.getLogger("scanbench")
@@ -49,13 +49,15 @@ class Remembered:
     speed: float = 1.0
     paused: bool = False
     scan: int = 0
+    end: int | None = None
+    condition: str | None = None
 
     def start(self) -> protocol.Start:
         """The first message to a new host."""
         limits = self.limits
         return protocol.Start(
             self.name, self.sources, str(self.run), limits.run_mib, limits.memory_mib, limits.cpu_percent,
-            self.speed, self.paused, self.scan,
+            self.speed, self.paused, self.scan, self.end, self.condition,
         )  # fmt: skip
 
 
@@ -110,8 +112,15 @@ class Instance:
 
     async def stop(self) -> None:
         """Ends the process, and waits for it."""
+        await self.switch(on=False)
+
+    async def switch(self, on: bool) -> None:
+        """Starts the process, or ends it and waits for that; whoever wants it otherwise waits."""
         async with self._turning:
-            await self._stop()
+            if on:
+                self.start()
+            elif self.on:
+                await self._stop()
 
     async def _stop(self) -> None:
         self._stopping = True
@@ -133,6 +142,7 @@ class Instance:
             if self._stopping:
                 return
             if failure is not None:
+                await asyncio.to_thread(bring_back, self._memory.run)
                 self._set_state(state="failed", message=failure, pid=None)
                 return
             self._deaths = self._deaths + 1 if monotonic_ns() - born < QUICK_DEATH_NS else 1
@@ -207,6 +217,7 @@ class Instance:
 
     def _see(self, state: protocol.HostState) -> None:
         self._memory.speed, self._memory.paused = state.speed, state.paused
+        self._memory.end, self._memory.condition = state.end, state.until
         self._memory.scan = state.live_scan
         pid = self._process.pid if self._process is not None else None
         self._set_state(
@@ -269,6 +280,7 @@ class Instance:
         memory = self._memory
         memory.sources = sources or memory.sources
         memory.scan = self._deaths = 0
+        memory.end = memory.condition = None
         self._set_state(
             scan=0, live_scan=0, time_ns=0, trap=None, past_by="", target="", version=memory.sources.version
         )

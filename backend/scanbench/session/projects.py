@@ -129,6 +129,9 @@ class Projects:
         changes = await self._changes(sessions, build)
         lost = sum(change.previewed.forgets for change in changes)
         refused = [change.name for change in changes if change.previewed.refusal]
+        if changes and len(refused) == len(changes) and agreed:
+            message = f"nothing was changed: {'; '.join(f'{each.name}: {each.previewed.refusal}' for each in changes)}"
+            return BuildOutcome(False, message, found, project, changes)
         if (lost or refused) and not agreed:
             parts = [f"{lost} variable{'s' * (lost != 1)} would begin anew"] if lost else []
             parts += [f"{', '.join(refused)} cannot be changed now"] if refused else []

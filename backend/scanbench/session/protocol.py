@@ -8,6 +8,7 @@ its command; `Standing` and `RunMarks` say what holds after all entries so far, 
 from dataclasses import dataclass
 
 from scanbench.check.violations import Violations
+from scanbench.faults.inject import Active
 from scanbench.runtime.carry_over import Lost
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import Force
@@ -41,6 +42,10 @@ class Start:
     speed: float
     paused: bool
     until: int
+    end: int | None
+    """The run was asked to end in front of this scan."""
+    condition: str | None
+    """The run was asked to end when this holds."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -200,6 +205,10 @@ class HostState:
     past_by: str
     """Who went to the past; empty when what is shown is live."""
     target: str
+    end: int | None
+    """Of a run that was asked to end: the scan."""
+    until: str | None
+    """Or the condition."""
     late_percent: float
     late_us: float = 0.0
     """Mean lateness of scans since the pace was set."""
@@ -211,7 +220,7 @@ class Standing:
     """What holds at the scan that is shown: forces, and the errors that are present."""
 
     forces: tuple[Force, ...]
-    errors: tuple[str, ...]
+    errors: dict[str, Active]
 
 
 @dataclass(frozen=True, slots=True)

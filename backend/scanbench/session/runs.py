@@ -1,9 +1,14 @@
 """Run files on this server, and what can be said of one that comes from elsewhere."""
 
+from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
+from scanbench.plcmodel.model import Model
 from scanbench.runtime.clock import fresh_token
+from scanbench.runtime.command import Swapped
 from scanbench.runtime.contents import KeptProgram
+from scanbench.runtime.fingerprints import model_fingerprint
 from scanbench.runtime.recording import DEFAULT_LIMIT, Recording
 from scanbench.runtime.runfile import RunFileError
 from scanbench.session.codec import ENTRIES, BadMessage, unpack
@@ -29,6 +34,13 @@ def set_aside(path: Path) -> None:
         path.replace(path.with_name(f"{path.name}.previous"))
 
 
+def bring_back(path: Path) -> None:
+    """A run that could not begin leaves the one before it as it was."""
+    previous = path.with_name(f"{path.name}.previous")
+    if not path.exists() and previous.exists():
+        previous.replace(path)
+
+
 def sweep(directory: Path) -> None:
     """Removes what a server that was killed left half done."""
     for pattern in (f"export-*{RUN_SUFFIX}", f"import-*{RUN_SUFFIX}", "*.part"):
@@ -47,10 +59,23 @@ def discard_all(directory: Path, instance: int) -> None:
         discard(path)
 
 
-def sources_of(path: Path) -> Sources:
-    """What the program in a run file was made of last; `RunFileError` when it is none, or cannot be used here."""
+def sources_of(path: Path, models: Mapping[str, Model]) -> Sources:
+    """What the program that runs at the end of a run file is made of, numbered behind every other in it; `RunFileError`
+    when it is no run file, or cannot be used here."""
     with Recording.open(path, ENTRIES, read_only=True) as recording:
-        return sources_in(recording.programs[max(recording.programs)])
+        model = models.get(recording.about.model)
+        if model is None:
+            raise RunFileError(f"there is no model {recording.about.model} here: the run was recorded on one")
+        if model_fingerprint(model) != recording.about.model_fingerprint:
+            raise RunFileError(
+                f"the run was recorded on another description of the model {model.name} than the one here"
+            )
+        last = recording.checkpoints[-1]
+        version = last.version
+        for entry in recording.take_entries()[last.entries :]:
+            if isinstance(entry.plan.effect, Swapped):
+                version = entry.plan.effect.version
+        return replace(sources_in(recording.programs[version]), version=max(recording.programs))
 
 
 def sources_in(kept: KeptProgram) -> Sources:

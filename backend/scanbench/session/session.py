@@ -143,10 +143,7 @@ class Session:
         self._add_line(
             LogEntry(wall_time(), self.state.scan, author, "switched on" if row.powered else "switched off", "run")
         )
-        if row.powered:
-            self.start()
-        else:
-            await self.stop()
+        await self._instance.switch(row.powered)
 
     # ---- commands -------------------------------------------------------------------------------------------------
 

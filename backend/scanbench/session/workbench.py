@@ -156,7 +156,7 @@ class Workbench:
         """
         project: ProjectRow | None = None
         try:
-            sources = await asyncio.to_thread(sources_of, path)
+            sources = await asyncio.to_thread(sources_of, path, self.models)
             project = await self.projects.from_sources(name, sources, author)
             row = await asyncio.to_thread(self._store.create_instance, project.id, name)
             await asyncio.to_thread(os.replace, path, run_path(self._runs, row.id))
@@ -186,9 +186,10 @@ class Workbench:
 
     async def delete_instance(self, id: int) -> None:
         """Ends a PLC and forgets it, its history too."""
-        session = self.session(id)
+        session = self._sessions.pop(id, None)
+        if session is None:
+            raise NotFound(f"there is no instance {id}")
         await session.stop()
-        del self._sessions[id]
         await self._keeper.flush()
         await asyncio.to_thread(self._store.delete_instance, id)
         await asyncio.to_thread(discard_all, self._runs, id)

@@ -73,8 +73,8 @@ async def on_branch(bench: Bench, request: Request, instance: int, branch: wire.
 @router.get("/instances/{instance}/export", response_class=FileResponse)
 async def on_export(bench: Bench, request: Request, instance: int, scan: wire.Scan | None = None) -> FileResponse:
     """The run as one file, which replays byte for byte elsewhere; it ends before `scan`, or now."""
-    path = await bench.export(instance, scan, user_of(request).name)
     name = f"{bench.session(instance).name}.scanrun"
+    path = await bench.export(instance, scan, user_of(request).name)
     return FileResponse(
         path, media_type="application/octet-stream", filename=name, background=BackgroundTask(path.unlink)
     )
@@ -93,8 +93,10 @@ async def on_import(bench: Bench, request: Request, name: str) -> wire.Instance:
             if size > LARGEST_IMPORT:
                 raise Refused(f"the file is larger than {LARGEST_IMPORT >> 20} MiB")
             await asyncio.to_thread(file.write, chunk)
-    except BaseException:
+    except BaseException as error:
         await asyncio.to_thread(path.unlink)
+        if isinstance(error, OSError):
+            raise Refused(f"the file cannot be taken: {error.strerror}") from error
         raise
     finally:
         await asyncio.to_thread(file.close)

@@ -1,12 +1,14 @@
 """`scanbench run --record`, `replay`, and what a run can be told beside writes: modes, restarts, where to end."""
 
 import json
+from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 from typer.testing import CliRunner, Result
 
 from scanbench.cli import app
+from scanbench.runtime import runfile
 
 SOURCE = """
 PROGRAM Main
@@ -73,9 +75,7 @@ def test_a_file_that_is_no_run(program: str, tmp_path: Path) -> None:
 
 
 def test_a_run_ends_when_its_condition_holds(program: str) -> None:
-    ran = run(
-        program, "--scans", "1000", "--until", "Main.n >= 5 AND NOT (Main.n = 6)", "--print", "Main.n", "--json"
-    )
+    ran = run(program, "--scans", "1000", "--until", "Main.n >= 5 AND NOT (Main.n = 6)", "--print", "Main.n", "--json")
     assert ran.exit_code == 0, ran.output
     assert json.loads(ran.stdout)["scans"] == 5
     never = run(program, "--scans", "10", "--until", "Main.n < 0")
@@ -109,3 +109,42 @@ def test_a_subject_of_bench_has_options_of_its_own() -> None:
     unknown = call("bench", "noop", "--count", "3")
     assert unknown.exit_code == 2
     assert "--count" in unknown.output
+
+
+def test_of_a_run_that_fails_no_file_is_left(
+    program: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:  # fmt: skip
+    record = tmp_path / "a.scanrun"
+    arguments = ("run", program, "--model", "CJ1M-CPU63", "--scans", "50", "--record", str(record))
+    write = runfile._write
+
+    def full(after: int) -> Callable[[int, bytes, int], None]:
+        def limited(fd: int, data: bytes, offset: int) -> None:
+            if offset + len(data) > after:
+                raise OSError(28, "No space left on device")
+            write(fd, data, offset)
+
+        return limited
+
+    for after in (0, 100, 400, 800):  # the file, what it is about, the program, the first state
+        monkeypatch.setattr(runfile, "_write", full(after))
+        failed = call(*arguments)
+        assert failed.exit_code == 2
+        assert "No space left" in failed.output
+        assert not record.exists()
+    monkeypatch.setattr(runfile, "_write", write)
+    assert call(*arguments).exit_code == 0
+    size = record.stat().st_size
+    record.unlink()
+    monkeypatch.setattr(runfile, "_write", full(size - 60))
+    failed = call(*arguments)
+    assert failed.exit_code == 2
+    assert "could not be recorded whole" in failed.output
+    assert not record.exists()
+
+
+def test_a_replay_says_whose_run_it_was(program: str, tmp_path: Path) -> None:
+    record = str(tmp_path / "a.scanrun")
+    assert call("run", program, "--model", "CJ1M-CPU63", "--scans", "50", "--record", record).exit_code == 0
+    assert json.loads(call("replay", record, "--json").stdout)["by"] == "command line"
+    assert "begun by command line, 20" in call("replay", record).stdout

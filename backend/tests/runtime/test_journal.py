@@ -116,3 +116,53 @@ def test_a_trap_stops_the_program_whether_it_can_be_kept_or_not() -> None:
     assert isinstance(last.command, Trapped)
     assert must
     assert last is resource.journal[-1]
+
+
+def test_a_part_of_a_journal_knows_what_the_whole_one_knew() -> None:
+    steps = 0
+
+    def step(total: int, one: Entry) -> int:
+        nonlocal steps
+        steps += 1
+        return total + one.scan
+
+    fold = Fold(0, step)
+    journal = Journal()
+    whole = [entry(scan) for scan in range(20_000)]
+    for one in whole:  # asked for in between, as services do
+        journal.append(one)
+        if one.scan % 7 == 0:
+            assert journal.derived(fold) == sum(range(one.scan + 1))
+    assert journal.derived(fold) == sum(range(20_000))
+    assert steps == 20_000, "each entry once"
+    for count in (0, 1, 511, 512, 513, 9_999, 20_000):
+        steps = 0
+        part = journal.prefix(count)
+        assert list(part) == whole[:count]
+        assert part.derived(fold) == sum(range(count))
+        assert steps < 600
+        part.append(entry(50_000))
+        assert part.derived(fold) == sum(range(count)) + 50_000
+        assert journal.derived(fold) == sum(range(20_000))
+    assert len(journal._derived[fold]) < 20_000 / 500 + 3
+
+
+def test_a_journal_without_its_front_knows_what_it_knew() -> None:
+    steps = 0
+
+    def step(found: tuple[int, ...], one: Entry) -> tuple[int, ...]:
+        nonlocal steps
+        steps += 1
+        return (*found, one.scan) if one.scan % 1000 == 3 else found
+
+    fold = Fold[tuple[int, ...]]((), step)
+    journal = Journal(entry(scan) for scan in range(10_000))
+    known = journal.derived(fold)
+    left = journal.without_front((3, 1003, 2003, 3003), 4000)
+    steps = 0
+    assert len(left) == 6004
+    assert left.derived(fold) == known
+    assert steps == 0
+    assert left.prefix(3004).derived(fold) == tuple(range(3, 7000, 1000))
+    assert left.prefix(2).derived(fold) == (3, 1003)
+    assert steps < 600

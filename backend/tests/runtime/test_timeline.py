@@ -8,15 +8,21 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
+from scanbench.check.condition import Condition, compile_condition
+from scanbench.engines.engine import Reason, Stop
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Recover
 from scanbench.runtime import checkpoints, recording
-from scanbench.runtime.command import Command, Refusal
+from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.forces import FORCED, Force, Release
+from scanbench.runtime.journal import Journal
 from scanbench.runtime.modes import SetMode
+from scanbench.runtime.programs import Loaded
+from scanbench.runtime.replay import Diverged
 from scanbench.runtime.replay_file import replay_file
+from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.timeline import Timeline
 from scanbench.runtime.write import Write
@@ -269,4 +275,144 @@ def test_the_oldest_part_may_go_while_the_past_is_shown(tmp_path: Path, monkeypa
     assert timeline.new_entries() == []
     assert len(timeline.live_journal) < 2401
     assert timeline.resource.journal.derived(FORCED).keys() == {"MAIN.OTHER"}
+    timeline.close()
+
+
+def test_what_is_live_is_known_while_the_past_is_shown_and_never_built_again(tmp_path: Path) -> None:
+    timeline = begun(tmp_path / "run")
+    advance(timeline, 10)
+    assert not to_program(timeline, 2, SECOND)
+    advance(timeline, 10)
+    live, state = timeline.live, timeline.resource.state
+    assert (live.version, live) == (2, timeline.resource.loaded)
+    assert timeline.goto(5) is None
+    assert timeline.version == 1
+    assert (timeline.live, timeline.live_version) == (live, 2)
+    programs = timeline.programs
+    assert isinstance(programs, SourcePrograms)
+    programs.sources.clear()  # nothing can be built any more
+    programs._loaded.clear()
+    refused = timeline.goto(15)
+    assert isinstance(refused, Refusal)
+    assert "scan 15 cannot be shown" in refused.message
+    assert timeline.resource.header.scan == 5
+    assert timeline.past
+    timeline.return_live()
+    assert timeline.resource.loaded is live
+    assert timeline.resource.state == state
+    timeline.close()
+
+
+def test_other_threads_never_take_the_past_for_what_is_live(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    timeline = begun(tmp_path / "run")
+    advance(timeline, 10)
+    assert not to_program(timeline, 2, SECOND)
+    advance(timeline, 10)
+    seen: list[int] = []
+    restore = Resource.restore
+
+    def watched(resource: Resource, loaded: Loaded, state: bytes, journal: Journal) -> None:
+        seen.append(timeline.live_version)
+        restore(resource, loaded, state, journal)
+        seen.append(timeline.live_version)
+
+    monkeypatch.setattr(Resource, "restore", watched)
+    assert timeline.goto(5) is None
+    timeline.copy(tmp_path / "branch", 3, "Bob", lambda refusal: None)
+    timeline.return_live()
+    timeline.copy(tmp_path / "other", 3, "Bob", lambda refusal: None)
+    assert len(seen) == 12
+    assert set(seen) == {2}
+    assert not timeline.past
+    timeline.close()
+
+
+@pytest.mark.parametrize("engine", [ReferenceEngine, NativeEngine])
+def test_a_condition_holds_for_the_live_plc_whatever_happens(
+    engine: type[ReferenceEngine] | type[NativeEngine], tmp_path: Path
+) -> None:
+    timeline = begun(tmp_path / "run", engine=engine)
+
+    def until(text: str) -> None:
+        condition = compile_condition(timeline.resource.program, text)
+        assert isinstance(condition, Condition)
+        timeline.stop_when(condition)
+
+    def run() -> int:
+        for _ in range(1000):
+            if timeline.run(1000).reason is Reason.CONDITION:
+                break
+        return timeline.live_scan
+
+    until("Main.n MOD 100 = 0")
+    assert run() == 100
+    assert timeline.goto(50) is None
+    timeline.return_live()
+    assert run() == 200
+    assert isinstance(timeline.goto(10_000), Refusal)
+    assert run() == 300
+    timeline.copy(tmp_path / "copy", 150, "Bob", lambda refusal: None)
+    assert run() == 400
+    timeline.resource.engine = engine(timeline.resource.program, timeline.resource.memory)  # as optimised code comes
+    assert run() == 500
+    assert not to_program(timeline, 2, SECOND)
+    assert timeline.condition is not None
+    timeline.submit(Write("Ada", "Main.n", "6"))
+    scan, n = run(), value(timeline.resource, "Main.n")
+    assert (scan, n) == (598, 300)
+    timeline.stop_when(None)
+    timeline.run(300)
+    assert timeline.live_scan == 898
+    until("Main.first = 1")
+    assert not to_program(timeline, 1, COUNTER)
+    assert timeline.condition is None, "there is no such variable in this program"
+    timeline.close()
+
+
+@pytest.mark.parametrize("engine", [ReferenceEngine, NativeEngine])
+def test_a_condition_does_not_hold_up_the_way_into_the_past(
+    engine: type[ReferenceEngine] | type[NativeEngine], tmp_path: Path
+) -> None:
+    timeline = begun(tmp_path / "run", engine=engine)
+    condition = compile_condition(timeline.resource.program, "Main.n >= 0")
+    assert isinstance(condition, Condition)
+    timeline.stop_when(condition)
+    assert timeline.run(10).reason is Reason.CONDITION
+    assert timeline.live_scan == 1
+    advance(timeline, 99)
+    runs: list[int] = []
+    rerun = Resource.rerun
+
+    def counted(resource: Resource, scans: int) -> Stop:
+        runs.append(scans)
+        return rerun(resource, scans)
+
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setattr(Resource, "rerun", counted)
+        assert timeline.goto(90) is None
+    assert runs == [90]
+    timeline.close()
+
+
+def test_a_refused_step_leaves_what_was_shown(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    timeline = begun(tmp_path / "run")
+    for scan in range(20):
+        timeline.submit(Write("Ada", "Main.other", str(scan)))
+        advance(timeline, 1)
+    assert timeline.goto(10) is None
+    state, entries = timeline.resource.state, len(timeline.resource.journal)
+
+    def broken(resource: Resource, entry: Entry) -> None:
+        if entry.scan == 15:
+            raise Diverged("as it happens")
+        Resource._apply(resource, entry)
+
+    with monkeypatch.context() as patch:
+        patch.setattr(Resource, "reenter", broken)
+        refused = timeline.step(8)
+    assert isinstance(refused, Refusal)
+    assert "as it happens" in refused.message
+    assert (timeline.resource.state, len(timeline.resource.journal)) == (state, entries)
+    assert timeline.step(8) is None
+    assert value(timeline.resource, "Main.other") == 18
     timeline.close()

@@ -277,3 +277,70 @@ def test_a_million_scans_come_out_the_same_though_it_was_killed(server: Server, 
     assert found[0] == found[1]
     assert found[0]["scan"] >= 1_000_000
     assert found[0]["checkpoints"] > 1
+
+
+def test_two_people_begin_anew_and_one_switches_off(server: Server) -> None:
+    """Whatever order they come in, there is one process or none, as the last one wanted."""
+    instance = server.instance("contested", MODEL, main=COUNT)
+    with server.browser(instance) as ada, server.browser(instance, "Grace Hopper") as grace:
+        ada.watch("Main.n")
+        ada.wait(lambda: (ada.number("Main.n") or 0) > 5)
+        for browser in (ada, grace):
+            browser.socket.send(json.dumps({"type": "new_run", "ref": 77}))
+        for browser in (ada, grace):
+            assert browser.wait_for("done", ref=77)["ok"]
+        ada.wait(lambda: server.state(instance)["state"] == "running")
+        scan = ada.ask(type="run", action="pause")["scan"]
+        assert server.state(instance)["pid"] is not None
+        assert ada.ask(type="run", action="pause")["scan"] == scan  # nobody else runs it
+        grace.socket.send(json.dumps({"type": "new_run", "ref": 78}))
+        off = server.http.patch(f"/api/instances/{instance}", json={"power": False})
+        assert off.status_code == 200, off.text
+        grace.wait_for("done", ref=78)
+        ada.wait(lambda: server.state(instance)["state"] == "off")
+        assert server.state(instance)["pid"] is None
+
+
+def test_a_branch_has_the_errors_of_its_past(server: Server) -> None:
+    instance = server.instance("faulty", MODEL, main=COUNT)
+    with server.browser(instance) as browser:
+        assert browser.ask(type="generate", errors=[{"id": "battery-error"}])["ok"]
+        scan = browser.ask(type="run", action="pause")["scan"]
+    branch = server.http.post(f"/api/instances/{instance}/branch", json={"name": "heir", "scan": scan}).json()["id"]
+
+    def row() -> Message:
+        rows = server.http.get(f"/api/instances/{branch}/errors").json()
+        found: Message = next(each for each in rows if each["id"] == "battery-error")
+        return found
+
+    with server.browser(branch) as browser:
+        browser.wait(lambda: bool(row()["status"] == "generated"))
+        assert (row()["by"], row()["origin"]) == ("Ada Lovelace", "simulator")
+        assert browser.ask(type="recover", ids=None)["ok"]
+        browser.wait(lambda: bool(row()["status"] == "cleared"))
+
+
+def test_a_target_outlives_the_process(server: Server) -> None:
+    instance = server.instance("targeted", MODEL, main=COUNT)
+    with server.browser(instance) as browser:
+        browser.watch("Main.n")
+        scan = still(browser)
+        assert browser.ask(type="run", action="continue", scans=120)["ok"]
+        browser.wait(lambda: (browser.number("Main.n") or 0) > scan + 5)
+        pid = server.state(instance)["pid"]
+        os.kill(pid, signal.SIGKILL)
+        browser.messages.clear()
+        state = browser.wait_state("paused")
+        assert state["scan"] == scan + 120
+
+
+def test_numbers_without_meaning_are_refused(server: Server) -> None:
+    instance = server.instance("numbers", MODEL, main=COUNT)
+    with server.browser(instance) as browser:
+        for scan in (10**30, -1, 1 << 63):
+            refused = browser.ask(type="travel", scan=scan)
+            assert not refused["ok"]
+            reply = server.http.post(f"/api/instances/{instance}/branch", json={"name": "nowhere", "scan": scan})
+            assert reply.status_code == 422
+        assert browser.ask(type="run", action="pause")["ok"]
+    assert "nowhere" not in [each["name"] for each in server.http.get("/api/instances").json()]

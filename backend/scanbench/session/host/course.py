@@ -48,6 +48,16 @@ class Course:
         self._left = self.condition = None
 
     @property
+    def end(self) -> int | None:
+        """In front of which scan the run ends; None when it was not asked to."""
+        return self._end if self._left is not None else None
+
+    def lose(self, why: str) -> None:
+        """What the run was to end with has no meaning any more: it pauses, and says so."""
+        self.pause()
+        self.reached = why
+
+    @property
     def target(self) -> str:
         """Where the run ends, for people; empty when it does not."""
         parts = [f"scan {self._end}"] if self._left is not None else []

@@ -15,6 +15,7 @@ from scanbench.session.codec import Splitter, pack
 BACKLOG_BYTES = 4 << 20
 """More than this unsent: the parent does not keep up, and frames are dropped."""
 _LAST_WORDS_S = 2.0
+_AT_ONCE = 256
 
 
 class Link:
@@ -67,7 +68,8 @@ class Link:
             while not (self._closing and not self._queue and not self._unsent):
                 events = selectors.EVENT_READ | (selectors.EVENT_WRITE if self._unsent else 0)
                 selector.modify(self._sock, events)
-                for key, ready in selector.select(max(0, last_tick + tick_ns() - monotonic_ns()) / 1e9):
+                wait_ns = 0 if self._queue and not self._unsent else last_tick + tick_ns() - monotonic_ns()
+                for key, ready in selector.select(max(0, wait_ns) / 1e9):
                     if key.fileobj is self._sock and ready & selectors.EVENT_READ:
                         data = self._receive()
                         if not data:
@@ -89,8 +91,9 @@ class Link:
             return b""
 
     def _send(self) -> bool:
-        """Sends as much as goes without waiting; false when the other end is gone."""
-        while self._queue:
+        """Sends as much as goes without waiting; false when the other end is gone. Not all at once, as reading and ticks come
+        first even when the loop posts without end."""
+        for _ in range(min(len(self._queue), _AT_ONCE)):
             message = self._queue.popleft()
             self._unsent += pack(message() if callable(message) else message)
         try:

@@ -41,12 +41,24 @@ class Loop:
         self._tick = True
         self._quit = self._rested = False
         self._course = Course(self.resource.program.interval_ns, start.speed, start.paused, start.cpu_percent)
+        self._go_on(start)
         self._services = Services(timeline, self._course, link, note, tiers)
 
     @property
     def resource(self) -> Resource:
         """What is shown: the PLC, or its past."""
         return self.timeline.resource
+
+    def _go_on(self, start: protocol.Start) -> None:
+        """To where the last life of this PLC was asked to run."""
+        scan, condition = self.resource.header.scan, None
+        if start.condition is not None:
+            compiled = compile_condition(self.resource.program, start.condition)
+            condition = compiled if isinstance(compiled, Condition) else None
+        left = None if start.end is None else start.end - scan
+        if not start.paused and (condition is not None or (left is not None and left > 0)):
+            self.timeline.stop_when(condition)
+            self._course.run_on(scan, left, condition)
 
     # ---- from other threads ---------------------------------------------------------------------------------------
 
@@ -252,6 +264,10 @@ class Loop:
     # ---- program --------------------------------------------------------------------------------------------------
 
     def _swap(self, swap: Swap) -> None:
+        refused = self.change_refusal()
+        if refused:  # before it is kept in the run
+            self._ack(swap.ref, False, refused)
+            return
         self.programs.put(swap.loaded, swap.sources)
         if swap.loaded.version not in self.timeline.recording.programs:
             refusal = self.timeline.add_program(swap.loaded.version, pack_body(swap.sources))
@@ -266,7 +282,11 @@ class Loop:
     def _moved(self) -> None:
         """Another program runs: its places, pace and conditions are others."""
         self._course.set_pace(self.resource.program.interval_ns)
-        self._course.condition = self.timeline.condition
+        condition = self._course.condition
+        if condition is not None and self.timeline.condition is None:
+            self._course.lose(f"paused: the new program has no meaning for {condition.text}")
+        else:
+            self._course.condition = self.timeline.condition
         self.programs.drop_idle(self.timeline.version, self.timeline.live_version)
         self._services.moved()
 

@@ -129,7 +129,7 @@ class Services:
         journal = self._resource.journal
         forces = tuple(journal.derived(FORCED).values())
         present = journal.derived(ACTIVE)
-        standing = protocol.Standing(forces, tuple(present))
+        standing = protocol.Standing(forces, dict(present))
         if standing != self._standing:
             self._standing = standing
             self._link.post(standing)

@@ -33,6 +33,8 @@ def host_state(timeline: Timeline, course: Course, past_by: str, note: str) -> H
         live_scan=timeline.live_scan,
         past_by=past_by,
         target=course.target,
+        end=course.end,
+        until=course.condition.text if course.condition is not None else None,
         late_percent=round(course.late_percent, 2),
         late_us=round(course.pace.late_ns / max(1, course.pace.scans) / 1000, 1),
         worst_us=round(course.pace.worst_ns / 1000, 1),
