@@ -21,7 +21,7 @@ import numpy as np
 
 from scanbench.check.program import Program
 from scanbench.runtime.clock import iso, wall_time
-from scanbench.runtime.command import Command, Entry, Plan
+from scanbench.runtime.command import Command, Entry, Plan, Swapped
 from scanbench.runtime.fingerprints import libm_fingerprint, model_fingerprint
 from scanbench.runtime.runfile import Block, Kind, RunFile, RunFileError
 from scanbench.runtime.thinning import Checkpoint
@@ -157,6 +157,7 @@ class _Reader:
                 if len(head) < _VERSION.size:
                     raise self._file.unreadable(block, "it is too short")
                 (self._version,) = _VERSION.unpack(head)
+                self._need(block, self._version)
                 self._base = block
                 self._checkpoint(block, block)
             case Kind.DELTA if self._base is not None:
@@ -173,6 +174,10 @@ class _Reader:
         self.found.checkpoints.append(
             Checkpoint(block.scan, len(self.found.entries), self._version, block, base)
         )  # fmt: skip
+
+    def _need(self, block: Block, version: object) -> None:
+        if not isinstance(version, int) or version not in self.found.programs:
+            raise self._file.unreadable(block, f"it needs program version {version}, which is not in front of it")
 
     def _payload(self, block: Block) -> bytes:
         payload = self._file.payload(block)
@@ -200,6 +205,8 @@ class _Reader:
             raise self._file.unreadable(block, "it is no entry of a journal")
         if entry.scan != block.scan:
             raise self._file.unreadable(block, f"it is of scan {entry.scan}, and is kept at scan {block.scan}")
+        if isinstance(entry.plan.effect, Swapped):
+            self._need(block, entry.plan.effect.version)
         return entry
 
 

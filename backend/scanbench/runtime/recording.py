@@ -157,9 +157,6 @@ class Recording:
         """Until its thread has done all that it was given."""
         self._errands.wait()
 
-    def sync(self) -> None:
-        """For callers of before, until they are gone: nothing is left to do."""
-
     def set_limit(self, limit: int) -> None:
         """Another bound for the file."""
         self._bounds.set_limit(limit)

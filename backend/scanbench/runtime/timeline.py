@@ -284,13 +284,6 @@ class Timeline:
         except OSError as error:
             done(error)
 
-    def cut(self, path: Path, scan: int | None, by: str) -> Refusal | None:
-        """For callers of before, until they are gone."""
-        answers: list[Refusal | None] = []
-        self.copy(path, scan, by, answers.append)
-        self.recording.wait()
-        return answers[0]
-
     def _visit(self, scan: int, stay: bool, look: Callable[[], None] = lambda: None) -> Refusal | None:
         """Goes to a scan, looks at it there, and comes back unless it is to `stay`, and always when it cannot be shown."""
         live, shown = self._live, self._moment()

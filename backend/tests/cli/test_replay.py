@@ -126,17 +126,21 @@ def test_of_a_run_that_fails_no_file_is_left(
 
         return limited
 
-    for after in (0, 100, 400, 800):  # the file, what it is about, the program, the first state
+    assert call(*arguments).exit_code == 0
+    file = runfile.RunFile.open(record, read_only=True)
+    blocks = list(file.scan_blocks())
+    file.close()
+    for after in (
+        0,
+        *(each.end - 1 for each in blocks[:3]),
+    ):  # the file, what it is about, the program, the first state
+        record.unlink(missing_ok=True)
         monkeypatch.setattr(runfile, "_write", full(after))
         failed = call(*arguments)
         assert failed.exit_code == 2
         assert "No space left" in failed.output
         assert not record.exists()
-    monkeypatch.setattr(runfile, "_write", write)
-    assert call(*arguments).exit_code == 0
-    size = record.stat().st_size
-    record.unlink()
-    monkeypatch.setattr(runfile, "_write", full(size - 60))
+    monkeypatch.setattr(runfile, "_write", full(blocks[3].end - 1))
     failed = call(*arguments)
     assert failed.exit_code == 2
     assert "could not be recorded whole" in failed.output

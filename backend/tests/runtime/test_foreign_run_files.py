@@ -12,8 +12,9 @@ import pytest
 import zstandard
 
 from scanbench.runtime import contents
-from scanbench.runtime.command import Entry, Patch, Plan
+from scanbench.runtime.command import Entry, Patch, Plan, Swapped
 from scanbench.runtime.contents import About, KeptProgram, keyframe
+from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.recording import Recording
 from scanbench.runtime.replay_file import replay_file
 from scanbench.runtime.runfile import LARGEST, Kind, RunFile, RunFileError
@@ -22,6 +23,7 @@ from scanbench.session.codec import ENTRIES
 from tests.runtime.bench import program
 from tests.runtime.recorded import COUNTER, advance, begun, of_file, resumed
 
+AT = datetime(2026, 1, 1, tzinfo=UTC)
 Blocks = list[tuple[Kind, int, bytes]]
 ABOUT = About.of(program(COUNTER), "Ada")
 PROGRAM = KeptProgram(1, COUNTER.encode(), "0" * 64).packed()
@@ -30,7 +32,11 @@ STATE = (Kind.KEYFRAME, 0, keyframe(1, b"abc"))
 
 
 def entry(scan: int, *patches: Patch) -> bytes:
-    return ENTRIES.pack(Entry(scan, datetime(2026, 1, 1, tzinfo=UTC), Write("Ada", "Main.n", "1"), Plan(patches, "")))
+    return ENTRIES.pack(Entry(scan, AT, Write("Ada", "Main.n", "1"), Plan(patches, "")))
+
+
+CHANGE = ENTRIES.pack(Entry(0, AT, ProgramChange("Ada", 7), Plan((), "", Swapped(7, False, ()))))
+NONSENSE = ENTRIES.pack(Entry(0, AT, ProgramChange("Ada", 7), Plan((), "", Swapped([7], False, ()))))  # type: ignore[arg-type]
 
 
 def about(**changed: object) -> bytes:
@@ -45,10 +51,13 @@ CASES: dict[str, tuple[Blocks, str]] = {
     "about is long": ([(Kind.ABOUT, 0, b" " * 70_000)], "70000 bytes, and 65536 is the most"),
     "about of something else": ([(Kind.ABOUT, 0, b'{"model": 1}')], "does not say what was recorded"),
     "about with a list": ([(Kind.ABOUT, 0, about(model=[1]))], "model is not right"),
-    "no program": ([FIRST[0], STATE], "before its first checkpoint"),
+    "no program": ([FIRST[0], STATE], "needs program version 1, which is not in front of it"),
     "no checkpoint": (FIRST, "before its first checkpoint"),
     "a second about": ([*FIRST, FIRST[0]], "nothing of this kind can be here"),
     "a short program": ([FIRST[0], (Kind.PROGRAM, 0, b"\1\0\0\0abc"), STATE], "it is too short"),
+    "a state of no program": ([*FIRST, (Kind.KEYFRAME, 0, keyframe(2, b"abc"))], "needs program version 2"),
+    "a change to no program": ([*FIRST, STATE, (Kind.ENTRY, 0, CHANGE)], "needs program version 7"),
+    "a change to nonsense": ([*FIRST, STATE, (Kind.ENTRY, 0, NONSENSE)], "which is not in front of it"),
     "an empty keyframe": ([*FIRST, (Kind.KEYFRAME, 0, b"")], "it is too short"),
     "a delta of nothing": ([*FIRST, (Kind.DELTA, 0, b"abc")], "nothing of this kind can be here"),
     "an entry that is none": ([*FIRST, STATE, (Kind.ENTRY, 0, b"\xc1")], "the entry at byte"),

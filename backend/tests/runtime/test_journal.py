@@ -155,7 +155,8 @@ def test_a_journal_without_its_front_knows_what_it_knew() -> None:
         steps += 1
         return (*found, one.scan) if one.scan % 1000 == 3 else found
 
-    fold = Fold[tuple[int, ...]]((), step)
+    nothing: tuple[int, ...] = ()
+    fold = Fold(nothing, step)
     journal = Journal(entry(scan) for scan in range(10_000))
     known = journal.derived(fold)
     left = journal.without_front((3, 1003, 2003, 3003), 4000)

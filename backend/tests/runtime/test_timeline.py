@@ -356,7 +356,6 @@ def test_a_condition_holds_for_the_live_plc_whatever_happens(
     timeline.resource.engine = engine(timeline.resource.program, timeline.resource.memory)  # as optimised code comes
     assert run() == 500
     assert not to_program(timeline, 2, SECOND)
-    assert timeline.condition is not None
     timeline.submit(Write("Ada", "Main.n", "6"))
     scan, n = run(), value(timeline.resource, "Main.n")
     assert (scan, n) == (598, 300)

@@ -28,9 +28,9 @@ export async function runAction(action: RunOrder["action"]): Promise<void> {
   await order({ action });
 }
 
-/** A paused PLC stays paused; the speed counts when it goes on. */
+/** Only that: a paused PLC stays paused, and a run that was asked to end somewhere still does. */
 export async function setSpeed(speed: number): Promise<void> {
-  await order({ action: usePlc.getState().state?.state === "paused" ? "pause" : "continue", speed });
+  await order({ action: "speed", speed });
 }
 
 /** So many scans, then pause. The dialog that asked shows a refusal itself. */

@@ -199,11 +199,11 @@ class Loop:
             self._course.speed = drive.speed
             self._course.set_pace(self.resource.program.interval_ns)
         speed = "as fast as possible" if self._course.speed == MAX_SPEED else f"speed x{self._course.speed:g}"
-        self._ack(drive.ref, True, f"{said}, {speed}")
+        self._ack(drive.ref, True, f"{said}, {speed}" if said else speed)
 
     def _drive_action(self, drive: protocol.Drive) -> str | Refusal:
         if drive.action == "speed":
-            return "go on"
+            return ""
         if drive.action == "pause":
             self._course.pause()
             return "pause"

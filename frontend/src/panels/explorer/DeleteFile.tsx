@@ -1,48 +1,18 @@
-import { useState } from "react";
 import { t } from "../../logic/text";
 import { deleteFile, messageOf } from "../../store/documents";
-import { Dialog } from "../../ui/Dialog";
-import { Icon } from "../../ui/Icon";
+import { Confirm } from "../../ui/Confirm";
 
 /** Deleting a file cannot be undone, so this one asks. */
 export function DeleteFile({ path, onClose }: { path: string; onClose: () => void }) {
-  const [refused, setRefused] = useState<string | null>(null);
-
-  async function remove(): Promise<void> {
-    try {
-      await deleteFile(path);
-      onClose();
-    } catch (error) {
-      setRefused(messageOf(error));
-    }
-  }
-
   return (
-    <Dialog
+    <Confirm
       title={t("file.delete.title", { path })}
       about={t("file.delete.about")}
+      hint={t("file.delete.hint")}
+      verb={t("file.delete")}
+      onDo={() => deleteFile(path)}
+      reasonOf={messageOf}
       onClose={onClose}
-      onSubmit={() => void remove()}
-      footer={
-        <>
-          <span className="hint bad grow" role="alert">
-            {refused && (
-              <>
-                <Icon name="error" small />
-                {refused}
-              </>
-            )}
-          </span>
-          <button type="button" className="btn quiet" onClick={onClose}>
-            {t("cancel")}
-          </button>
-          <button type="submit" className="btn danger">
-            {t("file.delete")}
-          </button>
-        </>
-      }
-    >
-      <p className="desc">{t("file.delete.hint")}</p>
-    </Dialog>
+    />
   );
 }
