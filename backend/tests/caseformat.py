@@ -170,6 +170,8 @@ def run_case(case: Case, engines: list[Callable[[Program, bytearray], Engine]]) 
         step = steps.get(scan)
         for memory in memories if scan in case.starts else ():
             memory[Layout.STARTED : Layout.STARTED + 8] = scan.to_bytes(8, "little")
+            at = scan * program.interval_ns
+            memory[Layout.STARTED_AT : Layout.STARTED_AT + 8] = at.to_bytes(8, "little")
         for path, value in step.sets if step else ():
             for memory in memories:
                 write(program, path, value, memory)

@@ -17,6 +17,7 @@ from scanbench.check.classes import Method, called_pou, collect, declare_methods
 from scanbench.check.collect import Collector, declare_globals, globals_of
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare import Declarations
+from scanbench.check.driven import Driven, warn_of_contention
 from scanbench.check.generic import is_generic
 from scanbench.check.names import Space, qualified
 from scanbench.check.order import Order
@@ -132,6 +133,7 @@ class Checker:
     system: System = field(init=False)
     plant: Plant = field(init=False)
     stimuli: dict[tree.Stimulus, Pou] = field(default_factory=dict)
+    driven: dict[Pou, list[Driven]] = field(default_factory=dict)
     """The programs that tables of inputs became."""
     declared: tuple[int, int, int] = (0, 0, 0)
     """What was reported of the declarations."""
@@ -340,19 +342,24 @@ class Checker:
     def _check_stimuli(self) -> None:
         """Makes the programs of the tables in plant/: once, as they depend on declarations only."""
         tables = {stimulus for file in self.parsed for stimulus in file.stimuli}
-        for stimulus in [each for each in self.stimuli if each not in tables]:
-            gone = self.stimuli.pop(stimulus)
-            self.report.parts.pop(gone, None)
-            if self.pous.blocks.get(gone.name.upper()) is gone:
-                del self.pous.blocks[gone.name.upper()]
+        for stimulus, pou in self.stimuli.items():
+            if self.pous.blocks.get(pou.name.upper()) is pou:
+                del self.pous.blocks[pou.name.upper()]
+            if stimulus not in tables:
+                self.report.parts.pop(pou, None)
+        known, self.stimuli = self.stimuli, {}  # in the order of their files, whatever was edited last
         for file in self.parsed:
             for stimulus in file.stimuli:
-                if stimulus not in self.stimuli:
+                if stimulus in known:
+                    self.stimuli[stimulus] = known[stimulus]
+                else:
                     with self.report.apart() as part:
-                        made = StimulusChecker(
+                        checker = StimulusChecker(
                             self.report, self.declarations, self.pous, self.globals, stimulus, self._program_variables()
-                        ).make()
+                        )
+                        made = checker.make()
                     self.report.parts[made] = part
+                    self.driven[made] = checker.driven
                     self.stimuli[stimulus] = made
         for stimulus, pou in self.stimuli.items():
             first = self.pous.blocks.setdefault(pou.name.upper(), pou)
@@ -361,6 +368,8 @@ class Checker:
                     "D001", f"This file's program `{pou.name}` is declared already in {first.span}; rename the file.",
                     stimulus.span,
                 )  # fmt: skip
+        self.driven = {pou: self.driven[pou] for pou in self.stimuli.values()}
+        warn_of_contention(self.report, self.driven)
 
     def _program_variables(self) -> dict[str, Record]:
         """By the name of the program instance."""

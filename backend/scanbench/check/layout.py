@@ -20,7 +20,7 @@ from scanbench.plcmodel.model import Area, Model
 @dataclass(slots=True)
 class Layout:
     CLOCK: ClassVar[int] = 8
-    """i64 virtual time of the current (or last) scan in ns."""
+    """i64 virtual time of the current (or last) scan in ns: ORIGIN + SCAN * interval, without its sign bit."""
     SCAN: ClassVar[int] = 16
     """u64 number of the scan that runs, or runs next; scans count from 0."""
     BUDGET: ClassVar[int] = 24
@@ -47,6 +47,11 @@ class Layout:
     ASKED_LIMIT: ClassVar[int] = 16
     INTERVAL: ClassVar[int] = 4040
     """i64 ns: length of a scan in virtual time. The engine writes it in every scan, from the program."""
+    ORIGIN: ClassVar[int] = 4048
+    """i64 ns: virtual time of scan 0, had all scans been as long as they are now. It is 0 until a program with scans of
+    another length takes over, and then such that time goes on."""
+    STARTED_AT: ClassVar[int] = 4056
+    """i64 ns: virtual time of the scan STARTED."""
     SUBRANGE_ERROR: ClassVar[int] = 4080
     """BOOL `_SubrangeError`: a violation since the program or a tool last cleared it."""
     SUBRANGE_COUNT: ClassVar[int] = 4084

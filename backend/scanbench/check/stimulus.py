@@ -10,6 +10,7 @@ from dataclasses import dataclass, field, replace
 from scanbench.check.calls import CallChecker
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare import Declarations
+from scanbench.check.driven import Driven, Taken
 from scanbench.check.layout import Layout
 from scanbench.check.program import (
     Assign,
@@ -94,6 +95,8 @@ class StimulusChecker:
     programs: dict[str, Record]
     """Variables of the program instances, by upper-case name of the instance."""
     pou: Pou = field(init=False)
+    driven: list[Driven] = field(init=False, default_factory=list)
+    """What its columns drive, as far as they are right."""
     _checker: CallChecker = field(init=False)
 
     def __post_init__(self) -> None:
@@ -106,9 +109,10 @@ class StimulusChecker:
     def make(self) -> Pou:
         """The program; without a body when something is wrong."""
         made: list[_Column] = []
+        taken = Taken()
         for number, (text, span) in enumerate(self.stimulus.columns):
             try:
-                made.append(self._column(number, self._target(text, span)))
+                made.append(self._column(number, self._own_target(taken, text, span)))
             except Rejected:
                 continue
         if len(made) == len(self.stimulus.columns):
@@ -116,6 +120,16 @@ class StimulusChecker:
         return self.pou
 
     # ---- where values go ----------------------------------------------------------------------------------
+
+    def _own_target(self, taken: Taken, text: str, span: Span) -> Place:
+        driven = Driven(self._target(text, span), text, span)
+        other = taken.take(driven)
+        if other is not None:
+            raise self.report.reject(
+                "S003", f"`{text}` drives what the column `{other.text}` drives already: leave one of them out.", span
+            )
+        self.driven.append(driven)
+        return driven.place
 
     def _target(self, text: str, span: Span) -> Place:
         """An address, a global variable or a part of one, or a located variable of a program."""
@@ -261,9 +275,9 @@ class _Body:
 
     def _now(self, take: list[Stmt]) -> list[Stmt]:
         """Puts into `$at` how far the program is, in this round of the table; what is left of the last round is made up for."""
-        elapsed: Expr = Binary("sub", ULINT, Load(_header(ULINT, Layout.SCAN)), Load(_header(ULINT, Layout.STARTED)))
-        if self._stimulus.by_time:
-            elapsed = Binary("mul", ULINT, elapsed, Load(_header(ULINT, Layout.INTERVAL)))
+        fields = (Layout.CLOCK, Layout.STARTED_AT) if self._stimulus.by_time else (Layout.SCAN, Layout.STARTED)
+        reached, begin = (Load(_header(ULINT, each)) for each in fields)
+        elapsed = Binary("sub", ULINT, reached, begin)
         if not self._stimulus.period:
             return [Assign(self._at, elapsed, self._span)]
         now = self._variable("$now", ULINT)

@@ -1,6 +1,7 @@
 """Programs from files and folders, models by name; every complaint says what to do and exits with 2."""
 
 import json
+from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
@@ -51,6 +52,13 @@ def read_sources(paths: list[Path]) -> Sources:
         for each in found:
             texts[str(each)] = _read(each)
     return Sources(texts, model)
+
+
+def below(path: Path, texts: Mapping[str, str]) -> dict[str, str]:
+    """The texts by the names that they have in a project: below the folder that was given, wherever that is."""
+    if not path.is_dir():
+        return {Path(name).name: text for name, text in texts.items()}
+    return {Path(name).relative_to(path).as_posix(): text for name, text in texts.items()}
 
 
 def _read(path: Path) -> str:

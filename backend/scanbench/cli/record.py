@@ -6,11 +6,12 @@ from pathlib import Path
 
 from scanbench.check.program import Program
 from scanbench.cli.inputs import usage
-from scanbench.runtime.recording import Recording
-from scanbench.runtime.resource import Resource
+from scanbench.runtime.recording import DEFAULT_LIMIT, Recording
 from scanbench.session.codec import ENTRIES, pack_body
 from scanbench.session.protocol import Sources
 
+LIMIT = DEFAULT_LIMIT
+"""Bytes of a file: a longer run keeps fewer checkpoints of its beginning, and of a very long one the beginning goes."""
 _VERSION = 1
 
 
@@ -24,7 +25,7 @@ def recorded(
         return
     sources = Sources(program.layout.model.name, files, interval_ns, _VERSION)
     try:
-        recording = Recording.begin(path, program, _VERSION, pack_body(sources), ENTRIES, "command line")
+        recording = Recording.begin(path, program, _VERSION, pack_body(sources), ENTRIES, "command line", LIMIT)
     except FileExistsError:
         usage(f"{path} is there already: remove it, or choose another name")
     except OSError as error:
@@ -37,9 +38,7 @@ def recorded(
         raise
 
 
-def end(recording: Recording, resource: Resource) -> None:
-    """The state at the end, so that whoever opens the file sees it at once."""
-    written = recording.checkpoint(resource.header.scan, _VERSION, resource.state)
-    recording.note(resource.header.scan)
-    if not written:
+def check_whole(recording: Recording) -> None:
+    """Refuses a file that ran out of room."""
+    if recording.trouble:
         usage(f"the run could not be recorded whole: {recording.trouble}")

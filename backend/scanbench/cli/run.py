@@ -8,8 +8,8 @@ import typer
 
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
-from scanbench.cli.inputs import find_model, problem_json, read_sources, usage
-from scanbench.cli.record import end, recorded
+from scanbench.cli.inputs import below, find_model, problem_json, read_sources, usage
+from scanbench.cli.record import check_whole, recorded
 from scanbench.cli.run_options import Options, find_symbol, read_commands, read_condition, read_interval
 from scanbench.cli.run_report import Result, nothing_ran, report_json, report_text, values
 from scanbench.engines.engine import Engine
@@ -75,13 +75,13 @@ def run(
     shown = [(each, find_symbol(program, each)) for each in show]
     condition = None if until is None else read_condition(program, until)
     try:
-        with recorded(record, program, sources.texts, read_interval(interval)) as recording:
+        with recorded(record, program, below(path, sources.texts), read_interval(interval)) as recording:
             result = run_headless(
                 program, scans, ENGINES[engine], commands, every, lambda plc: values(plc, shown),
-                detect=Detection(), recorder=recording, until=condition,
+                detect=Detection(), recording=recording, until=condition,
             )  # fmt: skip
             if recording is not None:
-                end(recording, result.resource)
+                check_whole(recording)
     except TooLarge as error:
         usage(f"{path}: {error}")
     except Differs as difference:

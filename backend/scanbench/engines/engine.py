@@ -2,15 +2,16 @@
 
 One scan, in the order of the design:
 
-1. common processing: `Layout.CLOCK` := `Layout.SCAN` * interval; `Layout.BUDGET` := `Layout.BUDGET_LIMIT`;
-   `Layout.INTERVAL` := interval; `Layout.ASKED_COUNT` := 0; then `Program.common`
+1. common processing: `Layout.CLOCK` := `Layout.ORIGIN` + `Layout.SCAN` * interval, without its sign bit;
+   `Layout.BUDGET` := `Layout.BUDGET_LIMIT`; `Layout.INTERVAL` := interval; `Layout.ASKED_COUNT` := 0; then `Program.common`
 2. input refresh (`Program.plant`; inputs are also changed from outside, in the seam), then the force table is applied
 3. the user program: every due task in order, every program instance of it in order
 4. the force table is applied again; output refresh
 and, when all went well, `Layout.SCAN` += 1.
 
 The force table (`Layout.FORCES`): a u32 count at `Layout.FORCE_COUNT`, then entries of 8 bytes: u32 offset, u8 mask,
-u8 value, u16 0; applying is `byte = byte & ~mask | value & mask`.
+u8 value, u16 0; applying is `byte = byte & ~mask | value & mask`; an entry
+whose offset is beyond the image does nothing (an image may come from a file).
 """
 
 from abc import ABC, abstractmethod

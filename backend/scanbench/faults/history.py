@@ -72,6 +72,12 @@ class History:
                 changed += self._raised(active.refs[-1], at, active.scan, active.by, active.origin)
         return changed
 
+    def as_of(self, present: Mapping[str, Active], at: datetime) -> list[ErrorRow]:
+        """Every row as it was when these errors and no others were present; nothing is changed."""
+        then = History(self._model, dict(self._rows))
+        then.reconcile(present, at)
+        return then.rows
+
     @property
     def _present(self) -> list[str]:
         return [row.id for row in self._rows.values() if row.status == "generated"]

@@ -29,6 +29,7 @@ from scanbench.check.types import (
 _BYTE_OFFSET = 0xFFFF_FFFF
 _HEADER = (
     (Layout.CLOCK, 8), (Layout.SCAN, 8), (Layout.BUDGET_LIMIT, 8), (Layout.MODE, 2), (Layout.EPOCH, 8), (Layout.STARTED, 8),
+    (Layout.ORIGIN, 8), (Layout.STARTED_AT, 8),
 )  # fmt: skip
 
 NEW, REMOVED = "new", "removed"

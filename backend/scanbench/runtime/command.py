@@ -55,7 +55,7 @@ class Swapped:
 
     version: int
     fresh: bool
-    """Nothing is kept: the new program starts cold."""
+    """The new program starts as behind a warm restart: it keeps what it has in common and retains, and no errors."""
     released: tuple[str, ...] = ()
     """Forces that the new program has no place for, as they were entered."""
 

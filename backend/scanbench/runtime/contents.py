@@ -12,6 +12,7 @@ and errors that still hold were entered there.
 """
 
 import json
+from collections.abc import Sequence
 from dataclasses import asdict, dataclass, field, fields
 from datetime import datetime
 from struct import Struct
@@ -23,6 +24,7 @@ from scanbench.check.program import Program
 from scanbench.runtime.clock import iso, wall_time
 from scanbench.runtime.command import Command, Entry, Plan, Swapped
 from scanbench.runtime.fingerprints import libm_fingerprint, model_fingerprint
+from scanbench.runtime.journal import AnyFold
 from scanbench.runtime.runfile import Block, Kind, RunFile, RunFileError
 from scanbench.runtime.thinning import Checkpoint
 
@@ -34,7 +36,11 @@ _UNPACKED = 1 << 28
 
 
 class Codec(Protocol):
-    """Entries as bytes: who knows all commands gives it."""
+    """Entries as bytes, and what they add up to: who knows all commands gives it."""
+
+    @property
+    def folds(self) -> Sequence[AnyFold]:
+        """What is to come out the same when the front of a journal is dropped."""
 
     def pack(self, entry: Entry) -> bytes:
         """The bytes of an entry."""

@@ -109,7 +109,7 @@ def table_patches(view: View, table: dict[int, tuple[int, int]]) -> tuple[Patch,
 
 def _step(held: Mapping[str, Force], entry: Entry) -> Mapping[str, Force]:
     command, effect = entry.command, entry.plan.effect
-    if entry.plan.starts_anew and effect != Restarted("warm"):
+    if isinstance(effect, Restarted) and effect.kind != "warm":
         return {}
     if isinstance(command, Force):
         return {**held, _key(command.path): command}

@@ -48,6 +48,15 @@ class Header:
         return int(_I64.unpack_from(self._memory, Layout.CLOCK)[0])
 
     @property
+    def origin_ns(self) -> int:
+        """Virtual time of scan 0, had all scans been as long as they are now."""
+        return int(_I64.unpack_from(self._memory, Layout.ORIGIN)[0])
+
+    def next_clock_ns(self, interval_ns: int) -> int:
+        """Virtual time of the scan that runs next."""
+        return _clock(self._memory, self.scan, interval_ns)
+
+    @property
     def epoch_ns(self) -> int:
         """What the PLC's clock showed at virtual time 0."""
         return int(_I64.unpack_from(self._memory, Layout.EPOCH)[0])
@@ -96,4 +105,9 @@ def pass_time(memory: bytearray, scans: int, interval_ns: int) -> None:
     """Scans in which the program does not run: only virtual time goes on."""
     scan = _U64.unpack_from(memory, Layout.SCAN)[0] + scans
     _U64.pack_into(memory, Layout.SCAN, scan)
-    _I64.pack_into(memory, Layout.CLOCK, (scan - 1) * interval_ns)
+    _I64.pack_into(memory, Layout.CLOCK, _clock(memory, scan - 1, interval_ns))
+
+
+def _clock(memory: bytearray | bytes | memoryview, scan: int, interval_ns: int) -> int:
+    """As the engines compute it."""
+    return int(_I64.unpack_from(memory, Layout.ORIGIN)[0] + scan * interval_ns & (1 << 63) - 1)

@@ -7,10 +7,11 @@ from typing import Generic, TypeVar
 from scanbench.check.condition import Condition
 from scanbench.check.program import Program
 from scanbench.engines.engine import Reason
+from scanbench.runtime.checkpoints import Checkpoints
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.detect import Detect
 from scanbench.runtime.programs import EngineFactory, Loaded, Programs
-from scanbench.runtime.recorder import Recorder
+from scanbench.runtime.recording import Recording
 from scanbench.runtime.resource import Resource
 
 T = TypeVar("T")
@@ -48,7 +49,7 @@ def run_headless(
     sample: Callable[[Resource], T] | None = None,
     *,
     detect: Detect | None = None,
-    recorder: Recorder | None = None,
+    recording: Recording | None = None,
     programs: Programs | None = None,
     until: Condition | None = None,
 ) -> HeadlessRun[T]:
@@ -58,9 +59,13 @@ def run_headless(
     n == `scans` is the seam behind the last scan; what is later does not come to pass. While the program is stopped (a fatal
     error, mode PROGRAM) scans pass without it. A trap ends the run at once, and so does the first scan after which `until`
     holds, a condition for the program that the run begins with.
+
+    A `recording` that stands at the cold start gets all of it, with checkpoints on the way, and is left open; `entries`
+    has only what is still in there.
     """
     loaded = Loaded.make(program, engine_factory)
-    resource = Resource(loaded, programs=programs, detect=detect, recorder=recorder)
+    resource = Resource(loaded, programs=programs, detect=detect, recorder=recording)
+    recorded = _Recorded(recording, resource) if recording is not None else None
     resource.engine.stop_when(until)
     met = False
     refused: list[Refused] = []
@@ -73,6 +78,8 @@ def run_headless(
             outcome = resource.submit(command)
             if isinstance(outcome, Refusal):
                 refused.append(Refused(at, command, outcome))
+            elif recorded is not None:
+                recorded.take_due()
         if now >= scans or met:
             break
         stops = [scans]
@@ -80,10 +87,16 @@ def run_headless(
             stops.append(waiting[0][0])
         if every:
             stops.append(now - now % every + every)
+        if recorded is not None and resource.runnable:
+            stops.append(now + recorded.slice())
         met = _advance(resource, min(stops) - now)  # perhaps less: it comes back for what the program asks for
+        if recorded is not None:
+            recorded.take_due()
         done = resource.header.scan
         if every and sample is not None and done % every == 0 and done > now and resource.trap is None:
             rows.append((done, sample(resource)))
+    if recorded is not None:
+        recorded.end()
     return HeadlessRun(resource, resource.header.scan, tuple(resource.journal), tuple(refused), tuple(rows), met)
 
 
@@ -93,3 +106,33 @@ def _advance(resource: Resource, scans: int) -> bool:
         return resource.run(scans).reason is Reason.CONDITION
     resource.pass_time(scans)
     return False
+
+
+class _Recorded:
+    """The recording of a run: checkpoints when they are due, and the file within its bounds."""
+
+    def __init__(self, recording: Recording, resource: Resource) -> None:
+        self._recording, self._resource = recording, resource
+        self._checkpoints = Checkpoints(recording)
+
+    def slice(self) -> int:
+        """Scans until something is due."""
+        return self._checkpoints.slice(self._resource)
+
+    def take_due(self) -> None:
+        """What is due in this seam."""
+        self._checkpoints.take_due(self._resource)
+        self._tidy()
+        if self._recording.info.bytes > self._recording.limit:
+            self._recording.wait()  # nobody waits for this run, and it could be faster than what makes its file smaller
+            self._tidy()
+
+    def _tidy(self) -> None:
+        trim = self._recording.tidy()
+        if trim is not None:
+            self._resource.journal = self._resource.journal.without_front(trim.kept, trim.cut)
+
+    def end(self) -> None:
+        """The state at the end, so that whoever opens the file sees it at once."""
+        self._checkpoints.take(self._resource)
+        self._recording.note(self._resource.header.scan)

@@ -4,7 +4,7 @@ from bisect import bisect_right
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from operator import itemgetter
-from typing import TYPE_CHECKING, Generic, TypeVar, cast, overload
+from typing import TYPE_CHECKING, Generic, Protocol, TypeVar, cast, overload
 
 if TYPE_CHECKING:
     from scanbench.runtime.command import Entry
@@ -32,6 +32,27 @@ class Fold(Generic[T]):
         for entry in entries:
             state = self.step(state, entry)
         return state
+
+    def states(self, entries: "Iterable[Entry]") -> Iterator[T]:
+        """The state behind each of these entries."""
+        state = self.begin
+        for entry in entries:
+            state = self.step(state, entry)
+            yield state
+
+
+class AnyFold(Protocol):
+    """A fold, whatever its states are."""
+
+    @property
+    def begin(self) -> object:
+        """See `Fold`."""
+
+    def over(self, entries: "Iterable[Entry]") -> object:
+        """See `Fold`."""
+
+    def states(self, entries: "Iterable[Entry]") -> Iterator[object]:
+        """See `Fold`."""
 
 
 class Journal(Sequence["Entry"]):

@@ -34,13 +34,17 @@ class SetMode(Command):
                 "Correct it and build, or restart, or change to PROGRAM first"
             )
         if header.mode is Mode.PROGRAM:
-            return Plan((patch, *volatile_cleared(view), started(view)), f"mode {mode.name}: the program runs")
+            return Plan((patch, *volatile_cleared(view), *started(view)), f"mode {mode.name}: the program runs")
         return Plan((patch,), f"mode {mode.name}: the program goes on")
 
 
-def started(view: View) -> Patch:
-    """The patch that makes the next scan the program's first one."""
-    return Patch.whole(Layout.STARTED, view.header.scan.to_bytes(8, "little"))
+def started(view: View) -> tuple[Patch, Patch]:
+    """The patches that make the next scan the program's first one."""
+    header = view.header
+    return (
+        Patch.whole(Layout.STARTED, header.scan.to_bytes(8, "little")),
+        Patch.whole(Layout.STARTED_AT, header.next_clock_ns(view.program.interval_ns).to_bytes(8, "little")),
+    )
 
 
 def stopped(view: View) -> tuple[Patch, ...]:

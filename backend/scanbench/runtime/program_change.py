@@ -2,12 +2,15 @@
 
 from dataclasses import dataclass
 
+from scanbench.check.layout import Layout
 from scanbench.runtime.command import Command, Patch, Plan, Refusal, Swapped, View
 from scanbench.runtime.forces import FORCED, hold, table_patches
 from scanbench.runtime.header import Mode
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.rights import Right, may
 from scanbench.runtime.swap import swapped
+
+_WARM = "warm start, as the old program had stopped by a run-time error: what is retained is kept"
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,19 +20,18 @@ class ProgramChange(Command):
     version: int
 
     def plan(self, view: View) -> Plan | Refusal:
-        """The swap, and the forces at their new places. After a run-time error the new program starts cold."""
+        """The swap, and the forces at their new places. After a run-time error the new program starts warm."""
         loaded = self._loaded(view)
         if isinstance(loaded, Refusal):
             return loaded
-        if view.header.halted_by_trap:
-            report = "cold start, as the old program had stopped by a run-time error"
-            return Plan((), f"program version {self.version}: {report}", Swapped(self.version, fresh=True))
-        image, change = swapped(view.program, view.memory, loaded.program, fresh=False)
+        fresh = view.header.halted_by_trap
+        image, change = swapped(view.program, view.memory, loaded.program, fresh)
+        image[Layout.MODE] = Mode.MONITOR  # what is forced stays so, also where nobody may force it anew
         patches, released = _forces(view, View(loaded.program, image))
-        report = f"program version {self.version}: {change}"
+        report = f"program version {self.version}: {_WARM if fresh else change}"
         if released:
             report += f"; forces released: {', '.join(released)}"
-        return Plan(patches, report, Swapped(self.version, fresh=False, released=released))
+        return Plan(patches, report, Swapped(self.version, fresh, released))
 
     def _loaded(self, view: View) -> Loaded | Refusal:
         """The new program, or why it cannot take over."""
@@ -53,8 +55,9 @@ class ProgramChange(Command):
 
 
 def _forces(old: View, new: View) -> tuple[tuple[Patch, ...], tuple[str, ...]]:
-    """The force table of the new image, and the paths of those that have no place there any more."""
+    """The forces in the new image, and the paths of those that have no place there any more."""
     table: dict[int, tuple[int, int]] = {}
+    values: list[Patch] = []
     released: list[str] = []
     for force in old.derived(FORCED).values():
         found = force.bits(new)
@@ -62,4 +65,5 @@ def _forces(old: View, new: View) -> tuple[tuple[Patch, ...], tuple[str, ...]]:
             released.append(force.path)
             continue
         hold(table, found)
-    return (table_patches(new, table) if table else ()), tuple(released)
+        values.append(found)
+    return ((*table_patches(new, table), *values) if table else ()), tuple(released)

@@ -15,7 +15,7 @@ from scanbench.check.types import ArrayType, Kind, Member, Record, Section, Type
 from scanbench.runtime.command import Command, Plan, Refusal, Restarted, RestartKind, View
 from scanbench.runtime.forces import read_table
 from scanbench.runtime.header import Header, Mode, fresh_image
-from scanbench.runtime.modes import held
+from scanbench.runtime.modes import held, started
 
 _FORCES_END = Layout.FORCES + 8 * Layout.FORCE_LIMIT
 Image = bytes | bytearray | memoryview
@@ -43,7 +43,7 @@ class Restart(Command):
 def restarted(program: Program, memory: Image, kind: RestartKind) -> bytearray:
     """The image behind a restart of this kind."""
     image = fresh_image(program, Mode.MONITOR)
-    go_on(memory, image)
+    go_on(program, memory, image)
     if kind == "cold":
         return image
     spans = [*_words(program, memory), *_variables(program)]
@@ -56,12 +56,13 @@ def restarted(program: Program, memory: Image, kind: RestartKind) -> bytearray:
     return image
 
 
-def go_on(memory: Image, image: bytearray) -> None:
+def go_on(program: Program, memory: Image, image: bytearray) -> None:
     """What no restart begins anew: the count of scans, time, and RUN mode. The next scan is the program's first."""
-    for offset, size in ((Layout.CLOCK, 8), (Layout.SCAN, 8), (Layout.BUDGET_LIMIT, 8), (Layout.EPOCH, 8)):
-        image[offset : offset + size] = memory[offset : offset + size]
+    for offset in (Layout.CLOCK, Layout.SCAN, Layout.BUDGET_LIMIT, Layout.EPOCH, Layout.ORIGIN):
+        image[offset : offset + 8] = memory[offset : offset + 8]
     image[Layout.MODE] = Mode.RUN if Header(memory).mode is Mode.RUN else Mode.MONITOR
-    image[Layout.STARTED : Layout.STARTED + 8] = memory[Layout.SCAN : Layout.SCAN + 8]
+    for patch in started(View(program, image)):
+        image[patch.offset : patch.offset + 8] = patch.data
 
 
 def _words(program: Program, memory: Image) -> Iterator[tuple[int, int]]:

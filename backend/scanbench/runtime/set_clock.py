@@ -23,5 +23,5 @@ class SetClock(Command):
         if not _1970 <= at < _LAST:
             return Refusal(f"the clock of a PLC cannot show {at.year}: set a time from 1970 to 2199")
         shown = (at - _1970) // timedelta(microseconds=1) * 1000
-        epoch = shown - view.header.scan * view.program.interval_ns
+        epoch = shown - view.header.next_clock_ns(view.program.interval_ns)
         return Plan((Patch.whole(Layout.EPOCH, epoch.to_bytes(8, "little", signed=True)),), f"clock set to {iso(at)}")

@@ -7,10 +7,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from scanbench.runtime.contents import About, Codec, keyframe
+from scanbench.runtime.heritage import heritage
 from scanbench.runtime.rewriting import Rewritten, rewrite
 from scanbench.runtime.runfile import Block, Kind, RunFile, RunFileError
 from scanbench.runtime.thinning import Checkpoint, plan_thinning
-from scanbench.runtime.write import Write
 
 ENTRY_LIMIT = 50_000
 """Entries are in memory too, so that there is a bound of them besides the file's."""
@@ -63,17 +63,14 @@ def make_smaller(seen: Seen, limit: int, codec: Codec) -> Smaller | None:
     file = seen.file
     excess_entries = seen.entries - ENTRY_LIMIT * 3 // 4 if seen.entries > ENTRY_LIMIT else 0
     plan = plan_thinning(seen.checkpoints, seen.end - limit * 3 // 4, excess_entries)
-    cut, heritage = plan.cut, list[int]()
+    cut, kept = plan.cut, tuple[int, ...]()
 
     def keep(block: Block, in_front: int) -> bool:
         if block.offset in plan.dropped:
             return False
         if block.kind is Kind.PROGRAM or cut is None or block.offset >= cut.block.offset:
             return True
-        if block.kind is not Kind.ENTRY or isinstance(codec.unpack(file.payload(block)).command, Write):
-            return False
-        heritage.append(in_front)
-        return True
+        return block.kind is Kind.ENTRY and in_front in kept
 
     about = replace(
         seen.about,
@@ -81,6 +78,8 @@ def make_smaller(seen: Seen, limit: int, codec: Codec) -> Smaller | None:
         dropped_before=cut.scan if cut is not None else seen.about.dropped_before,
     )
     try:
+        if cut is not None:
+            kept = _heritage(file, cut, codec)
         made = rewrite(file, seen.end, _part(file.path), about.packed(), keep)
     except (OSError, RunFileError, MemoryError):
         return None
@@ -91,7 +90,13 @@ def make_smaller(seen: Seen, limit: int, codec: Codec) -> Smaller | None:
     except (OSError, MemoryError):
         made.abandon()
         return None
-    return Smaller(made, about, tuple(heritage), cut.entries if cut is not None else 0)
+    return Smaller(made, about, kept, cut.entries if cut is not None else 0)
+
+
+def _heritage(file: RunFile, cut: Checkpoint, codec: Codec) -> tuple[int, ...]:
+    """Which of the entries in front of the cut stay."""
+    blocks = (block for block in file.walk(cut.block.offset) if block.kind is Kind.ENTRY)
+    return heritage([codec.unpack(file.payload(block)) for block in blocks], codec.folds)
 
 
 @dataclass(frozen=True, slots=True)

@@ -286,14 +286,14 @@ class Timeline:
 
     def _visit(self, scan: int, stay: bool, look: Callable[[], None] = lambda: None) -> Refusal | None:
         """Goes to a scan, looks at it there, and comes back unless it is to `stay`, and always when it cannot be shown."""
-        live, shown = self._live, self._moment()
+        live, shown, whole = self._live, self._moment(), self._whole
         self._live = live or shown  # before anything is moved: other threads ask for what is live
         refusal = self._move(scan, was_past=live is not None)
         if refusal is None:
             look()
         if refusal is not None or not stay:
             self._stand(shown)
-            self._live = live
+            self._live, self._whole = live, whole
         return refusal
 
     def _move(self, scan: int, was_past: bool) -> Refusal | None:

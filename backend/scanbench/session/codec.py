@@ -10,19 +10,19 @@ from dataclasses import fields, is_dataclass
 import msgpack  # type: ignore[import-untyped]
 
 from scanbench.check.violations import Violation, Violations
-from scanbench.faults.inject import Active, Generate, Recover
+from scanbench.faults.inject import ACTIVE, Active, Generate, Recover
 from scanbench.faults.reference import ErrorRef
 from scanbench.problems import Span
 from scanbench.runtime.carry_over import Lost
 from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.command import Entry, Patch, Plan, Restarted, Swapped
-from scanbench.runtime.forces import Force, Release
+from scanbench.runtime.forces import FORCED, Force, Release
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.recording import RecordingInfo
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
-from scanbench.runtime.trap import TrapInfo, Trapped
+from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped
 from scanbench.runtime.write import Write
 from scanbench.session import protocol
 
@@ -88,6 +88,8 @@ class Splitter:
 
 class EntryCodec:
     """How a run file keeps journal entries."""
+
+    folds = (FORCED, ACTIVE, TRAPPED)
 
     def pack(self, entry: Entry) -> bytes:
         """The bytes of an entry."""

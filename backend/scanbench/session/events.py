@@ -41,6 +41,7 @@ class PlcState:
     past_by: str = ""
     """Who shows the past; empty when it is live."""
     target: str = ""
+    previous_version: int | None = None
     late_percent: float = 0.0
     late_us: float = 0.0
     """Mean lateness of scans since the pace was set; `worst_us` is the most."""

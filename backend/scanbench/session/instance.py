@@ -224,7 +224,7 @@ class Instance:
             state=state.state, mode=state.mode, message=state.message, scan=state.scan, time_ns=state.time_ns,
             interval_ns=state.interval_ns, cycle_us=state.cycle_us, speed=state.speed, pid=pid, trap=state.trap,
             forces=state.forces, version=state.version, live_scan=state.live_scan, past_by=state.past_by,
-            target=state.target, late_percent=state.late_percent,
+            target=state.target, previous_version=state.previous_version, late_percent=state.late_percent,
             late_us=state.late_us, worst_us=state.worst_us,
         )  # fmt: skip
 

@@ -92,13 +92,15 @@ class Projects:
         files = await asyncio.to_thread(self._store.last_build, id)
         return None if files is None else Sources(project.model, files, INTERVAL_NS, project.version)
 
-    async def build(self, id: int, author: str, agreed: bool = True) -> BuildOutcome:
-        """Builds what is saved, and swaps it into the project's PLCs, each in its seam. One build at a time.
+    async def build(
+        self, id: int, author: str, agreed: bool = True, instances: Sequence[int] | None = None
+    ) -> BuildOutcome:
+        """Builds what is saved, and swaps it into the project's PLCs, or those named, each in its seam. One at a time.
 
-        Not `agreed`: where variables of a running PLC would begin anew, it only says which.
+        Not `agreed`: where variables of a running PLC would begin anew, or one cannot be changed, it only says so.
         """
         async with self._building.setdefault(id, asyncio.Lock()):
-            outcome = await self._build(id, author, agreed)
+            outcome = await self._build(id, author, agreed, instances)
         if not outcome.needs_agreement:
             for session in self._sessions_of(id):
                 session.told_built(author, outcome)
@@ -114,7 +116,7 @@ class Projects:
         await asyncio.to_thread(self._store.accept_build, project.id, sources.files, author, sources.version)
         return await self.get(project.id)
 
-    async def _build(self, id: int, author: str, agreed: bool) -> BuildOutcome:
+    async def _build(self, id: int, author: str, agreed: bool, instances: Sequence[int] | None) -> BuildOutcome:
         project = await self.get(id)
         sources = await self.sources(id)
         found = await self._checker.check(sources, self.model(project.model))
@@ -123,25 +125,38 @@ class Projects:
             first = next(problem for problem in found.problems if problem.severity == "error")
             message = f"{count}, nothing was changed: {first}"
             return BuildOutcome(False, message, found, project)
-        sessions = [session for session in self._sessions_of(id) if session.state.state != "off"]
+        sessions = [
+            session
+            for session in self._sessions_of(id)
+            if session.state.state != "off" and (instances is None or session.id in instances)
+        ]
+        if await self._runs_already(project, sources, sessions):
+            return BuildOutcome(True, f"nothing to build: version {project.version} is what is saved", found, project)
         build = Sources(project.model, sources, INTERVAL_NS, project.version + 1)
         self._checker.keep(build, self.model(project.model))
         changes = await self._changes(sessions, build)
-        lost = sum(change.previewed.forgets for change in changes)
-        refused = [change.name for change in changes if change.previewed.refusal]
-        if changes and len(refused) == len(changes) and agreed:
-            message = f"nothing was changed: {'; '.join(f'{each.name}: {each.previewed.refusal}' for each in changes)}"
-            return BuildOutcome(False, message, found, project, changes)
-        if (lost or refused) and not agreed:
-            parts = [f"{lost} variable{'s' * (lost != 1)} would begin anew"] if lost else []
-            parts += [f"{', '.join(refused)} cannot be changed now"] if refused else []
-            message = f"{'; '.join(parts)}: nothing was changed yet"
-            return BuildOutcome(False, message, found, project, changes, needs_agreement=True)
+        question = _question(changes)
+        if question and not agreed:
+            return BuildOutcome(False, question, found, project, changes, needs_agreement=True)
+        refused = {change.instance: change.previewed.refusal for change in changes if change.previewed.refusal}
+        lines = [f"{session.name} not changed: {refused[session.id]}" for session in sessions if session.id in refused]
+        if sessions and len(refused) == len(sessions):
+            return BuildOutcome(False, "; ".join(["nothing was changed", *lines]), found, project, changes)
         await asyncio.to_thread(self._store.accept_build, id, sources, author)
-        acks = await asyncio.gather(*(session.build(build, author) for session in sessions))
-        lines = [f"{session.name}: {ack.message}" for session, ack in zip(sessions, acks, strict=True)]
-        message = "; ".join([f"version {build.version} built", *lines])
+        willing = [session for session in sessions if session.id not in refused]
+        acks = await asyncio.gather(*(session.build(build, author) for session in willing))
+        done = [f"{session.name}: {ack.message}" for session, ack in zip(willing, acks, strict=True)]
+        message = "; ".join([f"version {build.version} built", *done, *lines])
         return BuildOutcome(all(ack.ok for ack in acks), message, found, await self.get(id), changes)
+
+    async def _runs_already(self, project: ProjectRow, sources: Mapping[str, str], sessions: Sequence[Session]) -> bool:
+        """Whether a build would change nothing; one that stopped by an error is begun anew by a build."""
+        if await asyncio.to_thread(self._store.last_build, project.id) != sources:
+            return False
+        return all(
+            session.state.version == project.version and session.state.state in ("running", "paused", "stopped")
+            for session in sessions
+        )
 
     @staticmethod
     async def _changes(sessions: Sequence[Session], build: Sources) -> tuple[Change, ...]:
@@ -155,6 +170,15 @@ class Projects:
 
         found = await asyncio.gather(*map(change, sessions))
         return tuple(each for each in found if each is not None)
+
+
+def _question(changes: Sequence[Change]) -> str:
+    """What has to be agreed to before anything is changed; empty when nothing has."""
+    lost = sum(change.previewed.forgets for change in changes)
+    refused = [change.name for change in changes if change.previewed.refusal]
+    parts = [f"{lost} variable{'s' * (lost != 1)} would begin anew"] if lost else []
+    parts += [f"{', '.join(refused)} cannot be changed now"] if refused else []
+    return f"{'; '.join(parts)}: nothing was changed yet" if parts else ""
 
 
 def _check_path(path: str) -> None:

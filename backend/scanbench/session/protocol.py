@@ -209,6 +209,8 @@ class HostState:
     """Of a run that was asked to end: the scan."""
     until: str | None
     """Or the condition."""
+    previous_version: int | None
+    """What a roll back swaps in."""
     late_percent: float
     late_us: float = 0.0
     """Mean lateness of scans since the pace was set."""

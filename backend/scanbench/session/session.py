@@ -47,6 +47,7 @@ class Session:
         self._unwatched = False  # what is watched must be told to the next host
         self._violations = Violations()
         self._forces: tuple[Force, ...] = ()
+        self._past_rows: list[ErrorRow] = []
         self._timeline = Marks()
         self._instance = Instance(memory, self._on_state, self._on_message, cache)
         self._last_state = self._instance.state
@@ -100,8 +101,8 @@ class Session:
 
     @property
     def rows(self) -> list[ErrorRow]:
-        """The error history, in the order of the catalogue."""
-        return self._history.rows
+        """The error history, in the order of the catalogue; while the past is shown, as it was then."""
+        return self._past_rows or self._history.rows
 
     @property
     def lines(self) -> list[LogEntry]:
@@ -261,6 +262,9 @@ class Session:
     def _on_state(self, state: PlcState) -> None:
         before, self._last_state = self._last_state, state
         self._publish(events.StateChanged(state))
+        if self._past_rows and not state.past_by:
+            self._past_rows = []
+            self._publish(events.ErrorsChanged(tuple(self._history.rows)))
         if state.state != before.state and state.state in ("restarting", "failed", "off"):
             self._unwatched = True
             if state.state == "off":
@@ -314,8 +318,11 @@ class Session:
         if standing.forces != self._forces:
             self._forces = standing.forces
             self._publish(events.ForcesChanged(self.forces))
-        if not self.state.past_by:
-            self._publish_rows(self._history.reconcile(standing.errors, wall_time()))
+        if self.state.past_by:
+            self._past_rows = self._history.as_of(standing.errors, wall_time())
+            self._publish(events.ErrorsChanged(tuple(self._past_rows)))
+            return
+        self._publish_rows(self._history.reconcile(standing.errors, wall_time()))
 
     def _on_diagnosed(self, violations: Violations) -> None:
         """Everybody gets the list; a place that is new in it also gets a line of the log."""

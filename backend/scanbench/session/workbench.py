@@ -165,7 +165,7 @@ class Workbench:
             if project is not None:
                 await self.projects.delete(project.id)
             if isinstance(error, RunFileError | OSError):
-                raise Refused(str(error)) from error
+                raise Refused(str(error).replace(path.name, "the file")) from error
             raise
         session = await self._open(row, paused=True)
         session.told(author, "the run was imported")

@@ -18,6 +18,8 @@ from scanbench.syntax.source import Source
 MAX_PROBLEMS = 20
 """Of one file: who wrote one wrong row has written many."""
 MAX_ROWS = 1_000_000
+_LAST = (1 << 63) - 1
+"""Moments are numbers of 64 bits, and so is the moment that never comes."""
 _REPEAT = re.compile(r"#\s*repeat\b\s*(.*)", re.IGNORECASE)
 _UNITS = ("scan", "time")
 _PLAIN = re.compile(r"\d+(\.\d+)?")
@@ -177,6 +179,8 @@ def _moment(by_time: bool, text: str) -> int:
     if not by_time:
         if not text.isdecimal():
             raise ValueError("write a number of scans, from 0 on")
+        if len(text.lstrip("0")) > len(str(_LAST)) or int(text) > _LAST:
+            raise ValueError(f"no run gets further than scan {_LAST:,}")
         return int(text)
     plain = text.upper()
     for prefix in ("LTIME#", "TIME#", "LT#", "T#"):

@@ -126,6 +126,7 @@ class Build(Wire):
     """`agreed`: variables may be initialised anew; without it a build that would do so only reports what it would do."""
 
     agreed: bool = False
+    instances: list[int] | None = Field(default=None, description="which PLCs are to be changed; null is all of them")
 
 
 class BuildResult(Wire):
@@ -254,6 +255,7 @@ class InstanceState(Wire):
     forces: int
     program_version: int
     past: PastInfo | None
+    previous_version: int | None = Field(description="what a roll back swaps in; null when there is nothing")
     target: str = Field(
         description="where a run that was asked for ends: `scan 4711`, `until Main.count > 3`; or empty"
     )

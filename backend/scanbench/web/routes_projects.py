@@ -63,4 +63,4 @@ async def on_check(bench: Bench, project: int, edited: wire.CheckRequest) -> wir
 @router.post("/{project}/build")
 async def on_build(bench: Bench, request: Request, project: int, how: wire.Build = _PLAIN_BUILD) -> wire.BuildResult:
     """Builds what is saved, and swaps it into the project's instances; asks first where variables would begin anew."""
-    return translate.build_result(await bench.projects.build(project, user_of(request).name, how.agreed))
+    return translate.build_result(await bench.projects.build(project, user_of(request).name, how.agreed, how.instances))

@@ -104,6 +104,7 @@ def state(now: PlcState) -> wire.InstanceState:
             "interval_ns": now.interval_ns, "cycle_us": now.cycle_us, "speed": now.speed, "pid": now.pid,
             "restarts": now.restarts, "forces": now.forces, "program_version": now.version,
             "past": {"live_scan": now.live_scan, "by": now.past_by} if now.past_by else None,
+            "previous_version": now.previous_version,
             "target": now.target, "late_percent": round(now.late_percent, 2),
             "trap": None if trap is None else {
                 "kind": trap.kind, "message": trap.message, "file": trap.file, "line": trap.line,

@@ -49,6 +49,18 @@ TABLES = [
     ("scan;go\n1.5;1", "p.csv:2:1: S003 `1.5` is no scan: write a number of scans, from 0 on."),
     ("time;go\n1q;1", "p.csv:2:1: S003 `1q` is no time: a duration is written like T#1h30m, T#1.5s or T#-5ms."),
     ("time;go\nT#-1s;1", "p.csv:2:1: S003 `T#-1s` is no time: it counts from the start of the program"),
+    ("scan;go\n99999999999999999999999;TRUE", "p.csv:2:1: S003 `99999999999999999999999` is no scan: no run gets further than scan 9,223,372,036,854,775,807."),
+    ("scan;go\n9223372036854775808;TRUE", "p.csv:2:1: S003 `9223372036854775808` is no scan: no run gets further"),
+    ("scan;go\n1;1\n" + "9" * 5000 + ";0", "p.csv:3:1: S003"),
+    ("time;go\n0;1\n99999999999999999999999;TRUE", "p.csv:3:1: S003 `99999999999999999999999` is no time: longer than a TIME can hold"),
+    ("time;go\nT#99999999999999999999d;TRUE", "p.csv:2:1: S003 `T#99999999999999999999d` is no time: longer"),
+    ("time;level\n0;1e999", "p.csv:2:3: S004 `level`"),
+    ("time;level\n0;99999999999999999999999", "p.csv:2:3: S004 `level`"),
+    ("# repeat 99999999999999999999999\nscan;go\n1;1", "p.csv:1:1: S003 `99999999999999999999999` is no length of a round"),
+    ("scan;go;level;GO\n1;1;2;0", "p.csv:1:15: S003 `GO` drives what the column `go` drives already: leave one of them out."),
+    ("scan;%IW2;%IX4.3\n1;1;1", "p.csv:1:11: S003 `%IX4.3` drives what the column `%IW2` drives already"),
+    ("scan;Main.speed;%MW10\n1;1;1", "p.csv:1:17: S003 `%MW10` drives what the column `Main.speed` drives already"),
+    ("scan;list[1];list[2];list[1]\n1;1;1;1", "p.csv:1:22: S003 `list[1]` drives what the column `list[1]` drives already"),
     ("# repeat\nscan;go\n1;1", "p.csv:1:1: S003 Say how long one round is, as in `# repeat 3s`."),
     ("# repeat 5\nscan;go\n1;1\n5;0", "p.csv:1:1: S003 A round of `5` ends before the last row comes."),
     ("# repeat often\nscan;go\n1;1", "p.csv:1:1: S003 `often` is no length of a round"),
@@ -60,6 +72,25 @@ def test_a_table_that_is_wrong(table: str, expected: str) -> None:
     problems = found({"main.st": MAIN, "plant/p.csv": table})
     assert [each for each in problems if each.startswith(f"plant/{expected}")], problems
     assert len(problems) == 1
+
+
+@pytest.mark.parametrize(
+    "table",
+    ["scan;go\n9223372036854775807;1", "# repeat\nscan;go\n1;1\n9223372036854775807;0", "scan;%IX2.3;%IX2.4\n0;1;1"],
+)
+def test_a_table_that_is_right(table: str) -> None:
+    checked = check_sources({"main.st": MAIN, "plant/p.csv": table}, MODEL)
+    assert checked.program is not None
+    assert not checked.problems
+
+
+def test_two_tables_that_drive_the_same() -> None:
+    files = {"main.st": MAIN, "plant/b.csv": "scan;level;go\n0;1;1", "plant/a.csv": "scan;go;%IW0\n0;1;1"}
+    files["plant/c.csv"] = "scan;go\n0;1"
+    assert found(files) == [
+        "plant/a.csv:1:6: W001 `go` is driven by plant/b.csv too, which comes later in every scan, so its values win."
+    ]
+    assert check_sources(files, MODEL).program is not None
 
 
 def test_a_table_with_many_wrong_cells_does_not_tell_all() -> None:
@@ -117,6 +148,7 @@ FILES = {
     "main.st": MAIN,
     "plant/a.st": "PROGRAM A\nVAR n : INT; END_VAR\nn := n + 1;\nEND_PROGRAM\n",
     "plant/b.csv": "scan;go;list[1]\n0;1;\n5;;7\n",
+    "plant/c.csv": "scan;level\n0;1\n",
 }
 
 
@@ -129,6 +161,8 @@ FILES = {
         ("plant/b.csv", ";7", ";8"),
         ("plant/b.csv", "5;;7", "5;;7\n9;0;1"),
         ("plant/b.csv", "list[1]", "gone"),
+        ("plant/b.csv", "list[1]", "go"),
+        ("plant/c.csv", "level", "go"),
         ("main.st", "go : BOOL", "go : INT"),
         ("main.st", "speed := list[k];", "speed := list[k] + 1;"),
     ],
@@ -146,14 +180,14 @@ def test_a_check_after_an_edit_finds_what_a_check_of_the_whole_finds(name: str, 
         if again.program is not None and expected.program is not None:
             assert emit_program(again.program) == emit_program(expected.program)
             assert again.program.initial_image == expected.program.initial_image
-            assert again.program.instances[-1].name == "b"
+            assert [each.name for each in again.program.instances[-2:]] == ["b", "c"]
 
 
 def test_what_a_watch_sees() -> None:
     program = check_sources(FILES, MODEL).program
     assert program is not None
-    assert [each.path for each in members(program, "")][:3] == ["Main", "A", "b"]
-    assert [each.name for each in program.instances] == ["__System", "Main", "A", "b"]
+    assert [each.path for each in members(program, "")][:4] == ["Main", "A", "b", "c"]
+    assert [each.name for each in program.instances] == ["__System", "Main", "A", "b", "c"]
     assert [each.path for each in members(program, "b")] == ["b.row"]
     assert resolve(program, "A.n").type.name == "INT"
     assert resolve(program, "_firstcycle").address == "%MX8576.0"

@@ -8,7 +8,14 @@ import pytest
 from typer.testing import CliRunner, Result
 
 from scanbench.cli import app
-from scanbench.runtime import runfile
+from scanbench.faults.inject import ACTIVE
+from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.runtime import checkpoints, runfile
+from scanbench.runtime.forces import FORCED
+from scanbench.runtime.journal import Journal
+from scanbench.runtime.recording import Recording
+from scanbench.session.codec import ENTRIES
+from scanbench.session.runs import sources_of
 
 SOURCE = """
 PROGRAM Main
@@ -56,6 +63,52 @@ def test_a_recorded_run_replays_to_the_same_state(program: str, tmp_path: Path) 
     there = run(program, "--scans", "1", "--record", record)
     assert there.exit_code == 2
     assert "is there already" in there.output
+
+
+def test_a_recorded_run_has_checkpoints_on_the_way(
+    program: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(checkpoints, "EVERY_NS", 0)
+    record = tmp_path / "a.scanrun"
+    arguments = ("--scans", "300", "--set", "Main.n=40@100", "--mode", "PROGRAM@150", "--mode", "RUN@160", "--every", "40",
+                 "--print", "Main.n", "--until", "Main.n >= 160", "--json")  # fmt: skip
+    ran, plain = run(program, *arguments, "--record", str(record)), run(program, *arguments)
+    assert ran.exit_code == 0, ran.output
+    assert ran.stdout == plain.stdout
+    assert json.loads(ran.stdout)["scans"] == 230
+    with Recording.open(record, ENTRIES, read_only=True) as recording:
+        assert len({each.scan for each in recording.checkpoints}) > 150
+        assert recording.last_scan == 230
+    again = call("replay", str(record), "--json")
+    assert again.exit_code == 0, again.output
+
+
+def test_a_recorded_run_stays_within_its_limit(program: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(checkpoints, "EVERY_NS", 0)
+    monkeypatch.setattr("scanbench.cli.record.LIMIT", 60_000)
+    record = tmp_path / "a.scanrun"
+    ran = run(program, "--scans", "6000", "--force", "D200=7@3", "--raise", "battery-error@5", "--record", str(record))
+    assert ran.exit_code == 0, ran.output
+    assert record.stat().st_size < 80_000
+    assert call("replay", str(record)).exit_code == 0
+    with Recording.open(record, ENTRIES, read_only=True) as recording:
+        assert recording.info.thinned_before > 0
+        journal = Journal(recording.take_entries())
+        assert (len(journal.derived(FORCED)), len(journal.derived(ACTIVE))) == (1, 1)
+
+
+def test_a_recorded_run_has_the_names_of_its_project(program: str, tmp_path: Path) -> None:
+    folder = Path(program).parent / "line"
+    (folder / "plant").mkdir(parents=True)
+    (folder / "main.st").write_text(SOURCE)
+    (folder / "plant" / "inputs.csv").write_text("scan;D7\n3;5\n")
+    record = tmp_path / "named.scanrun"
+    ran = run(str(folder), "--scans", "10", "--print", "D7", "--record", str(record))
+    assert ran.exit_code == 0, ran.output
+    assert "D7 = 16#0005" in ran.output
+    models, _ = load_all(model_directory())
+    sources = sources_of(record, {model.name: model for model in models})
+    assert set(sources.files) == {"main.st", "plant/inputs.csv"}
 
 
 def test_a_file_that_is_no_run(program: str, tmp_path: Path) -> None:

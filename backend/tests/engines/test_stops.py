@@ -157,3 +157,18 @@ def test_native_and_reference_stop_at_the_same_scan(op: str, a: int, join: str, 
         engine.stop_when(made)
         stopped.append((engine.run(40), scan(memory)))
     assert stopped[0] == stopped[1]
+
+
+@engines
+def test_a_forged_force_table_stays_in_the_image(make: Callable[[Program, bytearray], Engine]) -> None:
+    """An image may come from a file that somebody has made."""
+    program = check(COUNT)
+    memory = bytearray(program.layout.size)
+    memory[: len(program.initial_image)] = program.initial_image
+    memory[Layout.FORCE_COUNT : Layout.FORCE_COUNT + 4] = b"\xff\xff\xff\xff"
+    for entry in range(Layout.FORCE_LIMIT):
+        at = Layout.FORCES + 8 * entry
+        memory[at : at + 8] = (len(memory) + entry * 4096).to_bytes(4, "little") + bytes([0xFF, 0xFF, 0, 0])
+    engine = make(program, memory)
+    assert engine.run(3) == Stop(Reason.DONE)
+    assert scan(memory) == 3

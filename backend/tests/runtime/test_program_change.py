@@ -4,6 +4,7 @@ from datetime import UTC, datetime
 
 import pytest
 
+from scanbench.check.build import check_sources
 from scanbench.check.program import Program
 from scanbench.runtime.carry_over import changes
 from scanbench.runtime.command import Command, Entry, Refusal, Swapped
@@ -12,9 +13,10 @@ from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
 from scanbench.runtime.resource import Resource
+from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.write import Write
-from tests.runtime.bench import ENGINES, change, plc, program, value
+from tests.runtime.bench import ENGINES, change, model, plc, program, value
 
 OLD = """
 TYPE Point : STRUCT x : INT; y : INT; END_STRUCT; END_TYPE
@@ -117,7 +119,7 @@ def test_what_cannot_be_changed_to() -> None:
         assert resource.header.mode.name == mode
 
 
-def test_a_trapped_program_is_replaced_in_every_mode_and_starts_cold() -> None:
+def test_a_trapped_program_is_replaced_in_every_mode_and_keeps_what_is_forced() -> None:
     resource = plc("PROGRAM Main\nVAR n : INT; q : INT; d : INT; END_VAR\n  n := n + 1; q := 1 / d;\nEND_PROGRAM\n")
     resource.submit(Force("Ada", "Main.n", "3"))
     resource.submit(Write("Ada", "H3", "3"))
@@ -126,17 +128,30 @@ def test_a_trapped_program_is_replaced_in_every_mode_and_starts_cold() -> None:
     assert resource.header.halted_by_trap
     change(resource, program("PROGRAM Main\nVAR n : INT := 7; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"))
     assert resource.trap is None
-    assert (resource.header.mode.name, resource.header.force_count, value(resource, "H3")) == ("RUN", 0, 0)
-    assert not resource.journal.derived(FORCED)
+    assert (resource.header.mode.name, resource.header.force_count, value(resource, "H3")) == ("RUN", 2, 3)
+    assert resource.journal.derived(FORCED).keys() == {"MAIN.N"}
+    assert value(resource, "Main.n") == 3
     resource.run(2)
-    assert value(resource, "Main.n") == 9
+    assert value(resource, "Main.n") == 3
+
+
+def test_a_force_without_a_place_behind_a_trap_is_released() -> None:
+    resource = plc("PROGRAM Main\nVAR n : INT; q : INT; d : INT; END_VAR\n  n := n + 1; q := 1 / d;\nEND_PROGRAM\n")
+    resource.submit(Force("Ada", "Main.q", "3"))
+    resource.submit(Force("Ada", "Main.n", "3"))
+    resource.run(1)
+    message = change(resource, program("PROGRAM Main\nVAR n : INT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"))
+    assert "forces released: Main.q" in message
+    assert resource.journal.derived(FORCED).keys() == {"MAIN.N"}
+    assert resource.header.force_count == 2
+
+
+def every(interval: str, text: str = OLD) -> Program:
+    configuration = f"TASK T (INTERVAL := {interval}); PROGRAM Main WITH T : Main;"
+    return program(f"{text}\nCONFIGURATION C\nRESOURCE R ON P\n{configuration}\nEND_RESOURCE\nEND_CONFIGURATION\n")
 
 
 def test_the_clock_of_the_plc_goes_on_when_a_scan_takes_longer() -> None:
-    def every(interval: str) -> Program:
-        configuration = f"TASK T (INTERVAL := {interval}); PROGRAM Main WITH T : Main;"
-        return program(f"{OLD}\nCONFIGURATION C\nRESOURCE R ON P\n{configuration}\nEND_RESOURCE\nEND_CONFIGURATION\n")
-
     resource = Resource(Loaded.make(every("T#10ms"), ENGINES[0]))
     resource.run(100)
     resource.submit(SetClock("Ada", datetime(2024, 1, 1, tzinfo=UTC)))
@@ -147,3 +162,67 @@ def test_the_clock_of_the_plc_goes_on_when_a_scan_takes_longer() -> None:
     assert resource.header.epoch_ns + resource.header.clock_ns == start + 10_000_000
     resource.run(1)
     assert resource.header.epoch_ns + resource.header.clock_ns == start + 1_010_000_000
+
+
+TIMED = """
+PROGRAM Main
+VAR t : TON; now : LTIME; pulse : BOOL; END_VAR
+  t(IN := TRUE, PT := T#10s); now := LTIME(); pulse := P_0_1s;
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("stopped", [False, True])
+def test_virtual_time_goes_on_when_a_scan_takes_longer_or_shorter(engine: EngineFactory, stopped: bool) -> None:
+    resource = Resource(Loaded.make(every("T#10ms", TIMED), engine))
+    resource.run(100)
+    ms = 1_000_000
+    assert (resource.header.clock_ns, value(resource, "Main.t.ET")) == (990 * ms, 990 * ms)
+    if stopped:
+        resource.submit(SetMode("Ada", "PROGRAM"))
+    change(resource, every("T#70ms", TIMED), engine)
+    if stopped:
+        resource.pass_time(1)
+        assert resource.header.clock_ns == 1000 * ms
+        resource.submit(SetMode("Ada", "MONITOR"))
+        resource.run(1)
+        assert resource.header.clock_ns == 1070 * ms
+        return
+    assert resource.header.next_clock_ns(70 * ms) == 1000 * ms
+    seen = []
+    for _ in range(3):
+        resource.run(1)
+        seen.append([value(resource, path) for path in ("Main.now", "Main.t.ET", "Main.pulse")])
+    assert seen == [
+        [1000 * ms, 1000 * ms, False], [1070 * ms, 1070 * ms, True], [1140 * ms, 1140 * ms, False],
+    ]  # fmt: skip
+    change(resource, every("T#5ms", TIMED), engine, 3)
+    resource.run(2)
+    assert (resource.header.clock_ns, value(resource, "Main.t.ET")) == (1215 * ms, 1215 * ms)
+    resource.submit(Restart("Ada", "warm"))
+    resource.run(1)
+    assert (resource.header.clock_ns, value(resource, "Main.t.ET")) == (1220 * ms, 0)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_a_table_by_time_goes_on_when_a_scan_takes_longer(engine: EngineFactory) -> None:
+    source = "PROGRAM Main\nVAR n : INT; END_VAR\nn := n + 1;\nEND_PROGRAM\n"
+    table = "time;CIO 1\n0;16#0\nT#100ms;16#1\nT#150ms;16#2\nT#300ms;16#3\n"
+
+    def made(interval_ns: int) -> Program:
+        checked = check_sources({"main.st": source, "plant/p.csv": table}, model(), interval_ns)
+        assert checked.program is not None, checked.problems
+        return checked.program
+
+    resource = Resource(Loaded.make(made(10_000_000), engine))
+    resource.run(3)
+    resource.submit(Restart("Ada", "cold"))
+    resource.run(10)
+    assert value(resource, "CIO 1") == 0
+    change(resource, made(50_000_000), engine)
+    seen = []
+    for _ in range(5):
+        resource.run(1)
+        seen.append(value(resource, "CIO 1"))
+    assert seen == [1, 2, 2, 2, 3]

@@ -7,6 +7,7 @@ from scanbench.runtime.forces import Force
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
+from scanbench.runtime.replay import replay
 from scanbench.runtime.write import Write
 from tests.runtime.bench import ENGINES, change, plc, program, value
 
@@ -67,14 +68,49 @@ def test_in_run_mode_the_program_stays() -> None:
     assert resource.version == 1
 
 
-def test_after_a_trap_the_new_program_starts_cold() -> None:
-    resource = plc("PROGRAM Main\nVAR n : INT; q : INT; d : INT; END_VAR\n  n := n + 1; q := 1 / d;\nEND_PROGRAM\n")
-    resource.run(1)
-    assert resource.trap is not None
-    new = program("PROGRAM Main\nVAR n : INT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n")
-    assert "cold" in change(resource, new)
+TRAPPING = """
+VAR_GLOBAL RETAIN total : DINT; END_VAR
+VAR_GLOBAL other : INT; END_VAR
+FUNCTION_BLOCK Count
+VAR RETAIN calls : DINT; END_VAR
+VAR inner : DINT; END_VAR
+  calls := calls + 1; inner := inner + 1;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR n : INT := 5; q : INT; d : INT := 1; c : Count; END_VAR
+VAR RETAIN list : ARRAY[0..1] OF INT; text : STRING[9]; p : REF_TO DINT; END_VAR
+  n := n + 1; total := total + 2; list[1] := n; text := 'kept'; p := REF(total); q := 1 / d; c();
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_after_a_trap_the_new_program_starts_warm(engine: EngineFactory) -> None:
+    resource = plc(TRAPPING, engine)
+    for path, text in (("D7", "7"), ("H3", "3"), ("W3", "3"), ("other", "4")):
+        resource.submit(Write("Ada", path, text))
+    resource.run(3)
+    resource.submit(Write("Ada", "Main.d", "0"))
+    resource.run(3)
+    assert resource.header.halted_by_trap
+    scan = resource.header.scan
+    mended = TRAPPING.replace("VAR n : INT := 5;", "VAR first : LINT; n : INT := 6;").replace("STRING[9]", "STRING[8]")
+    message = change(resource, program(mended.replace("text := 'kept'; p := REF(total); q := 1 / d;", "")), engine)
+    assert "version 2: warm start" in message
+    assert "what is retained is kept" in message
+    for path, expected in (
+        ("D7", 7), ("H3", 3), ("W3", 0), ("total", 8), ("other", 0), ("Main.n", 6), ("Main.d", 1), ("Main.c.calls", 3),
+        ("Main.c.inner", 0), ("Main.list[1]", 9), ("Main.text", ""), ("Main.p^", 8),
+    ):  # fmt: skip
+        assert value(resource, path) == expected, path
+    assert resource.trap is None
+    assert (int(resource.header.halt), resource.header.scan, resource.header.started) == (0, scan, scan)
     resource.run(2)
-    assert value(resource, "Main.n") == 2
+    assert [value(resource, path) for path in ("Main.n", "total", "Main.c.calls")] == [8, 12, 5]
+    again = plc(TRAPPING, engine)
+    again.programs = resource.programs
+    replay(again, resource.journal, resource.header.scan)
+    assert again.state == resource.state
 
 
 EVENT = """

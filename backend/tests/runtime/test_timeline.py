@@ -265,6 +265,13 @@ def test_the_oldest_part_may_go_while_the_past_is_shown(tmp_path: Path, monkeypa
     assert 0 < info.dropped_before <= info.first_scan < 250
     assert info.bytes < size // 2
     assert timeline.resource.state == states[250]
+    answers: list[Refusal | None] = []
+    timeline.copy(tmp_path / "branch", 240, "Bob", answers.append)
+    timeline.recording.wait()
+    assert answers == [None]
+    branch = resumed(tmp_path / "branch")
+    assert branch.resource.state == states[240]
+    branch.close()
     assert timeline.step() is None
     assert timeline.resource.state == states[251]
     assert timeline.goto(info.first_scan) is None

@@ -43,7 +43,9 @@ class Talk:
 
     def start(self, text: str = COUNTING, memory_mib: int | None = None) -> None:
         self.sock.sendall(
-            pack(protocol.Start("line", sources(text), str(self._run), None, memory_mib, None, 1.0, False, 0, None, None))
+            pack(
+                protocol.Start("line", sources(text), str(self._run), None, memory_mib, None, 1.0, False, 0, None, None)
+            )
         )
 
     def say(self, message: object) -> None:

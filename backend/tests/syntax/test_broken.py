@@ -1,6 +1,5 @@
 """Whatever text comes, parsing ends soon with problems, never with a crash."""
 
-
 from hypothesis import given, settings
 from hypothesis import strategies as st
 

@@ -344,3 +344,44 @@ def test_numbers_without_meaning_are_refused(server: Server) -> None:
             assert reply.status_code == 422
         assert browser.ask(type="run", action="pause")["ok"]
     assert "nowhere" not in [each["name"] for each in server.http.get("/api/instances").json()]
+
+
+def test_the_past_has_the_errors_of_then(server: Server) -> None:
+    instance = server.instance("erring", MODEL, main=COUNT)
+
+    def status() -> str:
+        rows = server.http.get(f"/api/instances/{instance}/errors").json()
+        return str(next(each["status"] for each in rows if each["id"] == "battery-error"))
+
+    with server.browser(instance) as browser:
+        raised = browser.ask(type="generate", errors=[{"id": "battery-error"}])["scan"]
+        browser.wait(lambda: server.state(instance)["scan"] > raised + 10)
+        assert browser.ask(type="recover", ids=None)["ok"]
+        assert browser.ask(type="run", action="pause")["ok"]
+        assert status() == "cleared"
+        assert browser.ask(type="travel", scan=raised + 5)["ok"]
+        browser.wait(lambda: status() == "generated")
+        assert browser.ask(type="travel", scan=None)["ok"]
+        browser.wait(lambda: status() == "cleared")
+
+
+def test_a_build_of_what_runs_changes_nothing(server: Server) -> None:
+    instance = server.instance("unchanged", MODEL, main=COUNT)
+    other = server.instance("bystanding", MODEL, main=COUNT)
+    assert other
+    project = next(each for each in server.http.get("/api/projects").json() if each["name"] == "unchanged")["id"]
+    with server.browser(instance) as browser:
+        browser.wait(lambda: server.state(instance)["state"] == "running")
+        same = server.http.post(f"/api/projects/{project}/build").json()
+        assert same["ok"]
+        assert "nothing to build" in same["message"]
+        assert same["project"]["version"] == 1
+        assert server.state(instance)["previous_version"] is None
+        clone = server.http.post(f"/api/instances/{instance}/branch", json={"name": "left alone"}).json()["id"]
+        text = COUNT.replace("n := n + 1", "n := n + 2")
+        server.http.put(f"/api/projects/{project}/files/main.st", json={"text": text, "version": 1})
+        built = server.http.post(f"/api/projects/{project}/build", json={"instances": [instance]}).json()
+        assert built["ok"], built
+        browser.wait(lambda: server.state(instance)["program_version"] == 2)
+        assert server.state(clone)["program_version"] == 1
+        browser.wait(lambda: server.state(instance)["previous_version"] == 1)

@@ -137,7 +137,8 @@ class ReferenceEngine(Engine):
         memory = self.memory
         # 1 common processing
         scan = int.from_bytes(memory[Layout.SCAN : Layout.SCAN + 8], "little")
-        clock = scan * self.program.interval_ns & (1 << 63) - 1
+        origin = int.from_bytes(memory[Layout.ORIGIN : Layout.ORIGIN + 8], "little")
+        clock = origin + scan * self.program.interval_ns & (1 << 63) - 1
         memory[Layout.CLOCK : Layout.CLOCK + 8] = clock.to_bytes(8, "little")
         memory[Layout.BUDGET : Layout.BUDGET + 8] = memory[Layout.BUDGET_LIMIT : Layout.BUDGET_LIMIT + 8]
         memory[Layout.INTERVAL : Layout.INTERVAL + 8] = self.program.interval_ns.to_bytes(8, "little")
@@ -160,7 +161,8 @@ class ReferenceEngine(Engine):
     def _force(self) -> None:
         memory = self.memory
         count = int.from_bytes(memory[Layout.FORCE_COUNT : Layout.FORCE_COUNT + 4], "little")
-        for at in range(Layout.FORCES, Layout.FORCES + 8 * count, 8):
+        for at in range(Layout.FORCES, Layout.FORCES + 8 * min(count, Layout.FORCE_LIMIT), 8):
             offset = int.from_bytes(memory[at : at + 4], "little")
             mask, value = memory[at + 4], memory[at + 5]
-            memory[offset] = memory[offset] & ~mask | value & mask
+            if offset < len(memory):
+                memory[offset] = memory[offset] & ~mask | value & mask

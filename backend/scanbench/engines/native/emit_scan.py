@@ -15,7 +15,7 @@ SCRATCH = '@"t.scan"'
 
 APPLY_FORCES = """\
 define internal void @forces(ptr %img) noinline cold #0 {{
-; byte = byte & ~mask | value & mask, for every entry in use
+; byte = byte & ~mask | value & mask, for every entry in use whose byte there is (an image may come from a file)
 entry:
   %countat = getelementptr inbounds i8, ptr %img, i64 {count}
   %count = load i32, ptr %countat, align 4
@@ -23,7 +23,7 @@ entry:
   %n = zext i32 %limited to i64
   br label %next
 next:
-  %i = phi i64 [ 0, %entry ], [ %after, %one ]
+  %i = phi i64 [ 0, %entry ], [ %after, %apply ], [ %skipped, %one ]
   %more = icmp ult i64 %i, %n
   br i1 %more, label %one, label %done
 one:
@@ -31,6 +31,10 @@ one:
   %at = add i64 %start, {table}
   %entryat = getelementptr inbounds i8, ptr %img, i64 %at
   %offset = load i32, ptr %entryat, align 8
+  %skipped = add i64 %i, 1
+  %inside = icmp ult i32 %offset, {size}
+  br i1 %inside, label %apply, label %next
+apply:
   %maskat = getelementptr inbounds i8, ptr %entryat, i64 4
   %mask = load i8, ptr %maskat, align 1
   %valueat = getelementptr inbounds i8, ptr %entryat, i64 5
@@ -56,7 +60,7 @@ def emit(unit: Unit, program: Program) -> None:
     size = program.layout.size
     unit.module.declare(
         "@forces",
-        APPLY_FORCES.format(count=Layout.FORCE_COUNT, table=Layout.FORCES, limit=Layout.FORCE_LIMIT),
+        APPLY_FORCES.format(count=Layout.FORCE_COUNT, table=Layout.FORCES, limit=Layout.FORCE_LIMIT, size=size),
     )
     unit.module.add(_scan(unit, program))
     emit_loop.emit(unit, size)
@@ -69,7 +73,9 @@ def _scan(unit: Unit, program: Program) -> str:
     body = _around(unit, text)
     scan = _field(text, Layout.SCAN)
     number = text.op(f"load i64, ptr {scan}, align 8{unit.module.tag('#scan')}")
-    clock = text.op(f"and i64 {text.op(f'mul i64 {number}, {program.interval_ns}')}, {(1 << 63) - 1}")
+    origin = text.op(f"load i64, ptr {_field(text, Layout.ORIGIN)}, align 8{unit.module.tag('#origin')}")
+    passed = text.op(f"mul i64 {number}, {program.interval_ns}")
+    clock = text.op(f"and i64 {text.op(f'add i64 {origin}, {passed}')}, {(1 << 63) - 1}")
     text.do(f"store i64 {clock}, ptr {_field(text, Layout.CLOCK)}, align 8{unit.module.tag('#clock')}")
     limit = text.op(f"load i64, ptr {_field(text, Layout.BUDGET_LIMIT)}, align 8{unit.module.tag('#limit')}")
     text.do(f"store i64 {limit}, ptr {_field(text, Layout.BUDGET)}, align 8{unit.module.tag('#budget')}")

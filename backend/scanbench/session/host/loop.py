@@ -11,7 +11,7 @@ from pathlib import Path
 from scanbench.check.condition import Condition, compile_condition
 from scanbench.check.program import Program
 from scanbench.engines.engine import Reason
-from scanbench.runtime.command import Entry, Refusal, Swapped
+from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.header import Mode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.resource import Resource
@@ -23,6 +23,7 @@ from scanbench.session.host.course import MAX_SPEED, Course
 from scanbench.session.host.link import Link
 from scanbench.session.host.services import Services
 from scanbench.session.host.shelf import HostPrograms
+from scanbench.session.host.status import previous_version
 from scanbench.session.host.swaps import BuildRefused, Copied, Optimising, Recode, Swap
 from scanbench.session.runs import run_limit
 
@@ -69,11 +70,8 @@ class Loop:
 
     def previous_sources(self) -> protocol.Sources | None:
         """What ran before the last change of the program; None where there was none."""
-        versions = [next(iter(self.timeline.recording.programs))]
-        for entry in self.timeline.live_journal:
-            if isinstance(entry.plan.effect, Swapped):
-                versions.append(entry.plan.effect.version)
-        return self.programs.sources(versions[-2]) if len(versions) > 1 else None
+        version = previous_version(self.timeline)
+        return None if version is None else self.programs.sources(version)
 
     def change_refusal(self) -> str:
         """Why the program cannot be changed now; empty when it can."""

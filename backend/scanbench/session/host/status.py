@@ -2,12 +2,29 @@
 
 from scanbench.check.program import TrapKind
 from scanbench.faults.inject import ACTIVE
+from scanbench.runtime.command import Entry, Swapped
 from scanbench.runtime.forces import FORCED
 from scanbench.runtime.header import Halt, Mode
+from scanbench.runtime.journal import Fold
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.timeline import Timeline
 from scanbench.session.host.course import Course
 from scanbench.session.protocol import HostState
+
+
+def _swapped(versions: tuple[int, ...], entry: Entry) -> tuple[int, ...]:
+    effect = entry.plan.effect
+    return (*versions[-1:], effect.version) if isinstance(effect, Swapped) else versions
+
+
+SWAPPED: Fold[tuple[int, ...]] = Fold((), _swapped)
+"""The last two versions that were changed to."""
+
+
+def previous_version(timeline: Timeline) -> int | None:
+    """What ran before the last change of the program; None where there was none."""
+    versions = (next(iter(timeline.recording.programs)), *timeline.live_journal.derived(SWAPPED))
+    return versions[-2] if len(versions) > 1 else None
 
 
 def host_state(timeline: Timeline, course: Course, past_by: str, note: str) -> HostState:
@@ -22,7 +39,7 @@ def host_state(timeline: Timeline, course: Course, past_by: str, note: str) -> H
         mode=header.mode.name,
         message=message,
         scan=header.scan,
-        time_ns=header.scan * resource.program.interval_ns,
+        time_ns=header.next_clock_ns(resource.program.interval_ns),
         interval_ns=resource.program.interval_ns,
         cycle_us=round(resource.measured.cycle_us, 2),
         speed=course.speed,
@@ -35,6 +52,7 @@ def host_state(timeline: Timeline, course: Course, past_by: str, note: str) -> H
         target=course.target,
         end=course.end,
         until=course.condition.text if course.condition is not None else None,
+        previous_version=previous_version(timeline),
         late_percent=round(course.late_percent, 2),
         late_us=round(course.pace.late_ns / max(1, course.pace.scans) / 1000, 1),
         worst_us=round(course.pace.worst_ns / 1000, 1),
