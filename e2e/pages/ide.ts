@@ -53,7 +53,7 @@ export class Ide {
     await this.top.scansGoOn();
   }
 
-  async showPanel(name: 'Watch' | 'Error log' | 'Error simulator' | 'History'): Promise<void> {
+  async showPanel(name: 'Watch' | 'Events' | 'Error simulator' | 'History'): Promise<void> {
     await this.page.getByRole('tab', { name, exact: true }).click();
   }
 

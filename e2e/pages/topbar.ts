@@ -29,7 +29,7 @@ export class TopBar {
     return this.page.getByRole('toolbar', { name: 'Run controls' });
   }
 
-  async restart(kind: 'Cold restart' | 'Warm restart' | 'Power cycle' = 'Cold restart'): Promise<void> {
+  async restart(kind: 'Cold restart' | 'Warm restart' | 'Power cycle' | 'New run…' = 'Cold restart'): Promise<void> {
     await this.controls.getByRole('button', { name: 'Restart' }).click();
     await this.page.getByRole('menuitem', { name: kind }).click();
   }

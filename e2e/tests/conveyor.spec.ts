@@ -74,8 +74,8 @@ test('the sample runs, reacts to an input and to an error, and two people see th
     await jo.watch.set('reset', 'FALSE');
     await mika.watch.shows('reset', 'FALSE');
     await expect(mika.watch.writtenBy('reset', 'Jo')).toBeVisible();
-    await mika.showPanel('Error log');
-    await expect(mika.page.getByRole('table', { name: 'Error log' })).toContainText('Jo');
+    await mika.showPanel('Events');
+    await expect(mika.page.getByRole('table', { name: 'Events' })).toContainText('Jo');
   });
 
   await test.step('reloading keeps project, watch list and history', async () => {

@@ -48,6 +48,30 @@ test('the list of instances: what they cost, clone, off and on, export and impor
     await ann.runs();
   });
 
+  await test.step('what is no run is refused in the dialog, which stays', async () => {
+    await ann.top.showInstances();
+    await list.press('Import…');
+    const asking = ann.page.getByRole('dialog', { name: 'Import a run' });
+    await asking
+      .getByLabel('Run file')
+      .setInputFiles({ name: 'letter.scanrun', mimeType: 'text/plain', buffer: Buffer.from('Dear Ann') });
+    await expect(asking.getByRole('textbox', { name: 'Name' })).toHaveValue('letter');
+    await asking.getByRole('button', { name: 'Import', exact: true }).click();
+    await expect(asking.getByRole('alert')).toContainText(/run file/);
+    await expect(asking.getByRole('textbox', { name: 'Name' })).toHaveValue('letter');
+    await asking.getByRole('button', { name: 'Cancel' }).click();
+    await expect(asking).toBeHidden();
+  });
+
+  await test.step('a row has the same in its menu, limits too', async () => {
+    await list.row('back').click({ button: 'right' });
+    await ann.page.getByRole('menuitem', { name: 'Limits…' }).click();
+    const limits = ann.page.getByRole('dialog', { name: 'Limits of back' });
+    await expect(limits.getByRole('textbox', { name: 'Run file in MiB' })).toHaveAttribute('placeholder', '64 (usual)');
+    await limits.getByRole('button', { name: 'Cancel' }).click();
+    await ann.page.keyboard.press('Escape');
+  });
+
   await test.step('and deleted it is gone', async () => {
     await ann.top.showInstances();
     await list.delete('back');

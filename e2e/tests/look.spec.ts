@@ -22,7 +22,7 @@ test('everybody can read it: no serious finding in any theme', async ({ openAs }
     await mika.problems.show();
     await mika.showPanel('History');
     expect(await findings(mika)).toEqual([]);
-    await mika.showPanel('Error log');
+    await mika.showPanel('Events');
     expect(await findings(mika)).toEqual([]);
   });
   await test.step('the past, and the list of instances', async () => {
@@ -78,8 +78,8 @@ test('at 1024 x 700 nothing is out of reach', async ({ openAs }) => {
     await expect(mika.simulator.word('A402')).toBeInViewport({ ratio: 1 });
     await mika.problems.show();
     await expect(mika.page.getByText('No problems.')).toBeInViewport();
-    await mika.showPanel('Error log');
-    await expect(mika.page.getByRole('table', { name: 'Error log' })).toBeInViewport();
+    await mika.showPanel('Events');
+    await expect(mika.page.getByRole('table', { name: 'Events' })).toBeInViewport();
     await mika.showPanel('Watch');
     await mika.watch.set('start', 'TRUE');
     await expect(mika.watch.value('motor')).toBeInViewport({ ratio: 1 });

@@ -30,6 +30,27 @@ test('a warm restart keeps the retained memory, a cold one clears it', async ({ 
   });
 });
 
+test('a new run begins at scan 0 with an empty timeline, after a question', async ({ openAs }) => {
+  const ann = await openAs('Ann');
+  await ann.runs();
+  await ann.watch.set('start', 'TRUE');
+  await expect(ann.timeline.mark(/Write: .*start/)).toBeVisible();
+
+  await ann.top.restart('New run…');
+  const dialog = ann.page.getByRole('dialog', { name: 'New run' });
+  await expect(dialog).toContainText('scan 0');
+  await dialog.getByRole('button', { name: 'Cancel' }).click();
+  await ann.watch.shows('start', 'TRUE');
+
+  await ann.top.scansGoOn(300);
+  await ann.top.restart('New run…');
+  await dialog.getByRole('button', { name: 'Begin a new run' }).click();
+  await expect(dialog).toBeHidden();
+  await expect(ann.timeline.mark(/Write: /)).toHaveCount(0);
+  await ann.watch.shows('start', 'FALSE');
+  await expect.poll(() => ann.top.scan()).toBeLessThan(300);
+});
+
 test('in RUN a tool may only look, and the page says so', async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();

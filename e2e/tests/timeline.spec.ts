@@ -53,6 +53,38 @@ test('everybody goes back in time, sees the values of then, and returns to live'
   });
 });
 
+test('marks that lie close are looked at closer, and the run shows where it was stopped', async ({ openAs }) => {
+  const ann = await openAs('Ann');
+  await ann.runs();
+  for (const mode of ['PROGRAM', 'MONITOR', 'RUN', 'MONITOR'] as const) await ann.top.chooseMode(mode);
+  await ann.top.scansGoOn(400);
+
+  await test.step('a group becomes the part of the run that it lies in, then a list', async () => {
+    const group = ann.timeline.mark(/^\d+ marks, .*Mode \d/);
+    await expect(group).toHaveCount(1);
+    const list = ann.page.getByRole('menu', { name: 'Marks' });
+    await expect(async () => {
+      await group.first().click({ timeout: 1000 });
+      await expect(list).toBeVisible({ timeout: 500 });
+    }).toPass();
+    await list.getByRole('menuitem', { name: /mode PROGRAM/ }).click();
+    await expect(ann.timeline.banner).toBeVisible();
+  });
+
+  await test.step('a scan that there is not says so, until another is shown', async () => {
+    const box = ann.timeline.region.getByRole('textbox', { name: 'Go to scan' });
+    await box.fill('1.5');
+    await box.press('Enter');
+    await expect(ann.timeline.region.getByRole('alert')).toContainText('Scan 0 to');
+    await ann.top.press('Back one scan');
+    await expect(ann.timeline.region.getByRole('alert')).toHaveCount(0);
+    await box.fill('0:01');
+    await box.press('Enter');
+    await expect.poll(() => ann.timeline.position()).toBeGreaterThan(95);
+    expect(await ann.timeline.position()).toBeLessThan(105);
+  });
+});
+
 test('a branch begins as the PLC was then, and goes its own way', async ({ openAs }) => {
   const ann = await openAs('Ann');
   await ann.runs();

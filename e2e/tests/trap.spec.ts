@@ -60,6 +60,8 @@ test('a program that goes wrong stops with file and line, and nothing else stops
       await expect(mika.banner).toContainText('The program was stopped.');
       await expect(mika.banner).toContainText(said);
       await expect(mika.banner).toContainText(/ at Main\.st:9 in scan [\d\s]+\./);
+      await expect(main.region.locator('.trapline')).toBeVisible();
+      await expect(main.region.locator('.traparrow')).toBeVisible();
       await mika.banner.getByRole('button', { name: 'Main.st:9' }).click();
       await expect(mika.statusBar).toContainText('Ln 9,');
 
@@ -75,8 +77,32 @@ test('a program that goes wrong stops with file and line, and nothing else stops
       await mika.top.restart();
       await mika.runs();
       await expect(mika.banner).toBeHidden();
+      await expect(main.region.locator('.trapline')).toHaveCount(0);
     });
   }
+});
+
+test('after the cause is mended by hand, a stopped program goes on with its variables', async ({ openAs }) => {
+  const mika = await openAs('Mika');
+  await mika.top.newProject('Going on');
+  const main = mika.editor('Main.st');
+  await ready(mika);
+  await main.replaceWith(program('result := 10 / divisor;'));
+  await main.build();
+  await expect(main.outcome).toContainText('Built');
+  await mika.runs();
+  await watched(mika, 'Main.go');
+  await watched(mika, 'Main.index');
+  await mika.page.keyboard.press('Control+Home');
+  await mika.watch.write('Main.index', '3');
+  await mika.watch.write('Main.go', 'TRUE');
+  await expect(mika.top.state).toContainText('Trapped');
+
+  await mika.watch.write('Main.go', 'FALSE');
+  await mika.banner.getByRole('button', { name: 'Recover and go on' }).click();
+  await mika.runs();
+  await expect(mika.banner).toBeHidden();
+  await mika.watch.shows('Main.index', '3');
 });
 
 /** A new project has something to edit, and its PLC is there. */

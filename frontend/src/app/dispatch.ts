@@ -5,6 +5,7 @@ import { catchUp, onBuilt, onDeleted, onSaved } from "../store/documents";
 import { onForces, onWritten } from "../store/forces";
 import { resetMembers } from "../store/members";
 import { onErrors, onHello, onLog, onState, usePlc } from "../store/plc";
+import { forgetRefusals } from "../store/run";
 import { onTimeline } from "../store/timeline";
 import { apply } from "../store/values";
 import { onWatching, watchAgain } from "../store/watches";
@@ -45,6 +46,7 @@ function dispatch(message: ServerMessage): void {
       onWatching(message.items, message.ref === null);
       return;
     case "done":
+      if (message.ok) forgetRefusals();
       settle(message);
       return;
     case "errors":

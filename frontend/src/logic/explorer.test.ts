@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { Pou } from "../wire/types";
-import { newFilePath, pouAt, pouGroups, shownAt, skeleton } from "./explorer";
+import { newFilePath, placeFor, pouAt, pouGroups, shownAt, skeleton } from "./explorer";
 
 const pous: Pou[] = [
   { name: "FB_Belt", kind: "function_block", file: "belt.st", line: 3 },
@@ -32,6 +32,20 @@ describe("explorer", () => {
     ]);
   });
 
+  it("shows the plant by its files, apart from the program", () => {
+    const tank: Pou = { name: "Tank", kind: "program", file: "plant/tank.st", line: 1 };
+    const files = ["plant/inputs.csv", "plant/tank.st"].map((path) => ({ path, version: 1, author: "Mika" }));
+    expect(pouGroups([tank], files)).toEqual([
+      {
+        kind: "plant",
+        nodes: [
+          { kind: "file", name: "inputs.csv", file: "plant/inputs.csv" },
+          { kind: "file", name: "tank.st", file: "plant/tank.st" },
+        ],
+      },
+    ]);
+  });
+
   it("finds the declaration around a line", () => {
     expect(pouAt(pous, "belt.st", 41)?.name).toBe("FB_Lift");
     expect(pouAt(pous, "belt.st", 10)?.name).toBe("FB_Belt");
@@ -58,6 +72,14 @@ describe("explorer", () => {
     expect(newFilePath("FB_X.TcPOU", [])).toBe("FB_X.TcPOU");
     expect(newFilePath("main", [{ path: "Main.st", version: 1, author: "Mika" }])).toBeNull();
     expect(newFilePath("../x", [])).toBeNull();
+    expect(newFilePath("plant/", [])).toBeNull();
+    expect(newFilePath("plant/tank", [])).toBe("plant/tank.st");
+    expect(newFilePath("inputs.csv", [])).toBe("plant/inputs.csv");
+    expect(newFilePath("inputs.csv", [{ path: "plant/inputs.csv", version: 1, author: "Mika" }])).toBeNull();
+    expect(placeFor("plant/inputs.csv")).toBe("plant/inputs.csv");
+    expect(placeFor("Main.st")).toBe("Main.st");
+    expect(skeleton("plant/inputs.csv", "CIO0")).toContain("time; CIO0\n");
+    expect(skeleton("plant/tank.st")).toContain("PROGRAM tank");
     expect(skeleton("FB_New.st")).toContain("FUNCTION_BLOCK FB_New");
     expect(skeleton("Line 2.st")).toContain("PROGRAM Line_2");
   });

@@ -16,6 +16,7 @@ const monitor: InstanceState = {
   trap: null,
   forces: 0,
   program_version: 1,
+  previous_version: null,
   past: null,
   target: "",
   late_percent: 0,
@@ -25,6 +26,11 @@ describe("permits", () => {
   it("MONITOR takes everything", () => {
     for (const deed of ["write", "force", "errors", "mode", "run", "restart", "change"] as const)
       expect(forbidden(monitor, true, deed)).toBeNull();
+  });
+
+  it("a build needs no PLC", () => {
+    expect(forbidden(null, false, "build")).toBeNull();
+    expect(forbidden({ ...monitor, mode: "RUN" }, true, "build")).toBeNull();
   });
 
   it("RUN takes neither writes nor changes, but errors, modes and restarts", () => {
@@ -39,6 +45,7 @@ describe("permits", () => {
     const past = { ...monitor, past: { live_scan: 9, by: "Ann" } };
     expect(forbidden(past, true, "errors")).toBe("permit.past");
     expect(forbidden(past, true, "travel")).toBeNull();
+    expect(forbidden(past, true, "build")).toBe("permit.past.build");
     expect(forbidden({ ...monitor, state: "off" }, true, "mode")).toBe("permit.off");
     expect(forbidden(monitor, false, "run")).toBe("permit.offline");
     expect(forbidden(null, true, "run")).toBe("permit.offline");

@@ -2,13 +2,15 @@
 import type { InstanceState } from "../wire/types";
 import type { TextKey } from "./text.en";
 
-export type Deed = "write" | "force" | "errors" | "mode" | "run" | "restart" | "change" | "travel";
+export type Deed = "write" | "force" | "errors" | "mode" | "run" | "restart" | "change" | "build" | "travel";
 
 /** Devices in RUN take nothing from a tool; errors come from the machine, so the error simulator goes on. */
 const NOT_IN_RUN: readonly Deed[] = ["write", "force", "change"];
 
 /** The text that says why something cannot be done now; null when it can. */
 export function forbidden(state: InstanceState | null, connected: boolean, deed: Deed): TextKey | null {
+  // A build needs no PLC; one that shows its past waits, and could not take the program.
+  if (deed === "build") return state?.past ? "permit.past.build" : null;
   if (!connected || state === null) return "permit.offline";
   if (state.past !== null) return deed === "travel" ? null : "permit.past";
   if (state.state === "off") return "permit.off";

@@ -1,12 +1,14 @@
 import { describe, expect, it } from "vitest";
 import type { Mark } from "../wire/types";
 import {
+  around,
   clusters,
   countKinds,
   including,
   neighbour,
   placeOf,
   readScan,
+  readTime,
   scanAt,
   stepTo,
   ticks,
@@ -64,6 +66,22 @@ describe("clusters", () => {
       if (index > 0) expect(place - (places[index - 1] ?? 0)).toBeGreaterThanOrEqual(16);
   });
 
+  it("keep a group at the right edge inside, and a single mark at its place", () => {
+    const [group] = clusters([mark(2000), mark(2000)], axis, 1000, 42);
+    expect(group?.place).toBeCloseTo(0.974);
+    expect(clusters([mark(2000)], axis, 1000, 42)[0]?.place).toBe(1);
+    const joined = clusters([mark(1950), mark(2000), mark(2000)], axis, 1000, 42);
+    expect(joined.map(({ marks }) => marks.length)).toEqual([3]);
+  });
+
+  it("can be looked at closer, until their marks stand on one scan", () => {
+    const whole = { from: 0, to: 10_000 };
+    expect(around([mark(1000), mark(1100)], whole, whole)).toEqual({ from: 988, to: 1113 });
+    expect(around([mark(9990), mark(10_000)], whole, whole)).toEqual({ from: 9980, to: 10_000 });
+    expect(around([mark(5), mark(5)], whole, whole)).toBeNull();
+    expect(around([mark(988), mark(1110)], { from: 988, to: 1113 }, whole)).toBeNull();
+  });
+
   it("count their kinds", () => {
     expect(countKinds([mark(1), mark(2, "error"), mark(3)])).toEqual([
       ["error", 1],
@@ -106,9 +124,24 @@ describe("moving", () => {
   });
 
   it("reads a scan as it is typed", () => {
-    expect(readScan(" 4,711 ")).toBe(4711);
+    expect(readScan(" 4711 ")).toBe(4711);
     expect(readScan("12 000")).toBe(12_000);
+    expect(readScan("12\u2009000")).toBe(12_000);
+    expect(readScan("1.5")).toBeNull();
+    expect(readScan("1,5")).toBeNull();
+    expect(readScan("-3")).toBeNull();
     expect(readScan("x1")).toBeNull();
     expect(readScan("")).toBeNull();
+  });
+
+  it("reads PLC time as it is typed", () => {
+    expect(readTime("1m2s")).toBe(62e9);
+    expect(readTime("1:02")).toBe(62e9);
+    expect(readTime("00:01:02.250")).toBe(62.25e9);
+    expect(readTime("2d 00:00:01")).toBe((2 * 86_400 + 1) * 1e9);
+    expect(readTime("250ms")).toBe(250e6);
+    expect(readTime("4711")).toBeNull();
+    expect(readTime("")).toBeNull();
+    expect(readTime("1:")).toBeNull();
   });
 });

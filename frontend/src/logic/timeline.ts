@@ -53,11 +53,38 @@ export function clusters(marks: readonly Mark[], axis: Axis, width: number, apar
     if (group && (place - group.place) * width < apart) group.marks.push(mark);
     else found.push({ place, marks: [mark] });
   }
+  keepInside(found, width, apart);
   return found.map(({ place, marks: group }) => ({
     place,
     first: group.reduce((best, mark) => (rank(mark) < rank(best) ? mark : best)),
     marks: group,
   }));
+}
+
+/** Room for the number of a group, right of its icon. */
+const NUMBER_ROOM = 26;
+
+/** A group at the right edge moves in, so that its number is not cut; one that then stands too close to the last joins it. */
+function keepInside(found: { place: number; marks: Mark[] }[], width: number, apart: number): void {
+  const last = found.at(-1);
+  const most = 1 - NUMBER_ROOM / width;
+  if (!last || last.marks.length < 2 || last.place <= most) return;
+  last.place = Math.max(0, most);
+  const before = found.at(-2);
+  if (!before || (last.place - before.place) * width >= apart) return;
+  before.marks.push(...last.marks);
+  found.pop();
+}
+
+/** The part of the run to look closer at a group of marks; null when they lie too close for that. */
+export function around(marks: readonly Mark[], axis: Axis, whole: Axis): Axis | null {
+  const scans = marks.map((mark) => mark.scan);
+  const first = Math.min(...scans);
+  const span = Math.max(...scans) - first;
+  const length = Math.max(LEAST_SHOWN, Math.ceil(span * 1.25));
+  if (span === 0 || length >= axis.to - axis.from) return null;
+  const from = Math.min(whole.to - length, Math.max(whole.from, first - Math.floor((length - span) / 2)));
+  return { from, to: from + length };
 }
 
 function rank(mark: Mark): number {
@@ -107,8 +134,21 @@ export function stepTo(key: string, scan: number, whole: Axis): number | "live" 
   return key === "End" || key === "Escape" ? "live" : undefined;
 }
 
-/** A scan as somebody types it: digits, with blanks, commas or dots between them. */
+/** A scan as somebody types it: digits, with blanks between them if one likes. */
 export function readScan(text: string): number | null {
-  const digits = text.replace(/[\s,.'\u2009]/g, "");
+  const digits = text.replace(/\s/g, "");
   return /^\d{1,15}$/.test(digits) ? Number(digits) : null;
+}
+
+const UNITS = /^(?:(\d+)d)?(?:(\d+)h)?(?:(\d+)m(?!s))?(?:(\d+(?:\.\d+)?)s)?(?:(\d+)ms)?$/;
+const CLOCK = /^(?:(\d+)d)?(?:(\d+):)?(\d+):(\d+(?:\.\d+)?)$/;
+
+/** PLC time as somebody types it, in nanoseconds: 1m2s, 90s, 1:02, 01:02:03.250, 2d 01:02:03. */
+export function readTime(text: string): number | null {
+  const plain = text.replace(/\s/g, "").toLowerCase();
+  const found = plain === "" ? null : (UNITS.exec(plain) ?? CLOCK.exec(plain));
+  if (!found) return null;
+  const [days, hours, minutes, seconds, ms] = [1, 2, 3, 4, 5].map((group) => Number(found[group] ?? 0));
+  const whole = (((days ?? 0) * 24 + (hours ?? 0)) * 60 + (minutes ?? 0)) * 60 + (seconds ?? 0);
+  return whole * 1e9 + (ms ?? 0) * 1e6;
 }

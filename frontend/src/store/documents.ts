@@ -1,6 +1,7 @@
 /** The files of the project being edited: texts, what is not saved yet, live diagnostics and builds. */
 import { create } from "zustand";
 import { skeleton } from "../logic/explorer";
+import { forbidden } from "../logic/permits";
 import { t } from "../logic/text";
 import { rest } from "../wire/rest";
 import type { BuildResult, EmbeddedCheck, FileInfo, FileText, OnlineChange, Pou, Problem } from "../wire/types";
@@ -28,7 +29,7 @@ interface Draft {
 export type BuildState =
   | { phase: "idle" }
   | { phase: "running" }
-  | { phase: "done"; ok: boolean; message: string; author: string | null };
+  | { phase: "done"; ok: boolean; message: string; author: string | null; changes: readonly OnlineChange[] };
 
 interface Documents {
   project: number | null;
@@ -205,10 +206,18 @@ export async function resolveConflict(path: string, choice: "mine" | "theirs"): 
   await save(path);
 }
 
-/** Saves what is not saved, then builds; the running instances get the new program in their seams, once `agreed` if values are lost. */
-export async function build(agreed = false): Promise<void> {
+/**
+ * Saves what is not saved, then builds; the running PLCs, or those `chosen`, get the new program in their seams, once `agreed` if
+ * values are lost.
+ */
+export async function build(agreed = false, chosen: readonly number[] | null = null): Promise<void> {
   const { project, open } = get();
   if (project === null || get().build.phase === "running" || isCutOff()) return;
+  const why = forbidden(usePlc.getState().state, true, "build");
+  if (why !== null) {
+    set({ build: refusedBuild(t(why)), asking: null });
+    return;
+  }
   set({ build: { phase: "running" }, asking: null });
   try {
     for (const document of Object.values(open)) {
@@ -217,24 +226,43 @@ export async function build(agreed = false): Promise<void> {
         return;
       }
     }
-    onBuilt(await rest.build(project, agreed), null);
+    onBuilt(await rest.build(project, agreed, chosen), null);
   } catch (error) {
-    set({ build: { phase: "done", ok: false, message: messageOf(error), author: null } });
+    set({ build: refusedBuild(messageOf(error)) });
   }
 }
+
+const refusedBuild = (message: string): BuildState => ({
+  phase: "done",
+  ok: false,
+  message,
+  author: null,
+  changes: [],
+});
 
 export function onBuilt(result: BuildResult, author: string | null): void {
   if (get().project !== result.project.id) return;
   if (result.needs_agreement) set({ build: { phase: "idle" }, asking: result });
   else {
     const swapped = result.ok && result.changes.some((change) => change.refusal === "");
-    set({ build: { phase: "done", ok: result.ok, message: result.message, author } });
-    if (result.ok) set({ change: swapped ? result.changes : null });
+    const { ok, message, changes } = result;
+    set({ build: { phase: "done", ok, message, author, changes } });
+    // A build that found nothing to do leaves the last change to be taken back.
+    if (swapped) set({ change: result.changes });
   }
   const dirty = Object.values(get().open).some(isDirty);
   if (dirty) scheduleCheck();
   else set({ problems: result.problems, ...(result.pous.length > 0 ? { pous: result.pous } : {}) });
 }
+
+/** What the last build said is about the PLC as it is now: not about its past, and no more once its program was rolled back. */
+usePlc.subscribe(({ state }, { state: before }) => {
+  if (!state || !before || get().build.phase !== "done") return;
+  const shown = state.past !== null && before.past === null;
+  const older = state.past === null && before.past === null && state.program_version < before.program_version;
+  if (shown) set({ build: { phase: "idle" } });
+  if (older) set({ build: { phase: "idle" }, change: null });
+});
 
 /** Somebody (perhaps this browser) saved: a clean text follows, an edited one waits for its own save to show both. */
 export async function onSaved(file: FileInfo): Promise<void> {

@@ -117,33 +117,35 @@ export async function deleteInstance(instance: Instance): Promise<void> {
 export function exportInstance(instance: Instance): Promise<void> {
   const given = new AbortController();
   const moving: Transfer = { text: "export", name: instance.name, share: null, cancel: () => given.abort() };
-  return transferring(moving, async () => {
-    const response = await rest.exportRun(instance.id, given.signal);
-    const body = await readBody(response, progress);
-    save(body, nameIn(response) ?? `${instance.name}.scanrun`);
-  });
+  return carryOut(() =>
+    transferring(moving, async () => {
+      const response = await rest.exportRun(instance.id, given.signal);
+      const body = await readBody(response, progress);
+      save(body, nameIn(response) ?? `${instance.name}.scanrun`);
+    }),
+  );
 }
 
-export function importInstance(name: string, file: File): Promise<void> {
+/** A new instance from a run file. Throws what the server said when it refuses, so that the dialog can show it. */
+export async function importInstance(name: string, file: File): Promise<void> {
   const given = new AbortController();
-  return transferring({ text: "import", name: file.name, share: 0, cancel: () => given.abort() }, async () => {
+  await transferring({ text: "import", name: file.name, share: 0, cancel: () => given.abort() }, async () => {
     const made = await importRun(name, file, progress, given.signal);
     set({ selected: made.id });
-    await refreshApp();
+    await Promise.all([refreshInstances(), refreshApp()]);
   });
 }
 
+/** What was given up is no failure. */
 async function transferring(transfer: Transfer, deed: () => Promise<void>): Promise<void> {
-  set({ transfer });
-  await carryOut(async () => {
-    try {
-      await deed();
-    } catch (error) {
-      if (!(error instanceof DOMException && error.name === "AbortError")) throw error;
-    } finally {
-      set({ transfer: null });
-    }
-  });
+  set({ transfer, trouble: null });
+  try {
+    await deed();
+  } catch (error) {
+    if (!(error instanceof DOMException && error.name === "AbortError")) throw error;
+  } finally {
+    set({ transfer: null });
+  }
 }
 
 function progress(share: number | null): void {

@@ -7,7 +7,7 @@ import type { Mode, RestartKind, RunOrder } from "../wire/types";
 import { useDocuments } from "./documents";
 import { keep, recall } from "./keep";
 import { usePlc } from "./plc";
-import { stepForward } from "./timeline";
+import { stepForward, useTimeline } from "./timeline";
 
 export const SPEEDS = [0.01, 0.1, 0.5, 1, 2, 10, 100, 1000, 0] as const;
 const CONDITIONS = 5;
@@ -56,8 +56,23 @@ export async function rollBack(): Promise<void> {
   if (report(await send({ type: "roll_back" })).ok) useDocuments.setState({ change: null });
 }
 
+/** From scan 0, with an empty timeline. The dialog that asked shows a refusal itself. */
+export async function newRun(): Promise<void> {
+  const answer = await send({ type: "new_run" });
+  if (!answer.ok) throw new Error(answer.message || t("notsent"));
+}
+
 export async function chooseMode(mode: Mode): Promise<void> {
   report(await send({ type: "mode", mode }));
+}
+
+/** Out of a run-time error without a restart: the errors that are present are recovered, and the program goes on in MONITOR. */
+export async function recoverAndGoOn(): Promise<void> {
+  const present = [...usePlc.getState().errors.values()].some((row) => row.status === "generated");
+  if (present && !report(await send({ type: "recover", ids: null })).ok) return;
+  const monitor = await send({ type: "mode", mode: "MONITOR" });
+  // A trap that no error stands for is ended by PROGRAM.
+  if (!monitor.ok && report(await send({ type: "mode", mode: "PROGRAM" })).ok) await chooseMode("MONITOR");
 }
 
 /** The same condition once more, from the menu: a refusal is shown in the status bar. */
@@ -77,6 +92,17 @@ function report(answer: Answer): Answer {
   useRun.setState({ refused: answer.ok ? null : answer.message || t("notsent") });
   return answer;
 }
+
+/** A refusal has had its time: another command was accepted, or the PLC is in another state. */
+export function forgetRefusals(): void {
+  if (useRun.getState().refused !== null) useRun.setState({ refused: null });
+  if (useTimeline.getState().refused !== null) useTimeline.setState({ refused: null });
+}
+
+usePlc.subscribe(({ state: now }, { state: before }) => {
+  if (now?.state !== before?.state || now?.mode !== before?.mode || now?.past?.live_scan !== before?.past?.live_scan)
+    forgetRefusals();
+});
 
 /** F5: goes on when paused, pauses when running. */
 export function toggleRun(): void {

@@ -1,6 +1,6 @@
 /** The run from its first scan to the live one, and the way back into it. */
 import { create } from "zustand";
-import type { Axis } from "../logic/timeline";
+import { type Axis, including } from "../logic/timeline";
 import { send } from "../wire/send";
 import type { Mark, Timeline, TimelineInfo } from "../wire/types";
 import { readClock } from "./clock";
@@ -13,6 +13,8 @@ interface Run {
   marks: readonly Mark[];
   /** What is shown of the run; null is all of it. */
   view: Axis | null;
+  /** The view moves along with the live end. */
+  follows: boolean;
   /** Where one is on the way to, until the PLC is there. */
   aim: number | null;
   refused: string | null;
@@ -20,9 +22,10 @@ interface Run {
   read: string;
 }
 
-const nothing: Run = { info: null, marks: [], view: null, aim: null, refused: null, read: "" };
+const nothing: Run = { info: null, marks: [], view: null, follows: true, aim: null, refused: null, read: "" };
 
 export const useTimeline = create<Run>(() => nothing);
+const get = useTimeline.getState;
 const set = useTimeline.setState;
 
 export function resetTimeline(): void {
@@ -33,7 +36,19 @@ export function onTimeline({ info, marks, fresh }: Timeline): void {
   set((run) => ({ info, marks: fresh ? marks : [...run.marks, ...marks].slice(-MARK_LIMIT) }));
 }
 
-export const setView = (view: Axis | null) => set({ view });
+/** Shows a part of the run, all of it with null. A view that ends at the live scan moves along with it. */
+export function setView(view: Axis | null, whole: Axis): void {
+  set({ view, follows: view === null || view.to >= whole.to });
+}
+
+/** A view that stands still is moved to where one goes. */
+function inSight(scan: number | null): Partial<Run> {
+  const { view, follows, info } = get();
+  if (view === null || follows) return {};
+  if (scan === null) return { follows: true };
+  return { view: including(view, { from: info?.first_scan ?? 0, to: liveScan() }, scan) };
+}
+
 export const aimAt = (aim: number | null) => set({ aim });
 export const putAwayDamage = () => set(({ info }) => ({ read: info?.damage ?? "" }));
 
@@ -47,7 +62,7 @@ let next: { scan: number | null } | null = null;
 
 /** Shows the PLC as it was before a scan; null returns to live. While one request is answered, only the last wish is kept. */
 export async function travel(scan: number | null): Promise<void> {
-  set({ aim: scan ?? liveScan() });
+  set({ aim: scan ?? liveScan(), ...inSight(scan) });
   next = { scan };
   if (underWay) return;
   underWay = true;

@@ -9,6 +9,7 @@ interface Props {
   label: string;
   /** What the button that does it says. */
   action: string;
+  /** What it is called unless somebody types; may change with what else is filled in. */
   initial?: string;
   /** Throws what was wrong; it is shown below the field. */
   onName: (name: string) => Promise<void>;
@@ -19,7 +20,8 @@ interface Props {
 
 /** A dialog that asks for one name. */
 export function AskName({ title, about, label, action, initial = "", onName, onClose, children }: Props) {
-  const [name, setName] = useState(initial);
+  const [typed, setTyped] = useState<string | null>(null);
+  const name = typed ?? initial;
   const [refused, setRefused] = useState<string | null>(null);
   const [busy, setBusy] = useState(false);
 
@@ -57,7 +59,7 @@ export function AskName({ title, about, label, action, initial = "", onName, onC
       }
     >
       {children}
-      <Field label={label} value={name} onChange={setName} refused={refused} />
+      <Field label={label} value={name} onChange={setTyped} refused={refused} />
     </Dialog>
   );
 }

@@ -448,6 +448,11 @@ export interface components {
              * @default false
              */
             agreed: boolean;
+            /**
+             * Instances
+             * @description which PLCs are to be changed; null is all of them
+             */
+            instances?: number[] | null;
         };
         /** BuildResult */
         BuildResult: {
@@ -961,6 +966,11 @@ export interface components {
             past: components["schemas"]["PastInfo"] | null;
             /** Pid */
             pid: number | null;
+            /**
+             * Previous Version
+             * @description what a roll back swaps in; null when there is nothing
+             */
+            previous_version: number | null;
             /** Program Version */
             program_version: number;
             /** Restarts */

@@ -77,7 +77,9 @@ export const rest = {
   },
   check: (project: number, files: Record<string, string>) =>
     json<CheckResult>("POST", `/projects/${project}/check`, { files }),
-  build: (project: number, agreed: boolean) => json<BuildResult>("POST", `/projects/${project}/build`, { agreed }),
+  /** `instances`: which PLCs get the program; null is all of them. */
+  build: (project: number, agreed: boolean, instances: readonly number[] | null = null) =>
+    json<BuildResult>("POST", `/projects/${project}/build`, { agreed, instances }),
 
   models: () => json<ModelSummary[]>("GET", "/models"),
   model: (name: string) => json<ModelInfo>("GET", `/models/${encodeURIComponent(name)}`),

@@ -1,7 +1,7 @@
 import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { openFile } from "../../store/navigate";
-import { restart } from "../../store/run";
+import { recoverAndGoOn, restart } from "../../store/run";
 import { Icon } from "../../ui/Icon";
 import type { InstanceState } from "../../wire/types";
 
@@ -28,8 +28,11 @@ export function TrapBanner({ state }: { state: InstanceState }) {
         )}{" "}
         <span className="muted">{t("trap.about")}</span>
       </span>
-      <button type="button" className="btn danger sm" onClick={() => void restart("cold")}>
-        {t("restart.menu")}
+      <button type="button" className="btn sm" title={t("trap.goon.hint")} onClick={() => void recoverAndGoOn()}>
+        {t("trap.goon")}
+      </button>
+      <button type="button" className="btn danger sm" title={t("trap.cold.hint")} onClick={() => void restart("cold")}>
+        {t("trap.cold")}
       </button>
     </div>
   );

@@ -7,6 +7,7 @@ import { addToWatch } from "../../store/watchlist";
 import "./checks";
 import { modelOf } from "./models";
 import { editor, KeyCode, KeyMod, monospaceFont, options } from "./monaco";
+import { markTrap } from "./trap";
 
 /** The text of one file in Monaco. */
 export default function CodeView({ path }: { path: string }) {
@@ -32,10 +33,12 @@ export default function CodeView({ path }: { path: string }) {
     code.onDidChangeCursorPosition(caret);
     code.onDidFocusEditorText(caret);
     caret();
+    const unmark = markTrap(code, path);
     const stop = useNavigation.subscribe(({ place }) => go(code, path, place));
     go(code, path, useNavigation.getState().place);
     return () => {
       stop();
+      unmark();
       code.dispose();
       view.current = null;
     };

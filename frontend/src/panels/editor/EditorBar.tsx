@@ -1,10 +1,10 @@
+import { builtNote, changeNote } from "../../logic/change";
 import { pouAt } from "../../logic/explorer";
-import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { build, isDirty, save, useDocuments } from "../../store/documents";
 import { showPanel } from "../../store/navigate";
-import { useForbidden, useLost } from "../../store/plc";
+import { useForbidden, useLost, usePlc } from "../../store/plc";
 import { toggleChecks, usePrefs } from "../../store/prefs";
 import { rollBack } from "../../store/run";
 import { Icon } from "../../ui/Icon";
@@ -17,6 +17,8 @@ export function EditorBar({ path }: { path: string }) {
   const dirty = useDocuments((documents) => isDirty(documents.open[path]));
   const building = useDocuments((documents) => documents.build.phase === "running");
   const lost = useLost();
+  const forbidden = useForbidden("build");
+  const unbuildable = lost ? t("lost.nobuild") : forbidden;
   // Not a subscription: the caret moves with every change of the text.
   const text = useDocuments.getState().open[path]?.text;
   const found = pouAt(pous, path, cursor?.line ?? 1, text) ?? pous.find((known) => known.file === path);
@@ -42,8 +44,8 @@ export function EditorBar({ path }: { path: string }) {
       <button
         type="button"
         className="btn sm"
-        disabled={building || lost}
-        title={lost ? t("lost.nobuild") : t("build.hint")}
+        disabled={building || unbuildable !== null}
+        title={unbuildable ?? t("build.hint")}
         onClick={() => void build()}
       >
         <Icon name="play" small />
@@ -74,7 +76,7 @@ function useChangeNote(): string {
   const instance = useBench((bench) => bench.instance?.id);
   const change = useDocuments((documents) => documents.change?.find((known) => known.instance === instance));
   if (change?.refusal !== "") return "";
-  return t("change.note", { kept: grouped(change.kept), lost: grouped(change.lost_count) });
+  return changeNote(change);
 }
 
 /** Stands beside the outcome of a build as long as there is a change to take back. */
@@ -96,10 +98,23 @@ function RollBack() {
   );
 }
 
+/** The PLC runs another version than the one that was built last: it was rolled back, or left out. */
+function OtherVersion() {
+  const text = useBench((bench) => bench.project?.version);
+  const runs = usePlc(({ state }) => (state && !state.past && state.state !== "off" ? state.program_version : 0));
+  const building = useDocuments((documents) => documents.build.phase === "running");
+  if (building || !text || !runs || runs === text) return null;
+  return (
+    <span className="cut" role="status" title={t("change.runs.hint", { text })}>
+      <StateWord tone="warning" icon="warning" word={t("change.runs", { runs, text })} />
+    </span>
+  );
+}
+
 function BuildOutcome() {
   const state = useDocuments((documents) => documents.build);
-  const note = useChangeNote();
-  if (state.phase !== "done") return null;
+  const here = useBench((bench) => bench.instance?.id);
+  if (state.phase !== "done") return <OtherVersion />;
   const by = state.author ? t("build.by", { author: state.author }) : "";
   return (
     <button
@@ -110,7 +125,7 @@ function BuildOutcome() {
       onClick={() => showPanel("problems")}
     >
       {state.ok ? (
-        <StateWord tone="running" icon="check" word={`${t("build.ok")}${by}${note && `: ${note}`}`} />
+        <StateWord tone="running" icon="check" word={`${builtNote(state.changes, here)}${by}`} />
       ) : (
         <StateWord tone="fatal" icon="error" word={`${t("build.refused")}${by}`} />
       )}

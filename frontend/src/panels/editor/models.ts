@@ -1,10 +1,14 @@
 /** One Monaco model for each open file, in step with the document store both ways; diagnostics become markers. */
+
+import { isTable } from "../../logic/explorer";
 import { edit, useDocuments } from "../../store/documents";
 import { usePlc } from "../../store/plc";
 import type { Problem, Violation } from "../../wire/types";
 import { editor, MarkerSeverity, Uri } from "./monaco";
 import { LANGUAGE } from "./st";
 
+/** A table of inputs: Monaco's name for what has no syntax. */
+const TEXT = "plaintext";
 const models = new Map<string, editor.ITextModel>();
 const OWNER = "scanbench";
 const RUNTIME = "scanbench.runtime";
@@ -18,7 +22,11 @@ const SEVERITY: Record<Problem["severity"], MarkerSeverity> = {
 export function modelOf(path: string, text: string): editor.ITextModel {
   const known = models.get(path);
   if (known && !known.isDisposed()) return known;
-  const model = editor.createModel(text, LANGUAGE, Uri.from({ scheme: "scanbench", path: `/${path}` }));
+  const model = editor.createModel(
+    text,
+    isTable(path) ? TEXT : LANGUAGE,
+    Uri.from({ scheme: "scanbench", path: `/${path}` }),
+  );
   model.setEOL(editor.EndOfLineSequence.LF);
   model.onDidChangeContent(() => edit(path, model.getValue()));
   models.set(path, model);

@@ -1,34 +1,16 @@
-import { useRef, useState } from "react";
-import { decodeText } from "../../logic/decode";
+import { useRef } from "react";
 import { FILE_ENDINGS } from "../../logic/explorer";
 import { t } from "../../logic/text";
-import { createFile, messageOf, useDocuments } from "../../store/documents";
-import { openFile } from "../../store/navigate";
+import { useDocuments } from "../../store/documents";
 import { Dialog } from "../../ui/Dialog";
 import { IconButton } from "../../ui/IconButton";
+import type { Adding } from "./useAddFiles";
 
-/** Brings program files from this computer into the project; what could not be taken is listed with the reason. */
-export function AddFiles() {
+/** Brings files from this computer into the project; what could not be taken is listed with the reason. */
+export function AddFiles({ adding }: { adding: Adding }) {
   const input = useRef<HTMLInputElement>(null);
-  const [refused, setRefused] = useState<readonly string[]>([]);
   const project = useDocuments((documents) => documents.project);
-
-  async function add(chosen: readonly File[]): Promise<void> {
-    const refusals: string[] = [];
-    const added: string[] = [];
-    for (const file of chosen) {
-      try {
-        await addFile(file);
-        added.push(file.name);
-      } catch (error) {
-        refusals.push(`${file.name}: ${messageOf(error)}`);
-      }
-    }
-    setRefused(refusals);
-    const [first] = added;
-    if (first !== undefined) openFile(first, 1);
-  }
-
+  const { refused, add, forget } = adding;
   return (
     <>
       <input
@@ -53,8 +35,8 @@ export function AddFiles() {
       {refused.length > 0 && (
         <Dialog
           title={t("file.add.refused")}
-          onClose={() => setRefused([])}
-          onSubmit={() => setRefused([])}
+          onClose={forget}
+          onSubmit={forget}
           footer={
             <>
               <span className="grow" />
@@ -73,10 +55,4 @@ export function AddFiles() {
       )}
     </>
   );
-}
-
-async function addFile(file: File): Promise<void> {
-  const known = useDocuments.getState().files;
-  if (known.some(({ path }) => path.toLowerCase() === file.name.toLowerCase())) throw new Error(t("file.add.exists"));
-  await createFile(file.name, decodeText(new Uint8Array(await file.arrayBuffer())));
 }

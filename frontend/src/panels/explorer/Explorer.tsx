@@ -1,4 +1,4 @@
-import { useState } from "react";
+import { type DragEvent, useState } from "react";
 import { t } from "../../logic/text";
 import { useDocuments } from "../../store/documents";
 import { IconButton } from "../../ui/IconButton";
@@ -8,6 +8,7 @@ import { AddFiles } from "./AddFiles";
 import { DeleteFile } from "./DeleteFile";
 import { NewFile } from "./NewFile";
 import { useExplorerRows } from "./rows";
+import { useAddFiles } from "./useAddFiles";
 
 export type OpenMenu = (items: readonly MenuItem[], at: { x: number; y: number }) => void;
 
@@ -19,11 +20,30 @@ export function Explorer() {
   const project = useDocuments((documents) => documents.project);
   const openMenu: OpenMenu = (items, at) => setMenu({ items, at });
   const rows = useExplorerRows(openMenu, setDeleting);
+  const adding = useAddFiles();
+
+  function onDrag(event: DragEvent): void {
+    if (project !== null && event.dataTransfer.types.includes("Files")) event.preventDefault();
+  }
+
+  function onDrop(event: DragEvent): void {
+    const files = [...event.dataTransfer.files];
+    if (project === null || files.length === 0) return;
+    event.preventDefault();
+    void adding.add(files);
+  }
+
   return (
-    <nav className="pane left" aria-label={t("explorer.label")} data-pane="explorer">
+    <nav
+      className="pane left"
+      aria-label={t("explorer.label")}
+      data-pane="explorer"
+      onDragOver={onDrag}
+      onDrop={onDrop}
+    >
       <div className="phead">
         <h2 className="grow">{t("explorer.label")}</h2>
-        <AddFiles />
+        <AddFiles adding={adding} />
         <IconButton
           icon="plus"
           label={t("file.new")}

@@ -1,6 +1,7 @@
 import { useState } from "react";
-import { newFilePath } from "../../logic/explorer";
+import { newFilePath, skeleton } from "../../logic/explorer";
 import { t } from "../../logic/text";
+import { useBench } from "../../store/bench";
 import { createFile, messageOf, useDocuments } from "../../store/documents";
 import { openFile } from "../../store/navigate";
 import { Dialog } from "../../ui/Dialog";
@@ -9,6 +10,7 @@ import { Field } from "../../ui/Field";
 /** Asks for a name and makes the file with the frame of what the name promises. */
 export function NewFile({ onClose }: { onClose: () => void }) {
   const files = useDocuments((documents) => documents.files);
+  const input = useBench((bench) => bench.model?.areas[0]?.first);
   const [name, setName] = useState("");
   const [refused, setRefused] = useState<string | null>(null);
 
@@ -19,7 +21,7 @@ export function NewFile({ onClose }: { onClose: () => void }) {
       return;
     }
     try {
-      await createFile(path);
+      await createFile(path, skeleton(path, input));
       onClose();
       openFile(path, 1);
     } catch (error) {

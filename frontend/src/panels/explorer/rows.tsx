@@ -1,5 +1,5 @@
 import { useEffect, useState } from "react";
-import { type FileNode, type PouGroup, type PouNode, pouGroups, shownAt } from "../../logic/explorer";
+import { type FileNode, isTable, type PouGroup, type PouNode, pouGroups, shownAt } from "../../logic/explorer";
 import { percent } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
@@ -16,7 +16,7 @@ import type { Area, ModelInfo, PlcSymbol, Pou, Problem } from "../../wire/types"
 import type { OpenMenu } from "./Explorer";
 import { PouLabel } from "./PouLabel";
 
-const POU_ICONS: Record<PouGroup["kind"], IconName> = {
+const POU_ICONS: Record<Exclude<PouGroup["kind"], "plant">, IconName> = {
   program: "program",
   function_block: "fb",
   function: "fn",
@@ -43,6 +43,7 @@ export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) =>
     "interface",
     "function",
     "global",
+    "plant",
     "file",
     "instances",
   ]);
@@ -75,7 +76,7 @@ export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) =>
       rows.push({
         key: `${group.kind}:${node.file}:${node.name}`,
         level: 1,
-        icon: POU_ICONS[group.kind],
+        icon: group.kind === "plant" ? plantIcon(node.file) : POU_ICONS[group.kind],
         label: <PouLabel node={node} />,
         name: node.name,
         meta: <FileMarks file={node.file} dirty={isDirty(open[node.file])} problems={problems} />,
@@ -93,6 +94,8 @@ export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) =>
   if (model) rows.push(...modelRows(model, folding, openMenu));
   return rows;
 }
+
+const plantIcon = (file: string): IconName => (isTable(file) ? "list" : "program");
 
 /** Whether this is the one declaration of its file that the cursor stands in. */
 function isAround(node: PouNode | FileNode, kind: PouGroup["kind"], here: Pou | undefined): boolean {

@@ -3,16 +3,17 @@ import { copyName } from "../../logic/instances";
 import { t } from "../../logic/text";
 import { importInstance, useInstances } from "../../store/instances";
 import { AskName } from "../../ui/AskName";
+import { Underway } from "./Underway";
 
-/** Asks for a run file of this computer, and for the name of the instance that goes on with it. */
+/** Asks for a run file of this computer, and for the name of the instance that goes on with it. It stays until the run is in. */
 export function ImportRun({ onClose }: { onClose: () => void }) {
   const [file, setFile] = useState<File | null>(null);
-  const taken = useInstances((instances) => instances.all).map(({ name }) => name);
+  const { all, transfer } = useInstances();
+  const taken = all.map(({ name }) => name);
 
-  // The transfer shows itself below the list: the dialog need not stay for it.
   async function start(name: string): Promise<void> {
     if (!file) throw new Error(t("instances.import.missing"));
-    void importInstance(name, file);
+    await importInstance(name, file);
   }
 
   return (
@@ -21,14 +22,24 @@ export function ImportRun({ onClose }: { onClose: () => void }) {
       about={t("instances.import.about")}
       label={t("instances.name")}
       action={t("instances.import.do")}
-      initial={copyName("import", taken)}
+      initial={file ? nameOf(file, taken) : ""}
       onName={start}
-      onClose={onClose}
+      onClose={() => {
+        transfer?.cancel();
+        onClose();
+      }}
     >
       <label className="field">
         <span>{t("instances.import.file")}</span>
         <input type="file" className="inp file" onChange={(event) => setFile(event.target.files?.[0] ?? null)} />
       </label>
+      {transfer && <Underway transfer={transfer} />}
     </AskName>
   );
+}
+
+/** The name of the file without its ending, or the next one when that is taken. */
+function nameOf(file: File, taken: readonly string[]): string {
+  const name = file.name.replace(/\.[^.]*$/, "");
+  return taken.includes(name) ? copyName(name, taken) : name;
 }

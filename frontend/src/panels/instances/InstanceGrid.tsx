@@ -17,10 +17,11 @@ interface Props {
   onSelect: (id: number) => void;
   onOpen: (instance: Instance) => void;
   onDelete: (instance: Instance) => void;
+  onMenu: (instance: Instance, at: { x: number; y: number }) => void;
 }
 
 /** The rows: only those in sight exist in the page. Arrow keys choose, Enter opens, Delete asks. */
-export function InstanceGrid({ rows, order, selected, onOrder, onSelect, onOpen, onDelete }: Props) {
+export function InstanceGrid({ rows, order, selected, onOrder, onSelect, onOpen, onDelete, onMenu }: Props) {
   const scroll = useRef<HTMLDivElement>(null);
   const virtual = useVirtualizer({
     count: rows.length,
@@ -95,6 +96,7 @@ export function InstanceGrid({ rows, order, selected, onOrder, onSelect, onOpen,
                 selected={row.id === selected}
                 onSelect={onSelect}
                 onOpen={onOpen}
+                onMenu={onMenu}
               />
             )
           );

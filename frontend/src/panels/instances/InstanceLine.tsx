@@ -3,7 +3,8 @@ import { bytes, grouped, interval, percent } from "../../logic/numbers";
 import { showState } from "../../logic/plcstate";
 import { t } from "../../logic/text";
 import { Icon } from "../../ui/Icon";
-import type { Instance, InstanceLimits } from "../../wire/types";
+import type { Instance } from "../../wire/types";
+import { limitsIn } from "./limitsIn";
 
 interface Props {
   instance: Instance;
@@ -12,6 +13,7 @@ interface Props {
   selected: boolean;
   onSelect: (id: number) => void;
   onOpen: (instance: Instance) => void;
+  onMenu: (instance: Instance, at: { x: number; y: number }) => void;
 }
 
 /** More than this share of late scans is worth seeing. */
@@ -19,7 +21,7 @@ const LATE = 1;
 
 /** One instance. A row is drawn again only when something of it changed. */
 export const InstanceLine = memo(
-  function InstanceLine({ instance, index, top, selected, onSelect, onOpen }: Props) {
+  function InstanceLine({ instance, index, top, selected, onSelect, onOpen, onMenu }: Props) {
     const { state, load } = instance;
     const shown = showState(state, true);
     const off = state.state === "off";
@@ -35,8 +37,13 @@ export const InstanceLine = memo(
         style={{ transform: `translateY(${top}px)` }}
         onClick={() => onSelect(instance.id)}
         onDoubleClick={() => onOpen(instance)}
+        onContextMenu={(event) => {
+          event.preventDefault();
+          onSelect(instance.id);
+          onMenu(instance, { x: event.clientX, y: event.clientY });
+        }}
       >
-        <span role="gridcell" className="cut" title={instance.name}>
+        <span role="gridcell" className="cut" title={facts(instance)}>
           <b>{instance.name}</b>
         </span>
         <span role="gridcell" className="muted cut" title={instance.project.name}>
@@ -81,11 +88,7 @@ export const InstanceLine = memo(
     JSON.stringify(a.instance) === JSON.stringify(b.instance),
 );
 
-function limitsIn({ memory_mib: memory, cpu_percent: cpu, run_mib: run }: InstanceLimits): string {
-  const parts = [
-    cpu === null ? "" : `CPU ${cpu} %`,
-    memory === null ? "" : `${memory} MiB`,
-    run === null ? "" : `${t("instances.column.run")} ${run} MiB`,
-  ].filter(Boolean);
-  return parts.join(", ") || t("instances.limit.none");
+/** What a narrow window has no columns for stands in the tooltip of the name. */
+function facts({ name, model, limits }: Instance): string {
+  return [name, model, `${t("instances.column.limits")}: ${limitsIn(limits)}`].join("\n");
 }

@@ -6,8 +6,11 @@ import { useBench } from "../../store/bench";
 import { openInstance, pollInstances, selectInstance, showInstances, useInstances } from "../../store/instances";
 import { Dialog } from "../../ui/Dialog";
 import { Icon } from "../../ui/Icon";
+import { Menu } from "../../ui/Menu";
+import type { Instance } from "../../wire/types";
 import { Actions } from "./Actions";
 import { Asking, type Question } from "./Asking";
+import { deeds } from "./deeds";
 import { InstanceGrid } from "./InstanceGrid";
 import "./instances.css";
 
@@ -23,6 +26,7 @@ function List() {
   const [filter, setFilter] = useState("");
   const [order, setOrder] = useState<Order>({ by: "name", down: false });
   const [question, setQuestion] = useState<Question | null>(null);
+  const [menu, setMenu] = useState<{ of: Instance; at: { x: number; y: number } } | null>(null);
   const rows = useMemo(() => shownInstances(all, filter, order), [all, filter, order]);
   const instance = all.find(({ id }) => id === selected) ?? null;
   const sum = sumOf(all);
@@ -82,6 +86,7 @@ function List() {
               onOrder={setOrder}
               onSelect={selectInstance}
               onOpen={openInstance}
+              onMenu={(of, at) => setMenu({ of, at })}
               onDelete={(doomed) => setQuestion({ ask: "delete", instance: doomed })}
             />
           ) : (
@@ -95,6 +100,9 @@ function List() {
           )}
         </div>
       </Dialog>
+      {menu && (
+        <Menu label={menu.of.name} items={deeds(menu.of, setQuestion)} at={menu.at} onClose={() => setMenu(null)} />
+      )}
       {question && <Asking question={question} onClose={() => setQuestion(null)} />}
     </>
   );

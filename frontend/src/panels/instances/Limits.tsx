@@ -8,9 +8,9 @@ import { Icon } from "../../ui/Icon";
 import type { Instance, InstanceLimits } from "../../wire/types";
 
 const LIMITS = [
-  { key: "cpu_percent", label: "instances.limit.cpu", minimum: 1, maximum: 100 },
-  { key: "memory_mib", label: "instances.limit.memory", minimum: 64, maximum: 65_536 },
-  { key: "run_mib", label: "instances.limit.run", minimum: 1, maximum: 65_536 },
+  { key: "cpu_percent", label: "instances.limit.cpu", minimum: 1, maximum: 100, usual: "instances.limit.none" },
+  { key: "memory_mib", label: "instances.limit.memory", minimum: 64, maximum: 65_536, usual: "instances.limit.none" },
+  { key: "run_mib", label: "instances.limit.run", minimum: 1, maximum: 65_536, usual: "instances.limit.usual" },
 ] as const;
 
 type Key = (typeof LIMITS)[number]["key"];
@@ -66,13 +66,13 @@ export function Limits({ instance, onClose }: { instance: Instance; onClose: () 
         </>
       }
     >
-      {LIMITS.map(({ key, label, minimum, maximum }) => (
+      {LIMITS.map(({ key, label, minimum, maximum, usual }) => (
         <Field
           key={key}
           label={t(label)}
           value={texts[key]}
           onChange={(text) => setTexts({ ...texts, [key]: text })}
-          placeholder={t("instances.limit.none")}
+          placeholder={t(usual)}
           refused={
             tried && readLimit(texts[key], minimum, maximum) === undefined
               ? t("instances.limit.range", { minimum, maximum })

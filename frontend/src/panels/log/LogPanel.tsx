@@ -1,11 +1,12 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { useEffect, useMemo, useRef } from "react";
+import { type RefObject, useCallback, useEffect, useLayoutEffect, useMemo, useRef, useState } from "react";
 import { allErrors, inNames } from "../../logic/catalogue";
 import { grouped, wallTime } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { usePlc } from "../../store/plc";
 import { Icon, type IconName } from "../../ui/Icon";
+import { MenuButton } from "../../ui/Menu";
 import type { ErrorInfo, LogLine } from "../../wire/types";
 
 const LOOK: Record<LogLine["kind"], { icon: IconName; tone: string }> = {
@@ -22,10 +23,50 @@ const LOOK: Record<LogLine["kind"], { icon: IconName; tone: string }> = {
 /** Everything that was done to this PLC, by whom and before which scan; the newest at the end. */
 export function LogPanel() {
   const log = usePlc((plc) => plc.log);
+  const [kind, setKind] = useState<Filter>("all");
+  const shown = useMemo(() => (kind === "all" ? log : log.filter((line) => line.kind === kind)), [log, kind]);
+  return (
+    <div className="pane flexcol" data-pane="log">
+      {log.length === 0 ? (
+        <p className="lonely faint">{t("log.none")}</p>
+      ) : (
+        <>
+          <div className="sub">
+            <span className="grow" />
+            <KindMenu kind={kind} onKind={setKind} />
+          </div>
+          {shown.length === 0 ? <p className="lonely faint">{t("log.nomatch")}</p> : <Lines key={kind} log={shown} />}
+        </>
+      )}
+    </div>
+  );
+}
+
+type Filter = LogLine["kind"] | "all";
+const FILTERS = ["all", ...(Object.keys(LOOK) as LogLine["kind"][])] as const;
+
+function KindMenu({ kind, onKind }: { kind: Filter; onKind: (kind: Filter) => void }) {
+  return (
+    <MenuButton
+      label={t("log.filter", { kind: t(`log.kind.${kind}`) })}
+      items={() =>
+        FILTERS.map((value) => ({
+          label: t(`log.kind.${value}`),
+          checked: value === kind,
+          onSelect: () => onKind(value),
+        }))
+      }
+    >
+      {t(`log.kind.${kind}`)}
+      <Icon name="chev-d" small />
+    </MenuButton>
+  );
+}
+
+function Lines({ log }: { log: readonly LogLine[] }) {
   const model = useBench((bench) => bench.model);
   const errors = useMemo(() => allErrors(model?.catalogue ?? []), [model]);
   const scroll = useRef<HTMLDivElement>(null);
-  const atEnd = useRef(true);
   const virtual = useVirtualizer({
     count: log.length,
     getScrollElement: () => scroll.current,
@@ -34,52 +75,65 @@ export function LogPanel() {
     scrollMargin: 24,
     scrollPaddingStart: 24,
   });
-  useEffect(() => {
-    if (atEnd.current && log.length > 0) virtual.scrollToIndex(log.length - 1);
-  }, [log, virtual]);
-
-  if (log.length === 0) {
-    return (
-      <div className="pane flexcol" data-pane="log">
-        <p className="lonely faint">{t("log.none")}</p>
-      </div>
-    );
-  }
+  const onScroll = useFollow(scroll, log);
   return (
-    <div className="pane flexcol" data-pane="log">
-      <div
-        ref={scroll}
-        className="grid scroll loglines"
-        role="table"
-        aria-label={t("log.label")}
-        aria-rowcount={log.length + 1}
-        // biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard
-        tabIndex={0}
-        onScroll={(event) => {
-          const { scrollTop, scrollHeight, clientHeight } = event.currentTarget;
-          atEnd.current = scrollTop + clientHeight > scrollHeight - 30;
-        }}
-      >
-        <div className="gr h" role="row">
-          <span role="columnheader">{t("log.at")}</span>
-          <span role="columnheader" className="num">
-            {t("log.scan")}
-          </span>
-          <span role="columnheader">{t("log.kind")}</span>
-          <span role="columnheader">{t("log.text")}</span>
-          <span role="columnheader">{t("log.by")}</span>
-        </div>
-        <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
-          {virtual.getVirtualItems().map((item) => {
-            const line = log[item.index];
-            return (
-              line && <Line key={item.key} line={line} errors={errors} start={item.start - 24} index={item.index} />
-            );
-          })}
-        </div>
+    <div
+      ref={scroll}
+      className="grid scroll loglines"
+      role="table"
+      aria-label={t("log.label")}
+      aria-rowcount={log.length + 1}
+      // biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard
+      tabIndex={0}
+      onScroll={onScroll}
+    >
+      <div className="gr h" role="row">
+        <span role="columnheader">{t("log.at")}</span>
+        <span role="columnheader" className="num">
+          {t("log.scan")}
+        </span>
+        <span role="columnheader">{t("log.kind")}</span>
+        <span role="columnheader">{t("log.text")}</span>
+        <span role="columnheader">{t("log.by")}</span>
+      </div>
+      <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
+        {virtual.getVirtualItems().map((item) => {
+          const line = log[item.index];
+          return line && <Line key={item.key} line={line} errors={errors} start={item.start - 24} index={item.index} />;
+        })}
       </div>
     </div>
   );
+}
+
+/** Keeps the end of a growing list in sight, also when its panel comes up or changes its size, until somebody scrolls up. */
+function useFollow(scroll: RefObject<HTMLDivElement | null>, log: readonly LogLine[]): () => void {
+  const following = useRef(true);
+  const height = useRef(0);
+  const toEnd = useCallback(() => {
+    const element = scroll.current;
+    if (!element || !following.current) return;
+    element.scrollTop = element.scrollHeight;
+  }, [scroll]);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: a new line is what there is to follow
+  useLayoutEffect(toEnd, [toEnd, log]);
+  useEffect(() => {
+    if (!scroll.current) return;
+    const sized = new ResizeObserver(toEnd);
+    sized.observe(scroll.current);
+    return () => sized.disconnect();
+  }, [scroll, toEnd]);
+
+  return () => {
+    const element = scroll.current;
+    if (!element) return;
+    const { scrollTop, scrollHeight, clientHeight } = element;
+    // A panel that was away, or got another size, was not scrolled by anybody.
+    const byHand = clientHeight === height.current;
+    const atEnd = scrollTop + clientHeight > scrollHeight - 30;
+    if (atEnd || byHand) following.current = atEnd;
+    height.current = clientHeight;
+  };
 }
 
 interface LineProps {

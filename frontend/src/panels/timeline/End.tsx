@@ -1,13 +1,13 @@
-import { type FormEvent, useState } from "react";
+import { type FormEvent, useEffect, useState } from "react";
 import { grouped } from "../../logic/numbers";
 import { showState } from "../../logic/plcstate";
 import { t } from "../../logic/text";
-import { readScan } from "../../logic/timeline";
+import { readScan, readTime } from "../../logic/timeline";
 import { useForbidden, useOnline, usePlc } from "../../store/plc";
 import { runAction } from "../../store/run";
 import { travel } from "../../store/timeline";
 import { StateWord } from "../../ui/StateWord";
-import type { RunOnAxis } from "./useRun";
+import { type RunOnAxis, scanOfTime } from "./useRun";
 
 /** At the right: whether this is now, where a run is on its way to, and the scan to go to by its number. */
 export function End({ run }: { run: RunOnAxis | null }) {
@@ -16,9 +16,18 @@ export function End({ run }: { run: RunOnAxis | null }) {
   const locked = useForbidden("travel");
   const shown = showState(state, online);
   const target = state?.state === "running" ? state.target : "";
+  const [bad, setBad] = useState<string | null>(null);
+  const scan = state?.past ? state.scan : null;
+  // What was wrong with a scan to go to is over once another one is shown.
+  // biome-ignore lint/correctness/useExhaustiveDependencies: the scan that is shown is the reason
+  useEffect(() => setBad(null), [scan]);
   return (
     <div className="tl-end">
-      {target ? (
+      {bad ? (
+        <span className="hint bad cut" role="alert" title={bad}>
+          {bad}
+        </span>
+      ) : target ? (
         <span className="row tight">
           <StateWord tone="running" icon="running" word={target} title={target} />
           <span className="grow" />
@@ -38,25 +47,34 @@ export function End({ run }: { run: RunOnAxis | null }) {
             icon={shown.icon}
             word={run?.past || !online ? shown.word : t("timeline.live")}
           />
-          <span className="hint cut">{run?.past ? t("timeline.return") : t("timeline.hint")}</span>
+          <span className="hint cut" title={run?.past ? t("timeline.return") : undefined}>
+            {run?.past ? "Shift+Esc" : t("timeline.hint")}
+          </span>
         </span>
       )}
-      {run && <GoTo run={run} locked={locked} />}
+      {run && <GoTo run={run} locked={locked} bad={bad} onBad={setBad} />}
     </div>
   );
 }
 
-function GoTo({ run, locked }: { run: RunOnAxis; locked: string | null }) {
+interface GoToProps {
+  run: RunOnAxis;
+  locked: string | null;
+  bad: string | null;
+  onBad: (why: string | null) => void;
+}
+
+function GoTo({ run, locked, bad, onBad }: GoToProps) {
   const [text, setText] = useState("");
-  const [bad, setBad] = useState(false);
+  const interval = usePlc((plc) => plc.state?.interval_ns ?? 0);
   const { from, to } = run.whole;
-  const why = bad ? t("timeline.goto.bad", { first: grouped(from), live: grouped(to) }) : null;
 
   function onSubmit(event: FormEvent): void {
     event.preventDefault();
-    const scan = readScan(text);
+    const time = readTime(text);
+    const scan = time === null ? readScan(text) : scanOfTime(time, interval);
     const fine = scan !== null && scan >= from && scan <= to;
-    setBad(!fine);
+    onBad(fine ? null : t("timeline.goto.bad", { first: grouped(from), live: grouped(to) }));
     if (!fine) return;
     setText("");
     void travel(scan);
@@ -65,22 +83,18 @@ function GoTo({ run, locked }: { run: RunOnAxis; locked: string | null }) {
   return (
     <form onSubmit={onSubmit} className="row tight">
       <input
-        className={`inp sm grow mono${why ? " bad" : ""}`}
+        className={`inp sm grow mono${bad ? " bad" : ""}`}
         aria-label={t("timeline.goto")}
-        aria-invalid={why !== null}
-        title={locked ?? why ?? t("timeline.goto")}
+        aria-invalid={bad !== null}
+        title={locked ?? bad ?? t("timeline.goto.about")}
         placeholder={t("timeline.goto")}
-        inputMode="numeric"
         value={text}
         disabled={locked !== null}
         onChange={(event) => {
           setText(event.target.value);
-          setBad(false);
+          onBad(null);
         }}
       />
-      <span className="sr" role="alert">
-        {why}
-      </span>
     </form>
   );
 }

@@ -13,7 +13,15 @@ const STEP = 4;
 export function Facts({ run, interval }: { run: RunOnAxis | null; interval: number }) {
   const info = useTimeline((timeline) => timeline.info);
   const view = useTimeline((timeline) => timeline.view);
-  const zoom = (factor: number) => run && setView(zoomed(run.axis, run.whole, factor, run.position));
+
+  function zoom(factor: number): void {
+    if (!run) return;
+    const { axis, whole, position } = run;
+    // A playhead that is out of sight holds nothing in its place.
+    const held = position >= axis.from && position <= axis.to ? position : (axis.from + axis.to) / 2;
+    setView(zoomed(axis, whole, factor, held), whole);
+  }
+
   const scans = run ? run.whole.to - run.whole.from : 0;
   return (
     <div className="tl-info">
@@ -33,7 +41,13 @@ export function Facts({ run, interval }: { run: RunOnAxis | null; interval: numb
           disabled={scans < 40}
           onClick={() => zoom(1 / STEP)}
         />
-        <IconButton icon="fit" label={t("timeline.all")} small disabled={view === null} onClick={() => setView(null)} />
+        <IconButton
+          icon="fit"
+          label={t("timeline.all")}
+          small
+          disabled={view === null}
+          onClick={() => run && setView(null, run.whole)}
+        />
       </div>
       {run && (
         <span className="hint cut">

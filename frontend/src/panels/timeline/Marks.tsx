@@ -1,12 +1,13 @@
-import { memo, useMemo } from "react";
+import { memo, useMemo, useState } from "react";
 import { allErrors, inNames } from "../../logic/catalogue";
 import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
-import { type Axis, type Cluster, clusters, countKinds } from "../../logic/timeline";
+import { type Axis, around, type Cluster, clusters, countKinds } from "../../logic/timeline";
 import { useBench } from "../../store/bench";
 import { usePlc } from "../../store/plc";
-import { travel, useTimeline } from "../../store/timeline";
+import { setView, travel, useTimeline } from "../../store/timeline";
 import { Icon, type IconName } from "../../ui/Icon";
+import { Menu, type MenuItem } from "../../ui/Menu";
 import type { Mark } from "../../wire/types";
 
 const LOOK: Record<Mark["kind"], { icon: IconName | null; tone: string }> = {
@@ -25,17 +26,19 @@ const APART = 42;
 
 interface Props {
   axis: Axis;
+  whole: Axis;
   width: number;
   position: number;
 }
 
-/** What was done to the PLC, where it was done; what lies too close is one mark with a number. By keyboard: Ctrl with an arrow. */
-export const Marks = memo(function Marks({ axis, width, position }: Props) {
+/** What was done to the PLC, where it was done; what lies too close is one mark with a number, which is looked at closer. By keyboard: Ctrl with an arrow. */
+export const Marks = memo(function Marks({ axis, whole, width, position }: Props) {
   const marks = useTimeline((timeline) => timeline.marks);
   const found = useMemo(() => (width > 0 ? clusters(marks, axis, width, APART) : []), [marks, axis, width]);
   const model = useBench((bench) => bench.model);
   const errors = useMemo(() => allErrors(model?.catalogue ?? []), [model]);
   const you = usePlc((plc) => plc.you?.name);
+  const [listed, setListed] = useState<{ items: MenuItem[]; at: { x: number; y: number } } | null>(null);
   const say = (mark: Mark) =>
     t("timeline.mark", {
       kind: t(`log.kind.${mark.kind}`),
@@ -43,8 +46,27 @@ export const Marks = memo(function Marks({ axis, width, position }: Props) {
       scan: grouped(mark.scan),
       author: mark.author,
     });
+
+  /** To the scan of a single mark; closer to several; where they share a scan, a list of them. */
+  function choose({ first, marks: group }: Cluster, button: HTMLElement): void {
+    if (group.length === 1) {
+      void travel(first.scan);
+      return;
+    }
+    const closer = around(group, axis, whole);
+    if (closer) {
+      setView(closer, whole);
+      return;
+    }
+    const { left, top } = button.getBoundingClientRect();
+    const scanOf = new Map(group.map((mark) => [say(mark), mark.scan]));
+    const items = [...scanOf].map(([label, scan]) => ({ label, onSelect: () => void travel(scan) }));
+    setListed({ items, at: { x: left, y: top - 4 } });
+  }
+
   return (
     <ul className="tl-marks" aria-label={t("timeline.marks")}>
+      {listed && <Menu label={t("timeline.marks")} {...listed} onClose={() => setListed(null)} />}
       {found.map((cluster) => (
         <li key={cluster.marks[0]?.scan} style={{ left: `${cluster.place * 100}%` }}>
           <MarkButton
@@ -52,6 +74,7 @@ export const Marks = memo(function Marks({ axis, width, position }: Props) {
             label={cluster.marks.length === 1 ? say(cluster.first) : sayMany(cluster, say(cluster.first))}
             you={cluster.first.author === you}
             later={cluster.first.scan > position}
+            onChoose={(button) => choose(cluster, button)}
           />
         </li>
       ))}
@@ -78,9 +101,10 @@ interface MarkProps {
   label: string;
   you: boolean;
   later: boolean;
+  onChoose: (button: HTMLElement) => void;
 }
 
-function MarkButton({ cluster, label, you, later }: MarkProps) {
+function MarkButton({ cluster, label, you, later, onChoose }: MarkProps) {
   const { icon, tone } = LOOK[cluster.first.kind];
   const many = cluster.marks.length > 1;
   return (
@@ -90,7 +114,7 @@ function MarkButton({ cluster, label, you, later }: MarkProps) {
       tabIndex={-1}
       aria-label={label}
       title={label}
-      onClick={() => void travel(cluster.first.scan)}
+      onClick={(event) => onChoose(event.currentTarget)}
     >
       {icon ? <Icon name={icon} /> : <i />}
       {many && <span className="n">{cluster.marks.length > 99 ? "99+" : cluster.marks.length}</span>}

@@ -1,9 +1,12 @@
-import { type KeyboardEvent, type PointerEvent, useEffect, useRef, useState } from "react";
+import { type KeyboardEvent, type PointerEvent, useEffect, useMemo, useRef, useState } from "react";
+import { allErrors } from "../../logic/catalogue";
 import { grouped, plcTime } from "../../logic/numbers";
+import { pieces, stretches } from "../../logic/stretches";
 import { t } from "../../logic/text";
-import { including, neighbour, placeOf, scanAt, stepTo, ticks } from "../../logic/timeline";
+import { neighbour, placeOf, scanAt, stepTo, ticks } from "../../logic/timeline";
+import { useBench } from "../../store/bench";
 import { useForbidden } from "../../store/plc";
-import { setView, travel, useTimeline } from "../../store/timeline";
+import { travel, useTimeline } from "../../store/timeline";
 import { Marks } from "./Marks";
 import { type RunOnAxis, timeOf } from "./useRun";
 
@@ -62,12 +65,11 @@ export function Track({ run, interval }: Props) {
     event.preventDefault();
     event.stopPropagation();
     go(target);
-    if (target !== "live" && axis !== whole) setView(including(axis, whole, target));
   }
 
   return (
     <div className="tl-track" ref={track}>
-      <Kept run={run} />
+      <Ribbon run={run} width={width} />
       <div className="tl-axis" aria-hidden="true">
         {ticks(axis, width).map((scan) => (
           <span key={scan} style={{ left: at(scan) }} className={edgeOf(placeOf(scan, axis) * width, width)}>
@@ -75,11 +77,15 @@ export function Track({ run, interval }: Props) {
           </span>
         ))}
       </div>
-      {past && <span className="tl-after" style={{ left: at(position) }} />}
+      {past && position <= axis.to && <span className="tl-after" style={{ left: at(position) }} />}
       <span className="head-line live" style={{ left: at(whole.to) }} hidden={!past || axis.to < whole.to}>
         <span className="l">{t("timeline.live.head", { scan: grouped(whole.to) })}</span>
       </span>
-      <span className={`head-line ${past ? "past" : "now"}`} style={{ left: at(position) }}>
+      <span
+        className={`head-line ${past ? "past" : "now"}`}
+        style={{ left: at(position) }}
+        hidden={position < axis.from || position > axis.to}
+      >
         <span className={`l ${edgeOf(placeOf(position, axis) * width, width)}`}>{grouped(position)}</span>
       </span>
       <div
@@ -102,7 +108,7 @@ export function Track({ run, interval }: Props) {
         onPointerLeave={() => setHover(null)}
         onKeyDown={onKeyDown}
       />
-      <Marks axis={axis} width={width} position={position} />
+      <Marks axis={axis} whole={whole} width={width} position={position} />
       {hover !== null && hover !== position && (
         <span className={`tl-hover ${edgeOf(placeOf(hover, axis) * width, width)}`} style={{ left: at(hover) }}>
           {t("timeline.hover", { scan: grouped(hover), time: plcTime(timeOf(hover, interval)) })}
@@ -119,14 +125,18 @@ function keyTarget(event: KeyboardEvent, position: number, whole: RunOnAxis["who
   return direction === null ? undefined : neighbour(useTimeline.getState().marks, position, direction)?.scan;
 }
 
-/** The ribbon: what can be gone back to, what of it is slower to reach, and that something before it is gone. */
-function Kept({ run }: { run: RunOnAxis }) {
-  const info = useTimeline((timeline) => timeline.info);
+/** The ribbon: the states there were, what of it is slower to reach, and that something before it is gone. */
+function Ribbon({ run, width }: { run: RunOnAxis; width: number }) {
+  const { info, marks } = useTimeline();
+  const model = useBench((bench) => bench.model);
+  const course = useMemo(() => stretches(marks, allErrors(model?.catalogue ?? [])), [marks, model]);
   const thinned = placeOf(info?.thinned_before ?? 0, run.axis);
   const dropped = (info?.dropped_before ?? 0) > 0 && run.axis.from <= run.whole.from;
   return (
     <div className="tl-state">
-      <i className="kept" />
+      {pieces(course, run.axis, width).map(({ left, width: wide, tone }) => (
+        <i key={left} className={tone} style={{ left, width: wide }} />
+      ))}
       {info && info.thinned_before > run.axis.from && <i className="thinned" style={{ width: `${thinned * 100}%` }} />}
       {dropped && <i className="dropped" />}
     </div>

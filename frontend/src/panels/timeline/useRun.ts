@@ -1,5 +1,5 @@
 import { useEffect, useState } from "react";
-import type { Axis } from "../../logic/timeline";
+import { type Axis, including } from "../../logic/timeline";
 import { bindClock, readClock } from "../../store/clock";
 import { usePlc } from "../../store/plc";
 import { useTimeline } from "../../store/timeline";
@@ -20,15 +20,20 @@ export interface RunOnAxis {
 /** The run as the timeline draws it; null while there is none. */
 export function useRun(): RunOnAxis | null {
   const clock = useSlowClock();
-  const { info, view, aim } = useTimeline();
+  const { info, view, follows, aim } = useTimeline();
   const past = usePlc((plc) => plc.state?.past ?? null);
   const shown = usePlc((plc) => plc.state?.scan ?? 0);
   if (!info) return null;
   const whole = { from: info.first_scan, to: Math.max(info.first_scan, past?.live_scan ?? clock) };
-  // Live and zoomed in: the axis moves along, so that now stays in sight.
-  const length = view ? view.to - view.from : 0;
-  const axis = view === null ? whole : past || aim !== null ? view : { from: whole.to - length, to: whole.to };
-  return { whole, axis, position: aim ?? (past ? shown : whole.to), past: past !== null };
+  const position = aim ?? (past ? shown : whole.to);
+  return { whole, axis: axisOf(view, follows, whole, position), position, past: past !== null };
+}
+
+function axisOf(view: Axis | null, follows: boolean, whole: Axis, position: number): Axis {
+  // A view from before a new run may be wider than all there is.
+  if (view === null || view.to - view.from >= whole.to - whole.from) return whole;
+  if (!follows) return view;
+  return including({ from: whole.to - (view.to - view.from), to: whole.to }, whole, position);
 }
 
 function useSlowClock(): number {
@@ -53,4 +58,10 @@ function useSlowClock(): number {
 export function timeOf(scan: number, intervalNs: number): number {
   const clock = readClock();
   return Math.max(0, clock.timeNs + (scan - clock.scan) * intervalNs);
+}
+
+/** The scan that begins at a PLC time, or the nearest one. */
+export function scanOfTime(timeNs: number, intervalNs: number): number {
+  const clock = readClock();
+  return clock.scan + Math.round((timeNs - clock.timeNs) / Math.max(1, intervalNs));
 }

@@ -8,12 +8,18 @@ import { usePlc } from "../../store/plc";
 export function Readings() {
   const scan = useRef<HTMLSpanElement>(null);
   const time = useRef<HTMLSpanElement>(null);
+  const fraction = useRef<HTMLSpanElement>(null);
   const cycle = usePlc((plc) => plc.state?.cycle_us ?? null);
   useEffect(
     () =>
       bindClock((now) => {
         if (scan.current) scan.current.textContent = grouped(now.scan);
-        if (time.current) time.current.textContent = plcTime(now.timeNs);
+        const [whole = "", part = ""] = plcTime(now.timeNs).split(".");
+        if (time.current) time.current.textContent = whole;
+        if (fraction.current) {
+          fraction.current.textContent = `.${part}`;
+          fraction.current.classList.toggle("spare", whole.includes("d"));
+        }
       }),
     [],
   );
@@ -25,7 +31,10 @@ export function Readings() {
       </div>
       <div className="read r-time">
         <span>{t("read.time")}</span>
-        <span ref={time} data-testid="plc-time" />
+        <span data-testid="plc-time">
+          <span ref={time} />
+          <span ref={fraction} />
+        </span>
       </div>
       <div className="read r-cycle" title={t("read.cycle.about")}>
         <span>{t("read.cycle")}</span>

@@ -39,6 +39,8 @@ function People() {
   const you = usePlc((plc) => plc.you);
   // Somebody with two windows is still one person.
   const users = [...new Map(present.map((user) => [user.name, user])).values()];
+  const others = users.filter((user) => user.name !== you?.name);
+  const names = others.map((user) => user.name).join(", ");
   return (
     <ul className="people" aria-label={t("people.here")}>
       {users.map((user) => {
@@ -49,6 +51,11 @@ function People() {
           </li>
         );
       })}
+      {others.length > 0 && (
+        <li className="avatar more" title={t("people.more", { count: others.length, names })} aria-hidden="true">
+          {`+${others.length}`}
+        </li>
+      )}
     </ul>
   );
 }

@@ -1,6 +1,7 @@
 import { type KeyboardEvent, useEffect, useId, useRef, useState } from "react";
 import { pathsIn } from "../../logic/paths";
 import { t } from "../../logic/text";
+import { useBench } from "../../store/bench";
 import { complete } from "../../store/completion";
 import { addToWatch } from "../../store/watchlist";
 import { Icon } from "../../ui/Icon";
@@ -15,6 +16,8 @@ export function AddBox() {
   const [chosen, setChosen] = useState(-1);
   const turn = useRef(0);
   const id = useId();
+  // A model without areas is watched by variables only.
+  const example = useBench(({ model }) => [model?.areas[0]?.first, model?.code_word].filter(Boolean).join(", "));
 
   useEffect(() => {
     turn.current += 1;
@@ -64,7 +67,7 @@ export function AddBox() {
           aria-controls={id}
           aria-autocomplete="list"
           aria-activedescendant={chosen >= 0 ? `${id}-${chosen}` : undefined}
-          placeholder={t("watch.add.placeholder")}
+          placeholder={example ? t("watch.add.placeholder.address", { example }) : t("watch.add.placeholder")}
           value={text}
           spellCheck={false}
           autoComplete="off"
