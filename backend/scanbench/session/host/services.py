@@ -54,6 +54,11 @@ class Services:
         return self._timeline.resource
 
     @property
+    def _time_ns(self) -> int:
+        """When the scan that is next begins: the same in frames and states."""
+        return self._resource.header.next_clock_ns(self._resource.program.interval_ns)
+
+    @property
     def tick_ns(self) -> int:
         """How soon the next tick is wanted."""
         return TICK_NS if self._attended else IDLE_TICK_NS
@@ -77,7 +82,7 @@ class Services:
                 self._plan_watch(())
             case protocol.WantSnapshot():
                 header = self._resource.header
-                frame = self._plan.snapshot(self._resource.memory, header.scan, header.clock_ns)
+                frame = self._plan.snapshot(self._resource.memory, header.scan, self._time_ns)
                 self._link.post(protocol.Frame(frame, message.to))
             case protocol.Attend():
                 self._attended = message.anybody
@@ -101,7 +106,7 @@ class Services:
         self._course.look()
         header = self._resource.header
         if len(self._plan) and not self._link.backlogged:
-            frame = self._plan.sample(self._resource.memory, header.scan, header.clock_ns)
+            frame = self._plan.sample(self._resource.memory, header.scan, self._time_ns)
             if frame is not None:
                 self._link.post(protocol.Frame(frame))
         state = self.state

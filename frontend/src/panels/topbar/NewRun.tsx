@@ -1,0 +1,19 @@
+import { t } from "../../logic/text";
+import { messageOf } from "../../store/documents";
+import { newRun } from "../../store/run";
+import { Confirm } from "../../ui/Confirm";
+
+/** A new run cannot be undone in the page, so it asks. */
+export function NewRun({ onClose }: { onClose: () => void }) {
+  return (
+    <Confirm
+      title={t("newrun.title")}
+      about={t("newrun.about")}
+      hint={t("newrun.hint")}
+      verb={t("newrun.do")}
+      onDo={newRun}
+      reasonOf={messageOf}
+      onClose={onClose}
+    />
+  );
+}
