@@ -23,7 +23,6 @@ from scanbench.session.host.course import MAX_SPEED, Course
 from scanbench.session.host.link import Link
 from scanbench.session.host.services import Services
 from scanbench.session.host.shelf import HostPrograms
-from scanbench.session.host.status import previous_version
 from scanbench.session.host.swaps import BuildRefused, Copied, Optimising, Recode, Swap
 from scanbench.session.runs import run_limit
 
@@ -70,7 +69,7 @@ class Loop:
 
     def previous_sources(self) -> protocol.Sources | None:
         """What ran before the last change of the program; None where there was none."""
-        version = previous_version(self.timeline)
+        version = self._services.previous_version
         return None if version is None else self.programs.sources(version)
 
     def change_refusal(self) -> str:
@@ -78,7 +77,7 @@ class Loop:
         if self.timeline.past:
             return PAST
         header = self.resource.header
-        if header.halted_by_trap:  # it starts cold with the new one
+        if header.halted_by_trap:  # it starts anew with the new one
             return ""
         refusal = may(header.mode, Right.TRANSFER if header.mode is Mode.PROGRAM else Right.CHANGE)
         return refusal.message if refusal is not None else ""

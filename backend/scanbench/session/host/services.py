@@ -69,6 +69,11 @@ class Services:
         note = self._course.reached or self._note or self._tier_note(monotonic_ns())
         return host_state(self._timeline, self._course, self.past_by, note)
 
+    @property
+    def previous_version(self) -> int | None:
+        """What a roll back swaps in, as it was told last; for any thread."""
+        return None if self._last_state is None else self._last_state.previous_version
+
     # ---- what the parent asks -------------------------------------------------------------------------------------
 
     def serve(self, message: object) -> None:
