@@ -50,8 +50,8 @@ test('the sample runs, reacts to an input and to an error, and two people see th
     await jo.showPanel('History');
     await expect(jo.history(ERROR)).toContainText(['Generated']);
     await expect(jo.history(ERROR)).toContainText(['Mika']);
-    await expect(mika.top.here.getByTitle('Jo')).toBeVisible();
-    await expect(jo.top.here.getByTitle('Mika')).toBeVisible();
+    await expect(mika.top.here.getByTitle('Jo', { exact: true })).toBeVisible();
+    await expect(jo.top.here.getByTitle('Mika', { exact: true })).toBeVisible();
   });
 
   await test.step('recovering clears the error; the lamp stays until it is acknowledged', async () => {
