@@ -70,7 +70,7 @@ async function atWork(openAs: (name: string) => Promise<Ide>): Promise<{ mika: I
   await mika.runs();
   await expect(mika.editor('Main.st').line('PROGRAM Main').first()).toBeVisible();
   const jo = await openAs('Jo Aoki');
-  await expect(mika.top.here.getByTitle('Jo Aoki')).toBeVisible();
+  await expect(mika.top.here.getByTitle('Jo Aoki', { exact: true })).toBeVisible();
   await mika.watch.set('start', 'TRUE');
   await expect.poll(() => mika.watch.number('Main.parts.total')).toBeGreaterThan(2);
   return { mika, jo };
