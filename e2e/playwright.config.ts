@@ -19,7 +19,8 @@ export default defineConfig({
   // Every worker starts a server of its own; two are what a small machine carries.
   workers: 2,
   fullyParallel: false,
-  retries: 0,
+  // A browser that a loaded machine starved gets a second chance; the report says `flaky`, so that it is not forgotten.
+  retries: 1,
   forbidOnly: true,
   reporter: [['list']],
   use: {

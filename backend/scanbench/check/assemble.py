@@ -89,16 +89,17 @@ def assemble(
         layout.violations = at
         at = align(at + 8 + Layout.VIOLATION_LIMIT * Layout.VIOLATION_BYTES)
     layout.state_size = at
-    needed = _reachable(
-        order, pous, {*around.common, *around.plant, *(each.pou for task in tasks for each in task.programs)}
-    )
+    run = {each.pou for task in tasks for each in task.programs}
+    needed, tasked = _reachable(order, pous, {*around.common, *around.plant, *run}), _reachable(order, pous, run)
     for pou in needed:
         pou.frame_offset = at
         at = align(at + pou.frame.size)
     layout.size = at
     image = _initial_image(layout, declarations, variables, [*common, *instances, *plant])
     traps, checks = tuple(report.traps), tuple(report.checks)
-    program = Program(tuple(needed), tasks, interval, traps, layout, image, checks, common=common, plant=plant)
+    program = Program(
+        tuple(needed), tasks, interval, traps, layout, image, checks, common=common, plant=plant, tasked=tuple(tasked)
+    )
     program = Settings(report, declarations, program, resources).apply(configuration)
     return replace(program, checks=tuple(report.checks))
 

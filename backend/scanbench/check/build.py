@@ -31,6 +31,7 @@ from scanbench.check.system import System, system_of
 from scanbench.check.system_text import COMMON, is_system
 from scanbench.check.types import BOOL, Kind, Member, Record, Reference, Section, Type
 from scanbench.plcmodel.model import Model, Who
+from scanbench.plcmodel.user_errors import extended, is_user_errors
 from scanbench.problems import Problem, Severity, Span
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunked, read
@@ -66,9 +67,31 @@ class Checked:
 
 def check_sources(sources: Mapping[str, str], model: Model, interval_ns: int = 10_000_000) -> Checked:
     """Checks all files of a project together. `interval_ns` is the task's, where no CONFIGURATION says another."""
-    files = [read(name, text) for name, text in sources.items()]
+    files = [read(name, text) for name, text in program_files(sources).items()]
     checker = checker_of(files, model)
-    return concluded(files, checker.report, checker.run(interval_ns))
+    return with_user_errors(concluded(files, checker.report, checker.run(interval_ns)), sources, model)
+
+
+def program_files(sources: Mapping[str, str]) -> dict[str, str]:
+    """The sources without the errors that the project defines: these are no part of the program."""
+    return {name: text for name, text in sources.items() if not is_user_errors(name)}
+
+
+def with_user_errors(checked: Checked, sources: Mapping[str, str], model: Model) -> Checked:
+    """A program that was checked for the device, with the errors that the project defines, and what is wrong with these.
+
+    They change only the catalogue behind the layout, so no body is checked again for them.
+    """
+    if len(program_files(sources)) == len(sources):
+        return checked
+    complete, found = extended(model, sources)
+    problems = sorted((*checked.problems, *found), key=lambda each: (each.span.file, each.span.line, each.span.column))
+    if any(problem.severity is Severity.ERROR for problem in found):
+        return Checked(None, tuple(problems), checked.pous)
+    program = checked.program
+    if program is not None:
+        program = replace(program, layout=replace(program.layout, model=complete))
+    return replace(checked, program=program, problems=tuple(problems))
 
 
 def checker_of(files: Sequence[Chunked], model: Model) -> "Checker":

@@ -11,7 +11,15 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 
 from scanbench.check.affected import SIZES, Words, inner_changes, tainted, tells_enumerators
-from scanbench.check.build import ENABLING, Checked, Checker, checker_of, concluded
+from scanbench.check.build import (
+    ENABLING,
+    Checked,
+    Checker,
+    checker_of,
+    concluded,
+    program_files,
+    with_user_errors,
+)
 from scanbench.check.context import Report
 from scanbench.check.names import qualified
 from scanbench.check.program import Pou
@@ -33,13 +41,14 @@ class Checks:
 
     def check(self, sources: Mapping[str, str], model: Model, interval_ns: int) -> Checked:
         """What `check_sources` finds."""
-        return self._changed(sources, model, interval_ns, whole=True).checked
+        return with_user_errors(self._changed(sources, model, interval_ns, whole=True).checked, sources, model)
 
     def diagnose(self, sources: Mapping[str, str], model: Model, interval_ns: int) -> Checked:
         """The same, but the program may be missing though nothing is wrong."""
-        return self._changed(sources, model, interval_ns, whole=False).checked
+        return with_user_errors(self._changed(sources, model, interval_ns, whole=False).checked, sources, model)
 
-    def _changed(self, sources: Mapping[str, str], model: Model, interval_ns: int, whole: bool) -> "_Project":
+    def _changed(self, files: Mapping[str, str], model: Model, interval_ns: int, whole: bool) -> "_Project":
+        sources = program_files(files)
         project = next((each for each in self._known if each.is_about(sources, model, interval_ns)), None)
         if project is None:
             project = _Project(model, interval_ns)

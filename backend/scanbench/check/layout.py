@@ -43,7 +43,7 @@ class Layout:
     ASKED_COUNT: ClassVar[int] = 3904
     """u32 what the program asked for in the scan that just ran (FAL and the like), up to `ASKED_LIMIT`."""
     ASKED: ClassVar[int] = 3912
-    """Entries of 8 bytes: u16 index into `Model.instructions`, u16 0, u32 number that was passed."""
+    """Entries of 8 bytes: u8 index into `Model.instructions`, u8 `system_text.Form`, u16 0, u32 number that was passed."""
     ASKED_LIMIT: ClassVar[int] = 16
     INTERVAL: ClassVar[int] = 4040
     """i64 ns: length of a scan in virtual time. The engine writes it in every scan, from the program."""

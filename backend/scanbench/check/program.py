@@ -515,6 +515,8 @@ class Program:
     """Phase 1: keeps the model's system words alive (first cycle flag, clock pulses, clock). Made from the model."""
     plant: tuple[ProgramInstance, ...] = ()
     """Phase 2: the project's `plant/`: programs and stimuli that drive the inputs, before the forces."""
+    tasked: tuple[Pou, ...] = ()
+    """Those of `pous` that the tasks run, themselves or through others; the plant may run them too."""
 
     @property
     def instances(self) -> tuple[ProgramInstance, ...]:

@@ -102,7 +102,7 @@ def resolve(program: Program, path: str) -> Symbol:
 def members(program: Program, path: str) -> list[Symbol]:
     """What stands below a path, in order of declaration; below '': program instances and globals."""
     if not path.strip():
-        return list(_roots(program))
+        return list(roots(program))
     symbol = resolve(program, path)
     return [_checked(program, each) for each in _children(program, symbol)]
 
@@ -114,7 +114,7 @@ def complete(program: Program, text: str, limit: int) -> list[Symbol]:
     owner, start = text[:cut].rstrip(".["), text.upper()
     found: list[Symbol] = []
     try:
-        for symbol in members(program, owner) if owner else _roots(program):
+        for symbol in members(program, owner) if owner else roots(program):
             if symbol.path.upper().startswith(start):
                 found.append(symbol)
                 if len(found) >= limit:
@@ -126,7 +126,7 @@ def complete(program: Program, text: str, limit: int) -> list[Symbol]:
                 : limit - len(found)
             ]
     except UnknownPath:  # the name of a resource, perhaps
-        found += [symbol for symbol in _roots(program) if symbol.path.upper().startswith(start)][:limit]
+        found += [symbol for symbol in roots(program) if symbol.path.upper().startswith(start)][:limit]
     if len(found) < limit and text:
         try:
             raw = _raw(program, text)
@@ -136,7 +136,8 @@ def complete(program: Program, text: str, limit: int) -> list[Symbol]:
     return found
 
 
-def _roots(program: Program) -> Iterator[Symbol]:
+def roots(program: Program) -> Iterator[Symbol]:
+    """Program instances and globals."""
     for instance in program.shown:
         yield Symbol(instance.name, instance.name, instance.pou.instance, "PROGRAM", instance.offset)
     owner = program.layout.globals
@@ -148,7 +149,7 @@ def _roots(program: Program) -> Iterator[Symbol]:
 
 def _root(program: Program, name: str) -> Symbol | None:
     upper = name.upper()
-    found = next((symbol for symbol in _roots(program) if symbol.name.upper() == upper), None)
+    found = next((symbol for symbol in roots(program) if symbol.name.upper() == upper), None)
     access = next((each for each in program.accesses if each.name.upper() == upper), None)
     if found is None and access is None:
         given = _given(program).get(upper)
@@ -271,7 +272,7 @@ def _reason(program: Program, text: str) -> str:
 
 def _near(program: Program, text: str) -> tuple[str, ...]:
     """Near matches among the roots, and among the members of programs for a bare name."""
-    paths = {symbol.path.upper(): symbol.path for symbol in _roots(program)}
+    paths = {symbol.path.upper(): symbol.path for symbol in roots(program)}
     for instance in program.shown:
         for member in instance.pou.instance.members.values():
             if not member.hidden:
@@ -302,7 +303,7 @@ def at_offset(program: Program, offset: int) -> str:
         area, byte = found
         return program.layout.model.format(area, byte - byte % 2, None, 16)
     common = (Symbol(each.name, each.name, each.pou.instance, "PROGRAM", each.offset) for each in program.common)
-    for symbol in (*_roots(program), *common):
+    for symbol in (*roots(program), *common):
         if not symbol.slots and symbol.offset <= offset < symbol.offset + symbol.type.size:
             return _descend(program, symbol, offset)
     return f"image+{offset}"
@@ -335,23 +336,22 @@ def instance_at(program: Program, offset: int, pou: str) -> str:
 
 def starting_at(program: Program, offset: int) -> Iterator[Symbol]:
     """Everything that begins at a byte of the image: an instance, its first member, that member's first element, ..."""
-    open_ = [symbol for symbol in _roots(program) if _holds(symbol, offset)]
+    open_ = [symbol for symbol in roots(program) if _holds(symbol, offset)]
     while open_:
         symbol = open_.pop(0)
         if symbol.offset == offset:
             yield symbol
-        open_ += [each for each in _around(symbol, offset) if _holds(each, offset)]
+        open_ += [each for each in around(symbol, offset) if _holds(each, offset) and each.address is None]
 
 
 def _holds(symbol: Symbol, offset: int) -> bool:
     return not symbol.slots and symbol.offset <= offset < symbol.offset + symbol.type.size
 
 
-def _around(symbol: Symbol, offset: int) -> list[Symbol]:
-    """Members, or the one element of an array, that may hold the byte."""
+def around(symbol: Symbol, offset: int) -> list[Symbol]:
+    """Members, or the one element of an array, that may hold the byte; located members wherever they are."""
     if isinstance(symbol.type, Record):
-        members = symbol.type.members.values()
-        return [_member(symbol, each, f"{symbol.path}.{each.name}") for each in members if not each.located]
+        return [_member(symbol, each, f"{symbol.path}.{each.name}") for each in symbol.type.members.values()]
     if isinstance(symbol.type, ArrayType):
         numbers, rest = [], offset - symbol.offset
         for dimension, (low, _) in enumerate(symbol.type.bounds):

@@ -7,7 +7,7 @@ other text can: `__SCAN` and other fields of the header, and the model's address
 from dataclasses import dataclass
 from functools import lru_cache
 
-from scanbench.check import system_text
+from scanbench.check import instruction_text, system_text
 from scanbench.check.layout import Layout
 from scanbench.check.scopes import SYSTEM
 from scanbench.check.system_text import FILE
@@ -74,7 +74,7 @@ def _system_of(same: _Same, areas: tuple[tuple[str, int], ...]) -> System:
         entry = model.error(instruction.error)
         if entry is not None:
             _add(words, system_text.flag(instruction), ELEMENTARY["BOOL"], entry.flag, offsets, entry.flag_text)
-        place = system_text.number_place(model, instruction)
+        place = instruction_text.number_place(model, instruction)
         if place is not None and place.location is not None:
             numbers = (
                 ELEMENTARY["UINT"]
@@ -82,6 +82,16 @@ def _system_of(same: _Same, areas: tuple[tuple[str, int], ...]) -> System:
                 else ArrayType(((0, instruction.maximum // 16),), ELEMENTARY["UINT"])
             )
             _add(words, system_text.number_name(instruction), numbers, place.location, offsets, place.text)
+        if instruction.system_errors is not None:
+            _add(words, system_text.stand_in(instruction), ELEMENTARY["UINT"], instruction.system_errors, offsets, "")
+    if model.code_word is not None:
+        numbers = ELEMENTARY[_NUMBERS[model.code_word.bits]]
+        _add(words, system_text.CODE, numbers, model.code_word, offsets, "")
+    if model.error_reset is not None:
+        _add(words, system_text.RESET_BIT, ELEMENTARY["BOOL"], model.error_reset.bit, offsets, "")
+        _add(words, system_text.RESET_CODE, ELEMENTARY["UINT"], model.error_reset.code, offsets, "")
+    for reset in model.resets:
+        _add(words, system_text.reset_flags(reset), ELEMENTARY["UINT"], reset.flags, offsets, "")
     if model.log is not None:
         _add(words, system_text.LOG_COUNT, ELEMENTARY["UINT"], model.log.counter, offsets, "")
     symbols = Record("", Kind.STRUCT)
@@ -89,9 +99,13 @@ def _system_of(same: _Same, areas: tuple[tuple[str, int], ...]) -> System:
         if special.symbol:
             type = ELEMENTARY[_BITS[special.location.bits]]
             _add(symbols, special.symbol, type, special.location, offsets, special.text)
-    file, problems = parse_st(Source(FILE, system_text.of(model)))
+    file, problems = parse_st(Source(FILE, _text(model)))
     assert not problems, (model.name, problems)
     return System(words, symbols, file)
+
+
+def _text(model: Model) -> str:
+    return "\n".join(filter(None, (system_text.common(model), *instruction_text.instructions(model))))
 
 
 def _type_of(special: Special) -> Type:

@@ -1,20 +1,24 @@
-"""The ST text of common processing and of the vendor's instructions, made from a model.
+"""The ST text of common processing, made from a model; that of the vendor's instructions is in `instruction_text`.
 
 Common processing runs in every scan of every PLC, so it is to cost nanoseconds: pulses are a remainder by a constant, and
 the clock is taken apart only when its second changes.
 """
 
 from collections.abc import Iterator
+from enum import IntEnum
 
-from scanbench.check.layout import Layout
 from scanbench.check.standard.library import FOLDER
-from scanbench.plcmodel.model import ClockField, ErrorAddress, Instruction, Model, Special
+from scanbench.plcmodel.model import ClockField, Instruction, Model, ResetInstruction, Special
 from scanbench.problems import Span
 
 FILE = f"{FOLDER}system.st"
 COMMON = "__System"
 STOP = "__STOP"
 """Output of an instruction: the PLC stops where it was called."""
+CODE = "__CODE"
+"""The error code word."""
+RESET_BIT, RESET_CODE = "__RESET_BIT", "__RESET_CODE"
+"""The model's own way to clear an error."""
 
 LOG_RESET = "log-reset"
 """The special address that empties the error log."""
@@ -49,6 +53,21 @@ _FIELDS: dict[ClockField, str] = {
 }
 
 
+class Form(IntEnum):
+    """What an entry of `Layout.ASKED` asks for, and what its number is."""
+
+    RAISE = 0
+    """An instruction's error with this number, or to clear it, if the number is that."""
+    CLEAR = 1
+    """To clear what the selector of an instruction says."""
+    SYSTEM = 2
+    """An error of the device: its code, then 16 bits of information."""
+    CLEAR_CODE = 3
+    """To clear the error with this code."""
+    CLEAR_FLAGS = 4
+    """To clear what a `ResetInstruction` is for."""
+
+
 def is_system(span: Span) -> bool:
     """Whether this stands in text that is made from a model."""
     return span.file == FILE
@@ -69,24 +88,35 @@ def number_name(instruction: Instruction) -> str:
     return f"__N_{instruction.name}"
 
 
-def of(model: Model) -> str:
-    """All of it."""
-    parts = [_common(model)]
-    parts += [_instruction(model, number) for number in range(len(model.instructions))]
-    return "\n".join(part for part in parts if part)
+def stand_in(instruction: Instruction) -> str:
+    """The name of the word with the number that stands for an error of the device."""
+    return f"__E_{instruction.name}"
 
 
-# ---- common processing ----------------------------------------------------------------------------------------
+def reset_flags(reset: ResetInstruction) -> str:
+    """The name of the word of flags that an instruction clears."""
+    return f"__R_{reset.name}"
 
 
-def _common(model: Model) -> str:
+def ask(form: Form, index: int, number: str, more: str = "0") -> str:
+    """Puts one thing into what the seam reads behind the scan; there must be room. `more` is added to form and index."""
+    what = f"{form * 256 + index} + {more}"
+    return (
+        f"__ASKED[__ASKED_COUNT] := ULINT_TO_LWORD(({number}) * 16#1_0000_0000 + {what});\n"
+        "__ASKED_COUNT := __ASKED_COUNT + 1;"
+    )
+
+
+def common(model: Model) -> str:
+    """The program that runs in front of all others; '' where nothing is to be done."""
     words = [(word(number), special) for number, special in enumerate(model.specials) if special.role]
     lines = [line for name, special in words if special.role != "clock" for line in _kept_alive(name, special)]
     lines += _log_reset(model)
+    declared = "VAR reset_was : BOOL; END_VAR\n" if model.error_reset is not None else ""
+    lines += _error_reset(model)
     clocks = [(name, special) for name, special in words if special.role == "clock"]
-    declared = ""
     if clocks:
-        declared = (
+        declared += (
             "VAR second : LINT := -1; END_VAR\n"
             "VAR_TEMP now, day, rest, era, of_era, of_year, of_month, month, year : LINT; END_VAR\n"
         )
@@ -124,6 +154,13 @@ def _log_reset(model: Model) -> Iterator[str]:
             yield f"IF {word(number)} THEN {word(number)} := FALSE; {LOG_COUNT} := 0; END_IF;"
 
 
+def _error_reset(model: Model) -> Iterator[str]:
+    """The bit that clears the error whose code is in a word, when it goes on."""
+    if model.error_reset is not None:
+        yield f"IF {RESET_BIT} AND NOT reset_was THEN\n{ask(Form.CLEAR_CODE, 0, f'UINT_TO_ULINT({RESET_CODE})')}\nEND_IF;"
+        yield f"reset_was := {RESET_BIT};"
+
+
 def _length(special: Special) -> str:
     """The length of a scan in units of the address, or the largest number that it holds."""
     bits = special.location.bits
@@ -141,67 +178,3 @@ def _fields(name: str, special: Special) -> Iterator[str]:
         if special.bcd and field != "zero":
             value = f"({value}) / 10 * 16 + ({value}) MOD 10"
         yield f"  {name}[{index}] := LINT_TO_BYTE({value});"
-
-
-# ---- instructions -----------------------------------------------------------------------------------------------
-
-
-def number_place(model: Model, instruction: Instruction) -> ErrorAddress | None:
-    """Where the error memory shows the number of an instruction, in a whole word or as a bit of its own."""
-    entry = model.error(instruction.error)
-    detail = entry.detail(instruction.detail) if entry is not None else None
-    if entry is None or detail is None or detail.control == "List":
-        return None
-    for place in (*detail.addresses, *(each for each in entry.also if each.id == detail.name)):
-        fits = place.kind == "BitArray" or (place.kind == "Word" and (place.shift, place.width) == (0, 16))
-        if fits and place.location is not None and place.location.area.unit == "word":
-            return place
-    return None
-
-
-def _instruction(model: Model, index: int) -> str:
-    """A number outside of what it takes gives FALSE, and does nothing.
-
-    Programs call it in every scan. So it asks only for what is news: an error that is not there with this number yet.
-    """
-    made = model.instructions[index]
-    entry = model.error(made.error)
-    fatal = entry is not None and entry.severity == "fatal"
-    number = made.parameter
-    raises = f"{flag(made)} := TRUE; " if entry is not None else ""
-    news = "TRUE" if fatal or entry is None else f"NOT {flag(made)} OR NOT ({_shown(model, made)})"
-    stops = f"{STOP} := TRUE; " if fatal else ""
-    clears = ""
-    if made.clears is not None and entry is not None:
-        clears = (
-            f"ELSIF {number} = {made.clears} THEN asks := {flag(made)}; {flag(made)} := FALSE; {made.name} := TRUE;\n"
-        )
-    last = Layout.ASKED_LIMIT - 1
-    # What stops the PLC must get in, so it takes the place of the last one.
-    room = f"__ASKED_COUNT := MIN(__ASKED_COUNT, {last});" if fatal else f"asks := asks AND __ASKED_COUNT <= {last};"
-    return f"""\
-FUNCTION {made.name} : BOOL
-VAR_INPUT {number} : LINT; END_VAR
-VAR_OUTPUT {STOP} : BOOL; END_VAR
-VAR asks : BOOL; END_VAR
-IF {number} >= {made.minimum} AND {number} <= {made.maximum} THEN
-  asks := {news}; {raises}{stops}{made.name} := TRUE;
-{clears}END_IF;
-IF asks THEN {room} END_IF;
-IF asks THEN
-  __ASKED[__ASKED_COUNT] := ULINT_TO_LWORD(LINT_TO_ULINT({number}) * 16#1_0000_0000 + {index});
-  __ASKED_COUNT := __ASKED_COUNT + 1;
-END_IF;
-END_FUNCTION
-"""
-
-
-def _shown(model: Model, made: Instruction) -> str:
-    """Whether the error memory shows this number."""
-    place = number_place(model, made)
-    if place is None:
-        return "FALSE"
-    if place.kind == "Word":
-        return f"UINT_TO_LINT({number_name(made)}) = {made.parameter}"
-    bit = f"SHL(WORD#1, LINT_TO_UINT({made.parameter} MOD 16))"
-    return f"(UINT_TO_WORD({number_name(made)}[{made.parameter} / 16]) AND {bit}) <> 0"

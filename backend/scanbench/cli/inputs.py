@@ -11,6 +11,7 @@ import typer
 
 from scanbench.plcmodel.load import NoModels, load_all, model_directory
 from scanbench.plcmodel.model import Model
+from scanbench.plcmodel.user_errors import USER_ERRORS
 from scanbench.problems import Problem
 from scanbench.syntax.parse_file import ENDINGS, is_program_file
 from scanbench.syntax.source import decode
@@ -34,7 +35,7 @@ def usage(message: str) -> NoReturn:
 
 
 def read_sources(paths: list[Path]) -> Sources:
-    """A file is taken whatever its ending; a folder gives every program file in it and below."""
+    """A file is taken whatever its ending; a folder gives every program file in it and below, and its own errors."""
     texts: dict[str, str] = {}
     model = None
     for path in paths:
@@ -44,6 +45,8 @@ def read_sources(paths: list[Path]) -> Sources:
             )
             if not found:
                 usage(f"there is no program file ({', '.join(ENDINGS)}) in {path}")
+            if (errors := path / USER_ERRORS).is_file():
+                found.append(errors)
             model = model or _project_model(path / PROJECT_FILE)
         elif path.exists():
             found = [path]

@@ -7,7 +7,7 @@ from pathlib import Path
 import typer
 
 from scanbench.cli.inputs import usage
-from scanbench.plcmodel.library import SCHEMA
+from scanbench.plcmodel.document import SCHEMA
 from scanbench.plcmodel.load import NoModels, load_all, load_file, model_directory
 from scanbench.plcmodel.model import Model, WordRange
 

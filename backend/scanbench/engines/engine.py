@@ -85,12 +85,16 @@ class Engine(ABC):
         """
 
     @abstractmethod
-    def stop_when(self, condition: Condition | None) -> None:
-        """From now on `run` comes back after every scan after which the condition, made for this engine's program,
-        holds; None takes it away. Not while `run` is running. A trap inside of the condition is FALSE.
+    def stop_when(self, condition: Condition | None, *others: Condition) -> None:
+        """From now on `run` comes back after every scan after which one of these conditions, made for this engine's
+        program, holds; None takes them away. Not while `run` is running. A trap inside of one is FALSE, and hides no other.
 
-        The condition is the engine's: whoever swaps the engine gives the next one its condition.
+        The conditions are the engine's: whoever swaps the engine gives them to the next one.
         """
+
+    @abstractmethod
+    def holds(self, condition: Condition) -> bool:
+        """Whether the condition, made for this engine's program, holds now. Not while `run` is running."""
 
     @abstractmethod
     def knock(self) -> None:

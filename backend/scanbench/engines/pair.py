@@ -33,9 +33,12 @@ class PairEngine(Engine):
     def knock(self) -> None:
         self.native.knock()
 
-    def stop_when(self, condition: Condition | None) -> None:
-        self.native.stop_when(condition)
-        self.reference.stop_when(condition)
+    def stop_when(self, condition: Condition | None, *others: Condition) -> None:
+        self.native.stop_when(condition, *others)
+        self.reference.stop_when(condition, *others)
+
+    def holds(self, condition: Condition) -> bool:
+        return self.native.holds(condition)
 
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
         for _ in range(scans):

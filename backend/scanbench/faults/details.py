@@ -91,6 +91,8 @@ def _decide(error: ErrorEntry, detail: ErrorDetail, text: str | None) -> tuple[E
     if detail.control == "List":
         return _decide_choice(error, detail, text)
     address = detail.addresses[0]
+    if address.is_text:
+        return _decide_text(error, detail, address, text or "")
     if text is None:
         start = address.default if address.default is not None else address.minimum
         number = start if start is not None else 0
@@ -103,6 +105,18 @@ def _decide(error: ErrorEntry, detail: ErrorDetail, text: str | None) -> tuple[E
     if not low <= number <= high:
         return Refusal(f"{error.id}: {detail.name}={text} is outside of {low} to {high}; nothing was written")
     return address, number, f"{number:X}" if address.base == 16 else str(number)
+
+
+def _decide_text(
+    error: ErrorEntry, detail: ErrorDetail, address: ErrorAddress, text: str
+) -> tuple[ErrorAddress, int, str] | Refusal:
+    most = address.maximum or 0
+    if len(text) > most:
+        return Refusal(f"{error.id}: {detail.name} has {len(text)} characters, at most {most} fit; nothing was written")
+    odd = next((character for character in text if not " " <= character <= "~"), None)
+    if odd is not None:
+        return Refusal(f"{error.id}: {detail.name} takes ASCII characters, {odd!r} is none; nothing was written")
+    return address, int.from_bytes(text.encode("ascii"), "little"), text
 
 
 def _decide_choice(error: ErrorEntry, detail: ErrorDetail, text: str | None) -> tuple[ErrorAddress, int, str] | Refusal:
@@ -122,6 +136,8 @@ def _bits(address: ErrorAddress, number: int, layout: Layout) -> list[Bits]:
         return field_bits(address.location, 0, 1, 1, layout)
     if address.kind == "BitArray":
         return field_bits(address.location, number, 1, 1, layout)
+    if address.is_text:
+        return field_bits(address.location, 0, 8 * (address.maximum or 0), number, layout)
     value = int(str(number), 16) if address.kind == "BCD" else number
     return field_bits(address.location, address.shift, address.width, value, layout)
 

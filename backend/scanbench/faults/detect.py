@@ -4,11 +4,11 @@ from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 
 from scanbench.check.program import Pou, Program, TrapKind
-from scanbench.faults.details import choose
-from scanbench.faults.inject import ACTIVE, Generate, Recover, present_choices
+from scanbench.faults.answers import Answers, is_news, number_text
+from scanbench.faults.inject import ACTIVE, Generate
 from scanbench.faults.reference import ErrorRef
-from scanbench.plcmodel.model import ErrorDetail, ErrorEntry, Instruction, Model
-from scanbench.runtime.command import Command, Refusal, View
+from scanbench.plcmodel.model import ErrorDetail, ErrorEntry, Model
+from scanbench.runtime.command import Command, View
 from scanbench.runtime.detect import Asked
 from scanbench.runtime.trap import TrapInfo
 
@@ -37,53 +37,17 @@ class Detection:
         if error is None or kind is TrapKind.FATAL:
             return None
         ref = ErrorRef(error.id, tuple(_trap_details(error, kind, info, view)))
-        return None if _known(view, error, ref, _present(view)) else Generate("PLC", (ref,), "plc")
+        return Generate("PLC", (ref,), "plc") if is_news(view, view.derived(ACTIVE), error, ref) else None
 
     def on_asked(self, asked: tuple[Asked, ...], view: View) -> tuple[Command, ...]:
         """One command for each thing that the program asked for and that changes something, in its order.
 
         A program asks in every scan, so an error that is present with this number is no news.
         """
-        present = _present(view)
-        commands: list[Command] = []
-        for index, number in asked:
-            if index >= len(view.model.instructions):
-                continue
-            instruction = view.model.instructions[index]
-            error = view.model.error(instruction.error)
-            if error is None:
-                continue
-            if instruction.minimum <= number <= instruction.maximum:
-                ref = ErrorRef(error.id, tuple(_number_detail(error, instruction, number)))
-                if not _known(view, error, ref, present):
-                    commands.append(Generate("program", (ref,), "program"))
-            elif number == instruction.clears and present.pop(error.id, None) is not None:
-                commands.append(Recover("program", (error.id,)))
-        return tuple(commands)
-
-
-Details = tuple[tuple[str, str], ...]
-
-
-def _present(view: View) -> dict[str, set[Details]]:
-    """The errors that are present, and the details with which they are."""
-    choices = present_choices(view, view.derived(ACTIVE))
-    return {id: {one.details for one in several} for id, several in choices.items()}
-
-
-def _known(view: View, error: ErrorEntry, ref: ErrorRef, present: dict[str, set[Details]]) -> bool:
-    """Whether raising this is no news, or not possible; else it counts as present from now on."""
-    chosen = choose(error, dict(ref.details), view.program.layout)
-    if isinstance(chosen, Refusal) or chosen.details in present.get(error.id, ()):
-        return True
-    present.setdefault(error.id, set()).add(chosen.details)
-    return False
-
-
-def _number_detail(error: ErrorEntry, instruction: Instruction, number: int) -> Iterator[tuple[str, str]]:
-    detail = error.detail(instruction.detail)
-    if detail is not None:
-        yield detail.name, _text(detail, number)
+        answers = Answers(view)
+        for each in asked:
+            answers.add(each)
+        return tuple(answers.commands)
 
 
 def _trap_details(error: ErrorEntry, kind: TrapKind, info: TrapInfo, view: View) -> Iterator[tuple[str, str]]:
@@ -94,17 +58,13 @@ def _trap_details(error: ErrorEntry, kind: TrapKind, info: TrapInfo, view: View)
     task = _task_detail(view.model, error)
     number = _stopped_task(view.program, info) if task is not None else None
     if task is not None and number is not None:
-        yield task.name, _text(task, number)
+        yield task.name, number_text(task, number)
 
 
 def _task_detail(model: Model, error: ErrorEntry) -> ErrorDetail | None:
     """The detail that writes the word in which the model shows the task that ran."""
     word = model.special(_STOPPED_TASK)
     return next((each for each in error.details if word is not None and each.addresses[0].location == word), None)
-
-
-def _text(detail: ErrorDetail, number: int) -> str:
-    return f"{number:X}" if detail.addresses[0].base == 16 else str(number)
 
 
 def _stopped_task(program: Program, info: TrapInfo) -> int | None:

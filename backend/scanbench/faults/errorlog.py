@@ -1,4 +1,4 @@
-"""The model's own error log: one record for each error generated, the oldest dropped when it is full."""
+"""The model's own memory of what happened: the error log, where the oldest record drops when it is full, and the time."""
 
 from collections.abc import Sequence
 from datetime import UTC, datetime, timedelta
@@ -25,8 +25,26 @@ def log_patches(view: View, generated: Sequence[Chosen]) -> list[Patch]:
     return [Patch.whole(first, b"".join(records)), Patch.whole(counter, bytes((len(records),)))]
 
 
+def time_patches(view: View, generated: Sequence[Chosen], nothing_left: bool = False) -> list[Patch]:
+    """Patches that show when the latest error came: now, if one was generated; nothing, if none is left."""
+    time = view.model.error_time
+    if time is None or not (generated or nothing_left):
+        return []
+    now, first = _now(view), view.program.layout.areas[time.first.area.name] + time.first.byte
+    shown = {
+        "second": now.second, "minute": now.minute, "hour": now.hour, "day": now.day, "month": now.month,
+        "year": now.year % 100, "century": now.year // 100, "weekday": now.isoweekday() % 7, "zero": 0,
+    }  # fmt: skip
+    numbers = [_bcd(shown[field]) if generated else 0 for field in time.fields]
+    return [Patch.whole(first, bytes(numbers))]
+
+
+def _now(view: View) -> datetime:
+    return _BEGIN + timedelta(microseconds=(view.header.epoch_ns + view.header.clock_ns) // 1000)
+
+
 def _record(view: View, chosen: Chosen, words: int) -> bytes:
-    now = _BEGIN + timedelta(microseconds=(view.header.epoch_ns + view.header.clock_ns) // 1000)
+    now = _now(view)
     record = [0] * max(words, 5)
     record[_CODE] = chosen.code & 0xFFFF
     record[_CONTENTS] = _contents(chosen)

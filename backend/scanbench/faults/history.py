@@ -1,4 +1,4 @@
-"""What was tested: one row for every error of the catalogue, folded from journal entries as they come."""
+"""What was tested: for every version of the program one row for every error, folded from journal entries as they come."""
 
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, replace
@@ -8,16 +8,36 @@ from typing import Literal
 from scanbench.check.layout import Layout
 from scanbench.faults.details import choose
 from scanbench.faults.inject import Active, Generate, Origin, Recover
+from scanbench.faults.reaction import Reaction, Verdict
 from scanbench.faults.reference import ErrorRef
-from scanbench.plcmodel.model import Model
-from scanbench.runtime.command import Entry, Refusal
+from scanbench.plcmodel.model import ErrorEntry, Model
+from scanbench.runtime.command import Entry, Refusal, Swapped
 
 Status = Literal["never", "generated", "cleared"]
 
 
 @dataclass(frozen=True, slots=True)
+class RowReaction:
+    """What is known of the reaction to an error, the last time it was raised. `message` says why it failed."""
+
+    state: Literal["recording", "done", "failed"]
+    found: Reaction | None = None
+    message: str = ""
+
+    @property
+    def verdict(self) -> Verdict | None:
+        """In a word; None while there is none."""
+        return None if self.found is None else self.found.verdict
+
+    @property
+    def scans(self) -> int | None:
+        """Scans until the first effect."""
+        return None if self.found is None else self.found.first_effect
+
+
+@dataclass(frozen=True, slots=True)
 class ErrorRow:
-    """The history of one error on one instance."""
+    """The history of one error on one instance and one version of its program."""
 
     id: str
     name: str
@@ -32,29 +52,58 @@ class ErrorRow:
     by: str | None = None
     origin: Origin | None = None
     count: int = 0
+    reaction: RowReaction | None = None
+    program_version: int = 0
 
 
 class History:
-    """The rows of one instance, in the order of the catalogue."""
+    """The rows of one instance, in the order of the catalogue: those of the version that runs, and kept ones of others.
 
-    def __init__(self, model: Model, kept: Mapping[str, ErrorRow] | None = None) -> None:
-        """`kept` is what is known from earlier, by id."""
+    Rows of a version that does not run any more stay as they were when it ended.
+    """
+
+    def __init__(self, model: Model, version: int = 0, kept: Iterable[ErrorRow] = ()) -> None:
+        """`kept` is what is known from earlier, of any version."""
         self._model = model
-        # Codes and details are the same in every layout, so any will do.
-        self._layout = Layout(model, {area.name: 0 for area in model.areas})
-        self._rows = {
-            error.id: (kept or {}).get(error.id) or ErrorRow(error.id, error.name, error.severity, code=error.code_text)
-            for error in model.errors()
-        }
+        self._layout = _layout(model)
+        self._version = version
+        self._raised_by_version: dict[int, dict[str, ErrorRow]] = {}
+        for row in kept:
+            self._raised_by_version.setdefault(row.program_version, {})[row.id] = row
+
+    @property
+    def version(self) -> int:
+        """Of the program that runs."""
+        return self._version
+
+    @property
+    def versions(self) -> list[int]:
+        """The version that runs, and those on which errors were raised."""
+        return sorted({self._version} | {version for version, rows in self._raised_by_version.items() if rows})
 
     @property
     def rows(self) -> list[ErrorRow]:
-        """Every row, in the order of the catalogue."""
-        return list(self._rows.values())
+        """Every row of the version that runs, in the order of the catalogue."""
+        return self.rows_of(self._version, self._model)
+
+    def rows_of(self, version: int, model: Model) -> list[ErrorRow]:
+        """Every row of a version, which ran on this model."""
+        raised = self._raised_by_version.get(version, {})
+        return [
+            replace(raised[error.id], name=error.name, severity=error.severity)
+            if error.id in raised
+            else _never(error, version)
+            for error in model.errors()
+        ]
+
+    # ---- what happens ---------------------------------------------------------------------------------------------
 
     def fold(self, entry: Entry) -> list[ErrorRow]:
-        """Takes an entry in; the rows that it changed."""
-        command = entry.command
+        """Takes an entry in; the rows that it changed. Where it changed the version, look at all `rows` again."""
+        command, effect = entry.command, entry.plan.effect
+        if isinstance(effect, Swapped):
+            ended = self._cleared(self._present, entry.at, entry.scan) if effect.fresh else []
+            return ended + self.turn_to(effect.version, entry.at, entry.scan)
         if entry.plan.starts_anew:
             return self._cleared(self._present, entry.at, entry.scan)
         if isinstance(command, Generate):
@@ -63,49 +112,108 @@ class History:
             return self._cleared(self._present if command.ids is None else command.ids, entry.at, entry.scan)
         return []
 
+    def take_model(self, model: Model) -> None:
+        """The program that runs has another catalogue: the user's own errors are part of its version."""
+        self._model = model
+        self._layout = _layout(model)
+
+    def begin(self, version: int) -> None:
+        """This version runs; what is present is told later (`reconcile`)."""
+        self._version = version
+
+    def turn_to(self, version: int, at: datetime, scan: int) -> list[ErrorRow]:
+        """From here on another version runs, and what is present is present in its rows too; the rows that changed."""
+        if version == self._version:
+            return []
+        present = {id: self._now[id] for id in self._present}
+        self._version = version
+        changed = self._cleared([id for id in self._present if id not in present], at, scan)
+        for id, row in present.items():
+            known = self._now.get(id)
+            same = known is not None and known.generated_at == row.generated_at
+            if same and known is not None and known.status == "generated":
+                continue  # the program went back to a version that saw it raised
+            count = (0 if known is None else known.count) + (not same)
+            reaction = known.reaction if same and known is not None else None
+            self._now[id] = replace(row, program_version=version, count=count, reaction=reaction)
+            changed.append(self._now[id])
+        return changed
+
     def reconcile(self, present: Mapping[str, Active], at: datetime) -> list[ErrorRow]:
         """These errors are present now and no others, whatever was heard of before (a branch has a past that nobody told);
         the rows that it changed."""
         changed = self._cleared([id for id in self._present if id not in present], at, 0)
         for id, active in present.items():
-            if id in self._rows and self._rows[id].status != "generated":
-                changed += self._raised(active.refs[-1], at, active.scan, active.by, active.origin)
+            row = self._now.get(id)
+            if row is None or row.status != "generated":
+                changed += self._raised(active.refs[-1], at, active.scan, active.by, active.origin, None)
         return changed
 
-    def as_of(self, present: Mapping[str, Active], at: datetime) -> list[ErrorRow]:
+    def as_of(self, present: Mapping[str, Active], at: datetime, version: int | None = None) -> list[ErrorRow]:
         """Every row as it was when these errors and no others were present; nothing is changed."""
-        then = History(self._model, dict(self._rows))
+        known = [row for rows in self._raised_by_version.values() for row in rows.values()]
+        then = History(self._model, self._version if version is None else version, known)
         then.reconcile(present, at)
         return then.rows
 
-    @property
-    def _present(self) -> list[str]:
-        return [row.id for row in self._rows.values() if row.status == "generated"]
-
-    def _generated(self, entry: Entry, command: Generate) -> list[ErrorRow]:
-        changed = []
-        for ref in command.errors:
-            changed += self._raised(ref, entry.at, entry.scan, command.author, command.origin)
+    def set_reaction(self, id: str, version: int, scan: int, found: Reaction | str) -> ErrorRow | None:
+        """What was found out of the reaction to an error that was raised before `scan` on this version, or why nothing
+        was; the changed row, or None when it was raised anew in the meantime."""
+        row = self._raised_by_version.get(version, {}).get(id)
+        if row is None or row.generated_scan != scan:
+            return None
+        reaction = RowReaction("failed", None, found) if isinstance(found, str) else RowReaction("done", found)
+        changed = replace(row, reaction=reaction)
+        self._raised_by_version[version][id] = changed
         return changed
 
-    def _raised(self, ref: ErrorRef, at: datetime, scan: int, by: str, origin: Origin) -> list[ErrorRow]:
+    # ---- inside ---------------------------------------------------------------------------------------------------
+
+    @property
+    def _now(self) -> dict[str, ErrorRow]:
+        """The rows of errors that were raised on the version that runs."""
+        return self._raised_by_version.setdefault(self._version, {})
+
+    @property
+    def _present(self) -> list[str]:
+        return [row.id for row in self._now.values() if row.status == "generated"]
+
+    def _generated(self, entry: Entry, command: Generate) -> list[ErrorRow]:
+        reaction = RowReaction("recording") if command.origin == "simulator" else None
+        changed = []
+        for ref in command.errors:
+            changed += self._raised(ref, entry.at, entry.scan, command.author, command.origin, reaction)
+        return changed
+
+    def _raised(
+        self, ref: ErrorRef, at: datetime, scan: int, by: str, origin: Origin, reaction: RowReaction | None
+    ) -> list[ErrorRow]:
         error = self._model.error(ref.id)
         chosen = choose(error, dict(ref.details), self._layout) if error is not None else None
         if error is None or chosen is None or isinstance(chosen, Refusal):
             return []
-        row = self._rows[error.id]
-        self._rows[error.id] = replace(
+        row = self._now.get(error.id) or _never(error, self._version)
+        self._now[error.id] = replace(
             row,
             status="generated", code=chosen.code_text, details=str(chosen), generated_at=at, recovered_at=None,
-            generated_scan=scan, recovered_scan=None, by=by, origin=origin, count=row.count + 1,
+            generated_scan=scan, recovered_scan=None, by=by, origin=origin, count=row.count + 1, reaction=reaction,
         )  # fmt: skip
-        return [self._rows[error.id]]
+        return [self._now[error.id]]
 
     def _cleared(self, ids: Iterable[str], at: datetime, scan: int) -> list[ErrorRow]:
         changed = []
         for id in ids:
-            row = self._rows.get(id)
+            row = self._now.get(id)
             if row is not None and row.status == "generated":
-                self._rows[id] = replace(row, status="cleared", recovered_at=at, recovered_scan=scan)
-                changed.append(self._rows[id])
+                self._now[id] = replace(row, status="cleared", recovered_at=at, recovered_scan=scan)
+                changed.append(self._now[id])
         return changed
+
+
+def _never(error: ErrorEntry, version: int) -> ErrorRow:
+    return ErrorRow(error.id, error.name, error.severity, code=error.code_text, program_version=version)
+
+
+def _layout(model: Model) -> Layout:
+    """Codes and details are the same in every layout, so any will do."""
+    return Layout(model, {area.name: 0 for area in model.areas})

@@ -33,7 +33,8 @@ class ErrorAddress:
     """One place that a detail writes: a bit, or a field of `width` bits from bit `shift` on of the word at `location`.
 
     `Bit` switches `location` on. `BitArray` switches on bit n%16 of the word n/16 after `location`; n is the value.
-    The others write the value (BCD: its decimal digits) into the field.
+    The others write the value (BCD: its decimal digits) into the field. A text fills `maximum` bytes from `location` on,
+    the first character in the low byte, with zeros behind it.
     """
 
     id: str
@@ -49,11 +50,17 @@ class ErrorAddress:
     value: int | None
     minimum: int | None
     maximum: int | None
-    base: Literal[10, 16]
+    base: Literal[0, 10, 16]
+    """How its number is written; 0: it is a text of at most `maximum` characters."""
     default: int | None
     add_to_code: bool
     """The value is added to the error code."""
     wordings: tuple[Wording, ...] = ()
+
+    @property
+    def is_text(self) -> bool:
+        """Whether characters are written here, no number."""
+        return self.base == 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -71,6 +78,15 @@ class ErrorDetail:
     def choice(self, id: str) -> ErrorAddress | None:
         """The choice of a List with this id."""
         return next((address for address in self.addresses if address.id == id), None)
+
+
+def _additions(detail: ErrorDetail) -> list[range]:
+    """What it can add to the code; nothing where it never does."""
+    adding = [each for each in detail.addresses if each.add_to_code]
+    if detail.control != "List":
+        return [range(each.minimum or 0, (each.maximum or 0) + 1) for each in adding]
+    values = {each.value or 0 if each.add_to_code else 0 for each in detail.addresses}
+    return [range(value, value + 1) for value in sorted(values)] if adding else []
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,6 +112,10 @@ class ErrorEntry:
     """What it writes besides its flag and details: bits, a fixed `value`, or the number of the detail named by `id`."""
     form: CodeForm = "hex4"
     wordings: tuple[Wording, ...] = ()
+    user: bool = False
+    """One of the project's own (`user_errors`), not of the device."""
+    lasting: bool = False
+    """Its cause lasts: what a tool or program clears shows again at once. Only who holds the cause can recover it."""
 
     @property
     def code_text(self) -> str:
@@ -110,6 +130,17 @@ class ErrorEntry:
     def show(self, code: int) -> str:
         """A code of this error (details added) as the device shows it."""
         return show_code(code, self.form)
+
+    @property
+    def codes(self) -> tuple[range, ...]:
+        """Every code that it can have, details added."""
+        found = [range(self.code, self.code + 1)]
+        for detail in self.details:
+            if stretches := _additions(detail):
+                found = [
+                    range(code.start + more.start, code.stop + more.stop - 1) for code in found for more in stretches
+                ]
+        return tuple(found)
 
     def detail(self, name: str) -> ErrorDetail | None:
         """The detail of this name."""

@@ -9,6 +9,7 @@ from lxml import etree
 
 from scanbench.problems import Problem, Span
 
+SCHEMA = "model.xsd"
 SIZE_LIMIT = 4 * 1024 * 1024
 """Bytes; the largest file we ship has a hundredth of it."""
 
@@ -64,6 +65,12 @@ def line_of(node: etree._Element) -> int:
     return cast("int | None", node.sourceline) or 1
 
 
+def schema_of(directory: Path) -> etree.XMLSchema:
+    """The schema in a directory of models."""
+    parser = etree.XMLParser(resolve_entities=False, no_network=True)
+    return etree.XMLSchema(etree.parse(str(directory / SCHEMA), parser))
+
+
 def read(path: Path, file: str, schema: etree.XMLSchema) -> Document | list[Problem]:
     """The file as a document that follows the schema, or everything that is wrong with it."""
     try:
@@ -74,12 +81,23 @@ def read(path: Path, file: str, schema: etree.XMLSchema) -> Document | list[Prob
         return [_unreadable(file, f"the file cannot be read: {error.strerror}")]
     except UnicodeDecodeError as error:
         return [_unreadable(file, f"byte {error.start} is not UTF-8: save the file as UTF-8")]
-    text = text.replace("\r\n", "\n")
+    return parse(text, file, schema, "Model")
+
+
+def parse(
+    text: str, file: str, schema: etree.XMLSchema, root_tag: str, what: str = "a model file"
+) -> Document | list[Problem]:
+    """The text as a document with this root that follows the schema, or everything that is wrong with it; `what` it is."""
+    text = text.removeprefix("\ufeff").replace("\r\n", "\n")
+    if len(text) > SIZE_LIMIT:
+        return [_unreadable(file, f"the file is larger than {SIZE_LIMIT // 1024 // 1024} MiB, {what} never is")]
+    if (surrogate := re.search("[\ud800-\udfff]", text)) is not None:
+        return [
+            _unreadable(file, "half a character, which no file can hold: remove it", *_where(text, surrogate.start()))
+        ]
     if (offset := _doctype(text)) is not None:
-        line = text.count("\n", 0, offset) + 1
-        column = offset - text.rfind("\n", 0, offset)
-        message = "a model file has no DOCTYPE (entities and external parts are refused): remove it"
-        return [_unreadable(file, message, line, column)]
+        message = f"{what} has no DOCTYPE (entities and external parts are refused): remove it"
+        return [_unreadable(file, message, *_where(text, offset))]
     parser = etree.XMLParser(
         encoding="utf-8", resolve_entities=False, load_dtd=False, no_network=True, huge_tree=False, remove_comments=True
     )
@@ -89,7 +107,14 @@ def read(path: Path, file: str, schema: etree.XMLSchema) -> Document | list[Prob
         line, column = error.position
         return [_unreadable(file, f"not well-formed XML: {error.msg}", max(line or 1, 1), max(column or 1, 1))]
     document = Document(file, text, root)
+    if root.tag != root_tag:
+        return [Problem("M002", f"this is <{root.tag}>, here belongs <{root_tag}>", document.span(root))]
     return document if schema.validate(root) else list(_violations(document, schema))
+
+
+def _where(text: str, offset: int) -> tuple[int, int]:
+    """Line and column."""
+    return text.count("\n", 0, offset) + 1, offset - text.rfind("\n", 0, offset)
 
 
 def _unreadable(file: str, message: str, line: int = 1, column: int = 1) -> Problem:

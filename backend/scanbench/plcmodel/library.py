@@ -9,15 +9,23 @@ from typing import Literal, cast
 from lxml import etree
 
 from scanbench.plcmodel.catalogue import CodeForm
-from scanbench.plcmodel.document import Document, read
+from scanbench.plcmodel.document import Document, read, schema_of
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.read_catalogue import read_catalogue
+from scanbench.plcmodel.read_instructions import instructions, resets
 from scanbench.plcmodel.read_memory import read_memory
-from scanbench.plcmodel.read_system import code_word, error_log, fatal_behaviour, instructions, specials, status_words
+from scanbench.plcmodel.read_system import (
+    code_word,
+    error_log,
+    error_reset,
+    error_time,
+    fatal_behaviour,
+    specials,
+    status_words,
+)
 from scanbench.plcmodel.reading import Reader, text_of, wordings_of
 from scanbench.problems import Problem, Span
 
-SCHEMA = "model.xsd"
 Loaded = tuple[Model | None, list[Problem]]
 
 
@@ -60,8 +68,7 @@ class Library:
 
     @cached_property
     def _schema(self) -> etree.XMLSchema:
-        parser = etree.XMLParser(resolve_entities=False, no_network=True)
-        return etree.XMLSchema(etree.parse(str(self.directory / SCHEMA), parser))
+        return schema_of(self.directory)
 
     def _document(self, file: str) -> Document | list[Problem]:
         if file not in self._documents:
@@ -137,6 +144,9 @@ def _model(layers: list[Reader]) -> Model:
         instructions=instructions(layers, errors),
         code_form=form,
         wordings=wordings_of(described),
+        error_reset=error_reset(layers),
+        error_time=error_time(layers),
+        resets=resets(layers),
     )
 
 

@@ -3,7 +3,8 @@
 import os
 from pathlib import Path
 
-from scanbench.plcmodel.library import SCHEMA, Library, duplicate
+from scanbench.plcmodel.document import SCHEMA
+from scanbench.plcmodel.library import Library, duplicate
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem
 

@@ -32,12 +32,15 @@ __all__ = [
     "ErrorEntry",
     "ErrorGroup",
     "ErrorLog",
+    "ErrorReset",
+    "ErrorTime",
     "FatalBehaviour",
     "IecMap",
     "Instruction",
     "Kind",
     "Location",
     "Model",
+    "ResetInstruction",
     "Role",
     "Severity",
     "Special",
@@ -78,6 +81,14 @@ class ErrorLog:
     counter: Location
 
 
+@dataclass(frozen=True, slots=True)
+class ErrorReset:
+    """The device's own way to clear an error: its code in the word `code`, then `bit` goes on."""
+
+    bit: Location
+    code: Location
+
+
 Role = Literal[
     "", "on", "off", "first-cycle", "pulse", "cycle-time", "longest-cycle-time", "shortest-cycle-time", "scan-count",
     "clock",
@@ -91,6 +102,14 @@ since the start of the run, wrapping. `clock`: the PLC's clock (`Layout.EPOCH` +
 """
 ClockField = Literal["second", "minute", "hour", "day", "month", "year", "century", "weekday", "zero"]
 """`year` is the last two digits, `weekday` counts from 0 on Sunday."""
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorTime:
+    """When the latest error came, in BCD: a byte for each of `fields` from `first` on; 0 while there is none."""
+
+    first: Location
+    fields: tuple[ClockField, ...]
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,6 +137,10 @@ class Instruction:
 
     `FAL(N := 5)` gives the error `error` with 5 as its detail `detail`; a number outside `minimum` to `maximum` does
     nothing, but for `clears`, which recovers it. When the error is fatal the program stops right there.
+
+    As Omron has it: with a parameter `selector` the number `clears` clears what that says: one number, 16#FFFF all nonfatal
+    errors, anything else the most serious of them. When the number is that in the word `system_errors`, which is not 0, an
+    error of the device is raised instead: `selector` is its code, the parameter `information` its detail word.
     """
 
     name: str
@@ -127,6 +150,20 @@ class Instruction:
     minimum: int
     maximum: int
     clears: int | None = None
+    description: str = ""
+    source: str = ""
+    verified: bool = False
+    selector: str = ""
+    information: str = ""
+    system_errors: Location | None = None
+
+
+@dataclass(frozen=True, slots=True)
+class ResetInstruction:
+    """An instruction of the vendor that clears the nonfatal errors whose flags are in the word `flags`."""
+
+    name: str
+    flags: Location
     description: str = ""
     source: str = ""
     verified: bool = False
@@ -153,6 +190,9 @@ class Model:
     instructions: tuple[Instruction, ...] = ()
     code_form: CodeForm = "hex4"
     wordings: tuple[Wording, ...] = ()
+    error_reset: ErrorReset | None = None
+    error_time: ErrorTime | None = None
+    resets: tuple[ResetInstruction, ...] = ()
 
     def area(self, name: str) -> Area | None:
         """The area of this name (not of an alias)."""

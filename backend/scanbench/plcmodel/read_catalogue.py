@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from typing import cast, get_args
+from typing import Literal, cast, get_args
 
 from lxml import etree
 
@@ -18,8 +18,10 @@ from scanbench.plcmodel.catalogue import (
     show_code,
 )
 from scanbench.plcmodel.document import line_of
+from scanbench.plcmodel.overlaps import overlaps
 from scanbench.plcmodel.reading import Element, Reader, nearest, number_of, removals, text_of, wordings_of
 
+TEXT_LIMIT = 64
 FIELD_WIDTH: dict[Kind, int] = {"Bit": 1, "Nibble": 4, "Byte": 8, "BCD": 16, "Word": 16, "BitArray": 1}
 
 
@@ -106,6 +108,8 @@ def _error(reader: Reader, node: etree._Element) -> ErrorEntry | None:
         reader.problem("M004", f"two details are named {name!r}", node)
     code = _code(reader, node, sum(_largest_addition(detail) for detail in details))
     also = tuple(_also(reader, child, details) for child in node.iterchildren("Also"))
+    for message in overlaps(details, also):
+        reader.problem("M007", message, node)
     if flag is None or not reader.engine_writes(node, "ErrorFlag", flag):
         return None
     return ErrorEntry(
@@ -124,6 +128,7 @@ def _error(reader: Reader, node: etree._Element) -> ErrorEntry | None:
         also=also,
         form=reader.code_form,
         wordings=wordings_of(node),
+        lasting=node.get("Cause") == "lasting",
     )
 
 
@@ -214,18 +219,21 @@ def _read_address(reader: Reader, node: etree._Element, inherited: bool) -> Erro
         value=optional["Value"],
         minimum=optional["Min"],
         maximum=optional["Max"],
-        base=16 if node.get("Base") == "16" else 10,
+        base=_BASES[node.get("Base", "10")],
         default=optional["Default"],
         add_to_code=inherited if (own := node.get("AddToErrorCode")) is None else own in ("true", "1"),
         wordings=wordings_of(node),
     )
 
 
+_BASES: dict[str, Literal[0, 10, 16]] = {"text": 0, "10": 10, "16": 16}
 _NUMBERS = ("Shift", "Width", "Value", "Min", "Max", "Default")
 
 
 def _check_control(reader: Reader, node: etree._Element, control: Control, address: ErrorAddress) -> None:
-    if control == "List":
+    if address.is_text:
+        _check_text(reader, node, control, address)
+    elif control == "List":
         if address.value is None and (address.kind != "Bit" or address.add_to_code):
             reader.problem("M008", "this choice writes or adds a number and needs a Value", node)
     elif address.kind == "Bit":
@@ -237,11 +245,25 @@ def _check_control(reader: Reader, node: etree._Element, control: Control, addre
     elif address.default is not None and not address.minimum <= address.default <= address.maximum:
         message = f"Default {address.default} is not in {address.minimum} to {address.maximum}"
         reader.problem("M007", message, node, "Default")
+    if control != "List" and address.value is not None:
+        reader.problem("M008", f"a {control} writes what is entered: it has no Value", node, "Value")
+
+
+def _check_text(reader: Reader, node: etree._Element, control: Control, address: ErrorAddress) -> None:
+    if control != "Edit" or address.kind != "Word" or address.location is None:
+        reader.problem("M008", "a text belongs into an Edit, with an Address and Type Word", node, "Base")
+    elif not 1 <= (address.maximum or 0) <= TEXT_LIMIT:
+        reader.problem("M008", f"a text needs Max, its most characters: 1 to {TEXT_LIMIT}", node)
+    unfit = [name for name in ("Shift", "Width", "Value", "Min", "Default") if node.get(name) is not None]
+    for name in unfit:
+        reader.problem("M008", f"a text has no {name}", node, name)
+    if address.add_to_code:
+        reader.problem("M008", "a text cannot be added to the error code", node)
 
 
 def _check_width(reader: Reader, node: etree._Element, address: ErrorAddress) -> None:
-    if address.kind in ("Bit", "BitArray"):
-        return  # the number says which bit, or only adds to the code
+    if address.kind in ("Bit", "BitArray") or address.is_text:
+        return  # the number says which bit, or only adds to the code; a text is as wide as it says
     if address.shift + address.width > 16 or address.width < 1:
         last = address.shift + address.width - 1
         reader.problem("M007", f"bits {address.shift} to {last} are not in one word", node)
@@ -260,4 +282,6 @@ def _check_place(reader: Reader, node: etree._Element, address: ErrorAddress) ->
         return
     number = address.maximum if address.value is None else address.value
     words = (number or 0) // 16 + 1 if address.kind == "BitArray" else 1
+    if address.is_text:
+        words = ((number or 0) + 1) // 2
     reader.engine_writes(node, "Address", address.location, words)

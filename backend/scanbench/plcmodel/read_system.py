@@ -1,4 +1,4 @@
-"""The system part of a model file: code word, status words, fatal behaviour, error log, special places, instructions."""
+"""The system part of a model file: code word, status words, fatal behaviour, error log, special places."""
 
 from collections.abc import Iterator, Sequence
 from typing import cast
@@ -6,17 +6,17 @@ from typing import cast
 from lxml import etree
 
 from scanbench.plcmodel.areas import Location
-from scanbench.plcmodel.catalogue import ErrorEntry
 from scanbench.plcmodel.model import (
     ClockField,
     ErrorLog,
+    ErrorReset,
+    ErrorTime,
     FatalBehaviour,
-    Instruction,
     Role,
     Special,
     WordRange,
 )
-from scanbench.plcmodel.reading import Reader, duration_ns, merged, nearest, number_of, text_of
+from scanbench.plcmodel.reading import Reader, duration_ns, merged, text_of
 
 _TIMES = ("cycle-time", "longest-cycle-time", "shortest-cycle-time")
 _BITS = ("on", "off", "first-cycle", "pulse")
@@ -29,9 +29,11 @@ def code_word(layers: Sequence[Reader]) -> Location | None:
         if system is None or system.get("ErrorCode") is None:
             continue
         found = reader.place(system, "ErrorCode", bits=16)
-        if found is not None and reader.engine_writes(system, "ErrorCode", found):
-            return found
-        return None
+        if found is None:
+            return None
+        if reader.code_form == "hex8":
+            found = found._replace(bits=32)
+        return found if reader.engine_writes(system, "ErrorCode", found, found.bits // 16) else None
     return None
 
 
@@ -92,6 +94,33 @@ def _log(reader: Reader, node: etree._Element) -> ErrorLog | None:
     ):
         return None
     return ErrorLog(first, records, words, counter)
+
+
+def error_reset(layers: Sequence[Reader]) -> ErrorReset | None:
+    """The bit and the word with which a program or tool clears errors."""
+    for reader in reversed(layers):
+        node = reader.root.find("System/ErrorReset")
+        if node is not None:
+            bit, code = reader.place(node, "Bit", bits=1), reader.place(node, "Code", bits=16)
+            return ErrorReset(bit, code) if bit is not None and code is not None else None
+    return None
+
+
+def error_time(layers: Sequence[Reader]) -> ErrorTime | None:
+    """Where the time of the latest error stands."""
+    for reader in reversed(layers):
+        node = reader.root.find("System/ErrorTime")
+        if node is None:
+            continue
+        first = reader.place(node, "First", bits=16)
+        fields = cast(tuple[ClockField, ...], tuple(node.get("Fields", "").split()))
+        if len(fields) % 2 or not fields:
+            reader.problem("M010", f"two Fields fill a word, here are {len(fields)}", node, "Fields")
+            return None
+        if first is None or not reader.engine_writes(node, "First", first, len(fields) // 2):
+            return None
+        return ErrorTime(first, fields)
+    return None
 
 
 # ---- special places ---------------------------------------------------------------------------------------------
@@ -171,57 +200,3 @@ def _wrong_with(node: etree._Element, role: Role, location: Location) -> Iterato
             yield f"{attribute} goes with role {' or '.join(roles)} only", attribute
         if given is not None and attribute in ("Period", "Unit") and duration_ns(given) < 1:
             yield f"{attribute} must be longer than 0", attribute
-
-
-# ---- instructions -----------------------------------------------------------------------------------------------
-
-
-def instructions(layers: Sequence[Reader], errors: dict[str, ErrorEntry]) -> tuple[Instruction, ...]:
-    """Every instruction; one with the name of the base's takes its place. `errors` by id."""
-    found: list[Instruction] = []
-    for reader, node in merged(layers, "Instructions/Instruction", "Name", "Instructions").values():
-        name = node.get("Name", "")
-        if any(other.name.upper() == name.upper() for other in found):
-            reader.problem("M004", f"Instruction {name!r} stands twice", node, "Name")
-        instruction = _instruction(reader, node, errors)
-        if instruction is not None:
-            found.append(instruction)
-    return tuple(found)
-
-
-def _instruction(reader: Reader, node: etree._Element, errors: dict[str, ErrorEntry]) -> Instruction | None:
-    id, detail = node.get("Error", ""), node.get("Detail", "")
-    error = errors.get(id)
-    if error is None:
-        reader.problem("M010", f"there is no error {id!r}{nearest(id, errors)}", node, "Error")
-        return None
-    known = error.detail(detail)
-    if known is None or known.control == "List":
-        numbers = [each.name for each in error.details if each.control != "List"]
-        which = f"it has {', '.join(numbers)}" if numbers else "it has none"
-        hint = nearest(detail, numbers)
-        reader.problem("M010", f"error {id} has no detail {detail!r} that is a number: {which}{hint}", node, "Detail")
-        return None
-    low, high = number_of(node.get("Min", "0")), number_of(node.get("Max", "0"))
-    clears = None if (text := node.get("Clears")) is None else number_of(text)
-    if low > high:
-        reader.problem("M007", f"Min {low} is greater than Max {high}", node, "Min")
-    lowest, highest = known.addresses[0].minimum, known.addresses[0].maximum
-    # Limits of the detail that make no sense have been told.
-    if lowest is not None and highest is not None and lowest <= highest and not lowest <= low <= high <= highest:
-        message = f"{low} to {high} is more than detail {detail} takes: {lowest} to {highest}"
-        reader.problem("M007", message, node, "Min" if low < lowest else "Max")
-    if clears is not None and low <= clears <= high:
-        reader.problem("M007", f"{clears} cannot both raise the error and clear it", node, "Clears")
-    return Instruction(
-        name=node.get("Name", ""),
-        error=id,
-        parameter=node.get("Parameter", ""),
-        detail=detail,
-        minimum=low,
-        maximum=high,
-        clears=clears,
-        description=text_of(node, "Description"),
-        source=node.get("Source", ""),
-        verified=node.get("Verified") == "yes",
-    )

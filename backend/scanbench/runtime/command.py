@@ -60,7 +60,14 @@ class Swapped:
     """Forces that the new program has no place for, as they were entered."""
 
 
-Effect = Restarted | Swapped
+@dataclass(frozen=True, slots=True)
+class Numbered:
+    """What was entered has a number from now on, by which others name it. Nothing else changes."""
+
+    number: int
+
+
+Effect = Restarted | Swapped | Numbered
 """What a plan does that no patch can say."""
 
 
@@ -92,6 +99,10 @@ class Command(ABC):
 
     author: str
 
+    def settled(self, view: "View") -> "Command":
+        """What the journal keeps: itself, unless what it asks for depends on the moment."""
+        return self
+
     @abstractmethod
     def plan(self, view: "View") -> Plan | Refusal:
         """What it would change. Pure: the same command and view always give the same plan."""
@@ -116,6 +127,13 @@ class View:
     journal: Journal = field(default_factory=Journal)
     programs: Programs = field(default_factory=Shelf)
     version: int = 1
+    fresh: Program | None = None
+    """See `Loaded`."""
+
+    @property
+    def statements(self) -> Program:
+        """The program whose statements are those that run."""
+        return self.fresh or self.program
 
     @property
     def model(self) -> Model:

@@ -13,6 +13,8 @@ class Asked(NamedTuple):
     instruction: int
     """Index into `Model.instructions`."""
     number: int
+    form: int = 0
+    """`check.system_text.Form`: what `instruction` and `number` say."""
 
 
 class Detect(Protocol):
@@ -33,6 +35,6 @@ def read_asked(memory: bytearray | bytes | memoryview) -> tuple[Asked, ...]:
     count = min(int.from_bytes(memory[Layout.ASKED_COUNT : Layout.ASKED_COUNT + 4], "little"), Layout.ASKED_LIMIT)
     starts = range(Layout.ASKED, Layout.ASKED + 8 * count, 8)
     return tuple(
-        Asked(int.from_bytes(memory[at : at + 2], "little"), int.from_bytes(memory[at + 4 : at + 8], "little"))
+        Asked(memory[at], int.from_bytes(memory[at + 4 : at + 8], "little"), memory[at + 1])
         for at in starts
     )

@@ -10,15 +10,19 @@ from functools import cache
 from scanbench.check.program import Program
 from scanbench.check.types import Record
 from scanbench.plcmodel.model import Area, Model
+from scanbench.plcmodel.user_errors import device_of
 
 _SAMPLES = 500
-_WORDS = frozenset({"description", "source", "verified", "wordings"})
+_WORDS = frozenset({"description", "source", "verified", "wordings", "user"})
 _F64 = struct.Struct("<d")
 
 
 def model_fingerprint(model: Model) -> str:
-    """Of everything that a model does; what is only told to people may be worded otherwise."""
-    return _hash("\n".join(_deeds(model, set())).encode())
+    """Of everything that the device does; what is only told to people may be worded otherwise.
+
+    The errors of a project are none of the device's: they belong to the sources, which a run file keeps whole.
+    """
+    return _hash("\n".join(_deeds(device_of(model), set())).encode())
 
 
 def _deeds(value: object, areas: set[str]) -> Iterator[str]:

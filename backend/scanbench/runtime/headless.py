@@ -7,6 +7,7 @@ from typing import Generic, TypeVar
 from scanbench.check.condition import Condition
 from scanbench.check.program import Program
 from scanbench.engines.engine import Reason
+from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.checkpoints import Checkpoints
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.detect import Detect
@@ -49,6 +50,7 @@ def run_headless(
     sample: Callable[[Resource], T] | None = None,
     *,
     detect: Detect | None = None,
+    agenda: Agenda | None = None,
     recording: Recording | None = None,
     programs: Programs | None = None,
     until: Condition | None = None,
@@ -57,16 +59,16 @@ def run_headless(
 
     A command (n, c) is entered in the seam before scan n, counting from 0; several for one seam in the order given.
     n == `scans` is the seam behind the last scan; what is later does not come to pass. While the program is stopped (a fatal
-    error, mode PROGRAM) scans pass without it. A trap ends the run at once, and so does the first scan after which `until`
+    error, mode PROGRAM) scans pass without it; the `agenda` enters what is due in front of the commands for a seam. A trap ends the run at once, and so does the first scan after which `until`
     holds, a condition for the program that the run begins with.
 
     A `recording` that stands at the cold start gets all of it, with checkpoints on the way, and is left open; `entries`
     has only what is still in there.
     """
     loaded = Loaded.make(program, engine_factory)
-    resource = Resource(loaded, programs=programs, detect=detect, recorder=recording)
+    resource = Resource(loaded, programs=programs, detect=detect, recorder=recording, agenda=agenda)
     recorded = _Recorded(recording, resource) if recording is not None else None
-    resource.engine.stop_when(until)
+    resource.until = until
     met = False
     refused: list[Refused] = []
     rows: list[tuple[int, T]] = []
@@ -104,7 +106,7 @@ def _advance(resource: Resource, scans: int) -> bool:
     """Whether the condition holds now."""
     if resource.runnable:
         return resource.run(scans).reason is Reason.CONDITION
-    resource.pass_time(scans)
+    resource.idle(scans)
     return False
 
 

@@ -18,6 +18,13 @@ class Loaded:
     program: Program
     memory: bytearray
     engine: Engine
+    fresh: Program | None = None
+    """The same program checked anew, where later checks may have changed the statements of `program`."""
+
+    @property
+    def statements(self) -> Program:
+        """The program whose statements are those that run."""
+        return self.fresh or self.program
 
     @staticmethod
     def make(program: Program, engine_factory: EngineFactory, version: int = 1) -> "Loaded":

@@ -2,10 +2,14 @@
 
 import errno
 from dataclasses import dataclass
+from operator import is_
 
+from scanbench.check.condition import Condition
 from scanbench.check.program import Program
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
+from scanbench.engines.observe import Observer
 from scanbench.runtime import seam
+from scanbench.runtime.agenda import NONE_MET, NOTHING, Agenda, Met, Waits
 from scanbench.runtime.clock import monotonic_ns, wall_time
 from scanbench.runtime.command import Command, Entry, Refusal, View
 from scanbench.runtime.detect import Detect, read_asked
@@ -35,6 +39,7 @@ class Resource:
     def __init__(
         self, loaded: Loaded, mode: Mode = Mode.MONITOR, state: bytes | None = None, *,
         programs: Programs | None = None, detect: Detect | None = None, recorder: Recorder | None = None,
+        agenda: Agenda | None = None,
     ) -> None:  # fmt: skip
         """A new run in `mode`, or from `state`, the first `Layout.state_size` bytes of an image of this program."""
         self.loaded = loaded
@@ -43,6 +48,11 @@ class Resource:
         self.journal = Journal()
         self.measured = Measured()
         self.detect = detect
+        self.agenda = agenda
+        self.until: Condition | None = None
+        """A live run comes back after each scan after which it holds. Made for the program that is live."""
+        self._stops = Stops()
+        self._observed: _Observed | None = None
         loaded.memory[:] = fresh_image(loaded.program, mode)
         if state is not None:
             loaded.memory[: len(state)] = state
@@ -66,7 +76,8 @@ class Resource:
     @property
     def engine(self) -> Engine:
         """What runs the program."""
-        return self.loaded.engine
+        observed = self._observed
+        return self.loaded.engine if observed is None else observed.engine
 
     @engine.setter
     def engine(self, engine: Engine) -> None:
@@ -74,9 +85,14 @@ class Resource:
         self.loaded.engine = engine
 
     @property
+    def observing(self) -> bool:
+        """Whether observed code runs, as statements are waited for."""
+        return self._observed is not None
+
+    @property
     def view(self) -> View:
         """What planners may read."""
-        return View(self.program, self.memory, self.journal, self.programs, self.version)
+        return View(self.program, self.memory, self.journal, self.programs, self.version, self.loaded.fresh)
 
     @property
     def runnable(self) -> bool:
@@ -97,41 +113,62 @@ class Resource:
 
     def submit(self, command: Command) -> Entry | Refusal:
         """Enters a command in the seam, now: planned, kept, then applied. What cannot be kept is refused."""
-        return self._enter(command, must=False)
+        outcome = self._enter(command, must=False)
+        if not isinstance(outcome, Refusal):
+            self._attend(NONE_MET)
+        return outcome
 
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
-        """Runs up to `scans` scans. Comes back early for a trap, which stops the program, and for what it asked for."""
-        first = self.header.scan
-        stop = self.rerun(scans, pace)
+        """Runs up to `scans` scans. Comes back early for a trap, which stops the program, for what it asked for, and for
+        what is due; reason CONDITION says that `until` holds."""
+        ran = self.runnable
+        self._attend(NONE_MET)  # nothing, unless this run was gone on with behind what was due
+        if ran and not self.runnable:
+            return Stop(Reason.KNOCKED)
+        waits, first = self._waits(), self.header.scan
+        if waits.scan is not None:
+            scans = min(scans, waits.scan - first)
+        self._observe(waits)
+        self._stops.set(self.engine, self._conditions(waits))
+        stop = self._run(self.engine, min(scans, 1) if waits.sites else scans, pace)
+        met = self._met(stop, waits)
+        if stop.reason is Reason.CONDITION and (self.until is None or not self.engine.holds(self.until)):
+            stop = Stop(Reason.KNOCKED)
         if stop.reason is Reason.TRAP:
             self._trapped(stop.trap)
         elif self.header.scan > first:
             self._answer()
+        self._attend(met)
         return stop
 
-    def pass_time(self, scans: int) -> None:
-        """Virtual time goes on while the program is stopped."""
-        if scans > 0:
-            pass_time(self.memory, scans, self.program.interval_ns)
+    def idle(self, scans: int) -> None:
+        """Up to `scans` scans pass while the program is stopped: no further than to what is due."""
+        self._attend(NONE_MET)
+        due = self._waits().scan
+        self.pass_time(scans if due is None else min(scans, due - self.header.scan))
+        self._attend(NONE_MET)
 
     def settle(self) -> None:
-        """Behind a recovery: answers what the last scan asked for, unless that was entered before all ended."""
+        """Behind a recovery: answers what the last scan asked for, and does what is due, unless all that was entered
+        before all ended."""
         last = self.journal[-1].scan if self.journal else -1
+        met = NONE_MET
         if last < self.header.scan:
+            met = Met(self._held(self._waits()))
             self._answer()
+        self._attend(met)
 
     # ---- replay ---------------------------------------------------------------------------------------------------
 
     def rerun(self, scans: int, pace: Pace | None = None) -> Stop:
         """Runs up to `scans` scans, and enters nothing: what was noticed then is in the journal."""
-        if not self.runnable:
-            raise RuntimeError("the program is stopped: it must not be run")
-        first, start = self.header.scan, monotonic_ns()
-        busy = pace.busy_ns if pace is not None else 0
-        stop = self.engine.run(scans, pace)
-        self.measured.scans += self.header.scan - first
-        self.measured.busy_ns += pace.busy_ns - busy if pace is not None else monotonic_ns() - start
-        return stop
+        self._stops.set(self.loaded.engine, ())
+        return self._run(self.loaded.engine, scans, pace)
+
+    def pass_time(self, scans: int) -> None:
+        """Virtual time goes on while the program is stopped."""
+        if scans > 0:
+            pass_time(self.memory, scans, self.program.interval_ns)
 
     def reenter(self, entry: Entry) -> None:
         """Replay of an entry: its plan, not its command, so that the planner need not be the same any more."""
@@ -144,9 +181,53 @@ class Resource:
         self.memory[: len(state)] = state
         self.journal = journal
 
+    # ---- what is waited for ---------------------------------------------------------------------------------------
+
+    def _run(self, engine: Engine, scans: int, pace: Pace | None) -> Stop:
+        if not self.runnable:
+            raise RuntimeError("the program is stopped: it must not be run")
+        first, start = self.header.scan, monotonic_ns()
+        busy = pace.busy_ns if pace is not None else 0
+        stop = engine.run(scans, pace)
+        self.measured.scans += self.header.scan - first
+        self.measured.busy_ns += pace.busy_ns - busy if pace is not None else monotonic_ns() - start
+        return stop
+
+    def _waits(self) -> Waits:
+        return NOTHING if self.agenda is None else self.agenda.waits(self.view)
+
+    def _conditions(self, waits: Waits) -> tuple[Condition, ...]:
+        return waits.conditions if self.until is None else (self.until, *waits.conditions)
+
+    def _observe(self, waits: Waits) -> None:
+        """Observed code runs while statements are waited for, and no longer."""
+        if not waits.sites or self.agenda is None:
+            self._observed = None
+        elif self._observed is None or self._observed.loaded is not self.loaded:
+            self._observed = _Observed(self.loaded, *self.agenda.observed(self.loaded))
+
+    def _met(self, stop: Stop, waits: Waits) -> Met:
+        """What came true in the scan that just ended."""
+        held = self._held(waits) if stop.reason is Reason.CONDITION else NONE_MET.conditions
+        sites = NONE_MET.sites if self._observed is None else self._observed.observer.take().reached & waits.sites
+        return Met(held, sites)
+
+    def _held(self, waits: Waits) -> frozenset[str]:
+        return frozenset(each.text for each in waits.conditions if self.engine.holds(each))
+
+    def _attend(self, met: Met) -> None:
+        """Enters what is due in this seam. It has happened in any case, so it is never refused for want of room."""
+        if self.agenda is None:
+            return
+        while (command := self.agenda.due(self.view, met)) is not None:
+            outcome = self._enter(command, must=True)
+            if isinstance(outcome, Refusal):
+                self._enter(self.agenda.refused(command, outcome), must=True)
+
     # ---- the seam -------------------------------------------------------------------------------------------------
 
     def _enter(self, command: Command, must: bool) -> Entry | Refusal:
+        command = command.settled(self.view)
         plan = command.plan(self.view)
         if isinstance(plan, Refusal):
             return plan
@@ -183,6 +264,34 @@ class Resource:
         if asked and self.detect is not None:
             for command in self.detect.on_asked(asked, self.view):
                 self._enter(command, must=True)
+
+
+@dataclass(frozen=True, slots=True)
+class _Observed:
+    """Observed code of the program that runs."""
+
+    loaded: Loaded
+    engine: Engine
+    observer: Observer
+
+
+class Stops:
+    """Which engine was given which conditions last: giving them costs something, so it is done only when they change."""
+
+    def __init__(self) -> None:
+        self._engine: Engine | None = None
+        self._conditions: tuple[Condition, ...] = ()
+
+    def set(self, engine: Engine, conditions: tuple[Condition, ...]) -> None:
+        """This engine is to have these from now on, and no other has any."""
+        if self._engine is not None and self._engine is not engine and self._conditions:
+            self._engine.stop_when(None)
+            self._conditions = ()
+        same = len(conditions) == len(self._conditions) and all(map(is_, conditions, self._conditions))
+        self._engine = engine
+        if not same:
+            self._conditions = conditions
+            engine.stop_when(None, *conditions)
 
 
 def _not_kept(error: OSError) -> Refusal:

@@ -1,6 +1,6 @@
 """The seam between two scans: the only place where anything from outside enters the image."""
 
-from scanbench.runtime.command import Effect, Patch, Plan, Restarted
+from scanbench.runtime.command import Effect, Patch, Plan, Restarted, Swapped
 from scanbench.runtime.programs import Loaded, Programs
 from scanbench.runtime.restart import restarted
 from scanbench.runtime.swap import swapped
@@ -18,6 +18,8 @@ def apply(loaded: Loaded, programs: Programs, plan: Plan) -> Loaded:
 def _take_effect(loaded: Loaded, programs: Programs, effect: Effect) -> Loaded:
     if isinstance(effect, Restarted):
         loaded.memory[:] = restarted(loaded.program, loaded.memory, effect.kind)
+        return loaded
+    if not isinstance(effect, Swapped):
         return loaded
     new = programs.get(effect.version)
     new.memory[:], _ = swapped(loaded.program, loaded.memory, new.program, effect.fresh)

@@ -13,7 +13,8 @@ from pathlib import Path
 from struct import error as struct_error
 
 from scanbench.check.condition import Condition, compile_condition
-from scanbench.engines.engine import Engine, Pace, Stop
+from scanbench.engines.engine import Pace, Stop
+from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.checkpoints import Checkpoints
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.contents import Codec, KeptProgram
@@ -56,9 +57,6 @@ class Timeline:
         self.recording, self.resource = recording, resource
         self._kept = programs
         self._checkpoints = Checkpoints(recording)
-        self._condition: Condition | None = None
-        self._armed: Engine | None = None
-        """What has the condition now: always the engine of the live PLC, and never while anything is run again."""
         self._live: _Moment | None = None
         """Where the PLC stands while the past is shown."""
         self._sent = 0
@@ -68,18 +66,19 @@ class Timeline:
     @classmethod
     def begin(
         cls, path: Path, programs: Programs, version: int, sources: bytes, codec: Codec, by: str,
-        detect: Detect | None = None, limit: int = DEFAULT_LIMIT,
+        detect: Detect | None = None, limit: int = DEFAULT_LIMIT, agenda: Agenda | None = None,
     ) -> "Timeline":  # fmt: skip
         """A new run at scan 0 with a new file. `FileExistsError` when there is one of this name; `OSError`."""
         loaded = programs.get(version)
         recording = Recording.begin(path, loaded.program, version, sources, codec, by, limit)
         kept = KeptPrograms(recording, programs)
-        return cls(recording, Resource(loaded, programs=kept, detect=detect, recorder=recording), kept)
+        resource = Resource(loaded, programs=kept, detect=detect, recorder=recording, agenda=agenda)
+        return cls(recording, resource, kept)
 
     @classmethod
     def resume(
         cls, path: Path, programs_of: ProgramsOf, codec: Codec, until: int = 0, detect: Detect | None = None,
-        limit: int = DEFAULT_LIMIT,
+        limit: int = DEFAULT_LIMIT, agenda: Agenda | None = None,
     ) -> "Timeline":  # fmt: skip
         """Goes on with a run file, at scan `until` or at the last scan that it knows of, whichever is later.
 
@@ -89,7 +88,7 @@ class Timeline:
         try:
             programs = KeptPrograms(recording, programs_of(recording.programs))
             checkpoint, entries = recording.checkpoints[-1], recording.take_entries()
-            resource = open_at(recording, programs, checkpoint, entries, detect)
+            resource = open_at(recording, programs, checkpoint, entries, detect, agenda)
             end = recording.last_scan if recording.lost else max(until, recording.last_scan)
             replay(resource, entries[checkpoint.entries :], end)
             resource.settle()
@@ -159,8 +158,8 @@ class Timeline:
             return Refusal(PAST)
         program = self.resource.program
         outcome = self.resource.submit(command)
-        if self.resource.program is not program and self._condition is not None:
-            again = compile_condition(self.resource.program, self._condition.text)
+        if self.resource.program is not program and self.condition is not None:
+            again = compile_condition(self.resource.program, self.condition.text)
             self.stop_when(again if isinstance(again, Condition) else None)
         self._checkpoints.take_due(self.resource)
         return outcome
@@ -183,7 +182,6 @@ class Timeline:
         """Runs up to `scans` scans, but no more than to the next checkpoint: callers go on as long as they want to."""
         if self._live is not None:
             raise RuntimeError("the past is shown: the PLC waits")
-        self._arm()
         stop = self.resource.run(min(scans, self.slice()), pace)
         self._checkpoints.take_due(self.resource)
         return stop
@@ -195,28 +193,14 @@ class Timeline:
     @property
     def condition(self) -> Condition | None:
         """What `stop_when` was given; after a change of the program the same for the new one, if that is possible."""
-        return self._condition
+        return self.resource.until
 
     def stop_when(self, condition: Condition | None) -> None:
         """From now on the live PLC comes back after scans after which the condition holds; see `Engine.stop_when`.
 
         It stays in force through time travel, other programs and other engines.
         """
-        self._disarm()
-        self._condition = condition
-
-    def _arm(self) -> None:
-        engine = self.resource.engine
-        if self._condition is None or self._armed is engine:
-            return
-        self._disarm()
-        engine.stop_when(self._condition)
-        self._armed = engine
-
-    def _disarm(self) -> None:
-        if self._armed is not None:
-            self._armed.stop_when(None)
-            self._armed = None
+        self.resource.until = condition
 
     def note(self) -> None:
         """Marks where the run stands; keeps the file within its bounds. A few times a second is enough."""
@@ -307,7 +291,6 @@ class Timeline:
                 f"scan {scan} is not kept any more: the run can be gone back to scan {self.recording.first_scan}"
             )
         journal, resource = self.live_journal, self.resource
-        self._disarm()
         try:
             if was_past and self._whole and checkpoint.scan <= resource.header.scan <= scan:
                 resource.journal = resource.journal.prefix(len(resource.journal))  # what was shown keeps its own
@@ -359,7 +342,7 @@ class KeptPrograms:
 
 def open_at(
     recording: Recording, programs: KeptPrograms, checkpoint: Checkpoint, entries: Sequence[Entry],
-    detect: Detect | None = None,
+    detect: Detect | None = None, agenda: Agenda | None = None,
 ) -> Resource:  # fmt: skip
     """A resource that stands at a checkpoint of a run file; `RunFileError` when its programs are not what they were."""
     try:
@@ -372,7 +355,7 @@ def open_at(
             f"{recording.path.name} was recorded on another description of the model {recording.about.model} than the "
             f"one that is installed: use the models it was recorded with"
         )
-    resource = Resource(loaded, programs=programs, detect=detect, recorder=recording)
+    resource = Resource(loaded, programs=programs, detect=detect, recorder=recording, agenda=agenda)
     resource.restore(loaded, _state(recording, checkpoint, loaded), Journal(entries[: checkpoint.entries]))
     return resource
 

@@ -5,17 +5,22 @@ Only the classes listed here can be read, so that a message never makes anything
 
 import struct
 from collections.abc import Iterator
-from dataclasses import fields, is_dataclass
+from dataclasses import fields
 
 import msgpack  # type: ignore[import-untyped]
 
 from scanbench.check.violations import Violation, Violations
+from scanbench.faults.arm import ARMED, NUMBERED, Arm, ArmedInfo, Disarm, Missed
 from scanbench.faults.inject import ACTIVE, Active, Generate, Recover
+from scanbench.faults.preview import PreviewedWrite
+from scanbench.faults.reaction import Difference, Line, Reaction, Reader
 from scanbench.faults.reference import ErrorRef
+from scanbench.faults.shapes import Shape, Wanted
+from scanbench.faults.shapes import Start as FaultStart
 from scanbench.problems import Span
 from scanbench.runtime.carry_over import Lost
 from scanbench.runtime.clear_violations import ClearViolations
-from scanbench.runtime.command import Entry, Patch, Plan, Restarted, Swapped
+from scanbench.runtime.command import Entry, Numbered, Patch, Plan, Restarted, Swapped
 from scanbench.runtime.forces import FORCED, Force, Release
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
@@ -24,7 +29,7 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped
 from scanbench.runtime.write import Write
-from scanbench.session import protocol
+from scanbench.session import job_protocol, protocol
 
 LENGTH = struct.Struct("<I")
 LARGEST = 1 << 30
@@ -38,12 +43,18 @@ _CLASSES: dict[str, type] = {
         Lost, RecordingInfo, Restart, Restarted, SetClock, Swapped,
         protocol.Ack, protocol.Attend, protocol.Build, protocol.Copy, protocol.Diagnosed, protocol.Drive,
         protocol.Entered, protocol.Found, protocol.Frame, protocol.HostState, protocol.Lookup, protocol.Preview,
-        protocol.Previewed, protocol.Quit, protocol.Ready, protocol.RollBack, protocol.RunMark, protocol.RunMarks,
+        protocol.Previewed, protocol.Quit, protocol.Ready, protocol.NowRuns, protocol.RollBack, protocol.RunMark, protocol.RunMarks,
         protocol.SetLimits, protocol.Sources, protocol.Standing, protocol.Start, protocol.StartFailed,
         protocol.Submit, protocol.SymbolInfo, protocol.Travel, protocol.UnwatchIds, protocol.WantSnapshot,
         protocol.WatchItem, protocol.WatchPaths, protocol.Watching,
+        Arm, ArmedInfo, Disarm, Missed, Numbered, PreviewedWrite, Shape, Wanted, protocol.PreviewErrors,
+        protocol.PreviewedErrors, Difference, Line, Reaction, Reader,
+        job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.Reacted,
+        job_protocol.RunSweep, job_protocol.StartPoint, job_protocol.Trying,
     )
 }  # fmt: skip
+_CLASSES["FaultStart"] = FaultStart  # there is another Start
+_NAMES = {cls: name for name, cls in _CLASSES.items()}
 _FIELDS = {name: tuple(field.name for field in fields(cls)) for name, cls in _CLASSES.items()}
 
 
@@ -89,7 +100,7 @@ class Splitter:
 class EntryCodec:
     """How a run file keeps journal entries."""
 
-    folds = (FORCED, ACTIVE, TRAPPED)
+    folds = (FORCED, ACTIVE, TRAPPED, ARMED, NUMBERED)
 
     def pack(self, entry: Entry) -> bytes:
         """The bytes of an entry."""
@@ -114,9 +125,9 @@ def pack_body(message: object) -> bytes:
 
 
 def _write(value: object) -> msgpack.ExtType:
-    name = type(value).__name__
-    if not is_dataclass(value) or name not in _FIELDS:
-        raise TypeError(f"{name} is not in the protocol")
+    name = _NAMES.get(type(value))
+    if name is None:
+        raise TypeError(f"{type(value).__name__} is not in the protocol")
     return msgpack.ExtType(_OBJECT, pack_body([name, *(getattr(value, field) for field in _FIELDS[name])]))
 
 

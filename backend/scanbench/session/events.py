@@ -1,16 +1,19 @@
 """What a session tells its subscribers, in order. Value frames go beside these, as bytes."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Protocol
 
 from scanbench.check.violations import Violations
+from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.history import ErrorRow
 from scanbench.runtime.forces import Force
 from scanbench.runtime.recording import RecordingInfo
 from scanbench.runtime.trap import TrapInfo
 from scanbench.session.builds import BuildOutcome
 from scanbench.session.protocol import RunMark, WatchItem
+from scanbench.store.records import AcceptedRow, CellRow, SweepRow
 
 
 @dataclass(frozen=True, slots=True)
@@ -153,6 +156,24 @@ class Watching:
     items: tuple[WatchItem, ...]
 
 
+@dataclass(frozen=True, slots=True)
+class ArmedChanged:
+    """All faults that are armed, whenever they change."""
+
+    faults: tuple[ArmedInfo, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SweepChanged:
+    """A sweep of the project began, went on or ended."""
+
+    row: SweepRow
+    now: str
+    cells: tuple[CellRow, ...]
+    """Those that are new, or accepted or not any more."""
+    accepted: Mapping[tuple[str, str], AcceptedRow]
+
+
 Event = (
     StateChanged
     | ErrorsChanged
@@ -165,6 +186,8 @@ Event = (
     | ForcesChanged
     | DiagnosticsChanged
     | TimelineChanged
+    | ArmedChanged
+    | SweepChanged
     | Watching
 )
 

@@ -13,6 +13,7 @@ from contextlib import suppress
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Command
 from scanbench.session import protocol
@@ -210,7 +211,10 @@ class Instance:
                 if message.fresh:
                     self._memory.scan = 0
                 self._on_message(message)
-            case protocol.Ack() | protocol.Found() | protocol.Previewed():
+            case protocol.NowRuns():
+                self._memory.sources = message.sources
+                self._on_message(message)
+            case protocol.Ack() | protocol.Found() | protocol.Previewed() | protocol.PreviewedErrors():
                 self._answer(message.ref, message)
             case _:
                 self._on_message(message)
@@ -254,6 +258,12 @@ class Instance:
         """What a swap would do."""
         answer = await self._ask(lambda ref: protocol.Preview(ref, sources))
         assert isinstance(answer, protocol.Previewed)
+        return answer
+
+    async def preview_errors(self, errors: tuple[ErrorRef, ...], again: bool) -> protocol.PreviewedErrors:
+        """What raising these would write."""
+        answer = await self._ask(lambda ref: protocol.PreviewErrors(ref, errors, again))
+        assert isinstance(answer, protocol.PreviewedErrors)
         return answer
 
     async def build(self, sources: protocol.Sources, author: str) -> protocol.Ack:

@@ -4,7 +4,8 @@ import asyncio
 import logging
 from collections.abc import Callable, Sequence
 
-from scanbench.faults.history import ErrorRow
+from scanbench.faults.history import ErrorRow, RowReaction
+from scanbench.faults.reaction_json import from_json, to_json
 from scanbench.plcmodel.model import Model
 from scanbench.session.events import LogEntry
 from scanbench.store.records import HistoryRow, LogRow
@@ -40,10 +41,10 @@ class Keeper:
             self._task.cancel()
             await asyncio.gather(self._task, return_exceptions=True)
 
-    def keep_rows(self, instance: int, rows: Sequence[ErrorRow], program_version: int) -> None:
-        """Error history rows that changed."""
+    def keep_rows(self, instance: int, rows: Sequence[ErrorRow]) -> None:
+        """Error history rows that changed, of whatever version."""
         for row in rows:
-            self._jobs.put_nowait(_row_job(self._store, instance, row, program_version))
+            self._jobs.put_nowait(_row_job(self._store, instance, row))
 
     def keep_line(self, instance: int, line: LogEntry) -> None:
         """A line of the log."""
@@ -63,15 +64,28 @@ class Keeper:
                 self._jobs.task_done()
 
 
-def row_of(model: Model, kept: HistoryRow) -> ErrorRow | None:
-    """A row as the store has it; None for an error that the model no longer knows."""
+def row_of(model: Model, kept: HistoryRow) -> ErrorRow:
+    """A row as the store has it. An error of another version's catalogue keeps its id for a name."""
     error = model.error(kept.error)
-    if error is None:
-        return None
+    name, severity = (kept.error, "nonfatal") if error is None else (error.name, error.severity)
     return ErrorRow(
-        error.id, error.name, error.severity, kept.status, kept.code, kept.details, kept.generated_at,
-        kept.recovered_at, kept.generated_scan, kept.recovered_scan, kept.by, kept.origin, kept.count,
+        kept.error, name, severity, kept.status, kept.code, kept.details, kept.generated_at, kept.recovered_at,
+        kept.generated_scan, kept.recovered_scan, kept.by, kept.origin, kept.count, _reaction_of(kept),
+        kept.program_version,
     )  # fmt: skip
+
+
+def _reaction_of(kept: HistoryRow) -> RowReaction | None:
+    if kept.reaction_state is None:
+        return None
+    if kept.reaction_state == "done" and kept.reaction is not None:
+        try:
+            return RowReaction("done", from_json(kept.reaction))
+        except ValueError as error:
+            return RowReaction("failed", None, f"the database has no reaction that can be read: {error}")
+    if kept.reaction_state == "recording":
+        return RowReaction("recording")
+    return RowReaction("failed", None, kept.reaction_message)
 
 
 def line_of(kept: LogRow) -> LogEntry:
@@ -79,16 +93,24 @@ def line_of(kept: LogRow) -> LogEntry:
     return LogEntry(kept.at, kept.scan, kept.author, kept.text, kept.kind)
 
 
-def _row_job(store: Store, instance: int, row: ErrorRow, program_version: int) -> Callable[[], object]:
+def _row_job(store: Store, instance: int, row: ErrorRow) -> Callable[[], object]:
     def job() -> None:
         assert row.generated_at is not None
+        version, reaction = row.program_version, row.reaction
         store.record_generated(
-            instance, row.id, program_version=program_version, code=row.code, details=row.details,
+            instance, row.id, program_version=version, code=row.code, details=row.details,
             at=row.generated_at, scan=row.generated_scan or 0, by=row.by or "", origin=row.origin or "simulator",
             count=row.count,
         )  # fmt: skip
         if row.status == "cleared" and row.recovered_at is not None:
-            store.record_cleared(instance, row.id, at=row.recovered_at, scan=row.recovered_scan or 0)
+            store.record_cleared(
+                instance, row.id, program_version=version, at=row.recovered_at, scan=row.recovered_scan or 0
+            )
+        store.set_reaction(
+            instance, version, row.id, state=None if reaction is None else reaction.state,
+            reaction=None if reaction is None or reaction.found is None else to_json(reaction.found),
+            message="" if reaction is None else reaction.message,
+        )  # fmt: skip
 
     return job
 

@@ -4,6 +4,7 @@ import asyncio
 from collections.abc import Callable, Mapping, Sequence
 
 from scanbench.plcmodel.model import Model
+from scanbench.plcmodel.user_errors import USER_ERRORS
 from scanbench.session.builds import INTERVAL_NS, BuildOutcome, Change, Checker, CheckOutcome
 from scanbench.session.instance import Unavailable
 from scanbench.session.protocol import Sources
@@ -86,11 +87,11 @@ class Projects:
         sources = await self.sources(id) | dict(edited)
         return await self._checker.check(sources, self.model(project.model))
 
-    async def built(self, id: int) -> Sources | None:
-        """The last build that was accepted."""
+    async def built(self, id: int, version: int | None = None) -> Sources | None:
+        """A build that was accepted: the last one, or that of a `version`."""
         project = await self.get(id)
-        files = await asyncio.to_thread(self._store.last_build, id)
-        return None if files is None else Sources(project.model, files, INTERVAL_NS, project.version)
+        build = await asyncio.to_thread(self._store.build, id, version)
+        return None if build is None else Sources(project.model, build.sources, INTERVAL_NS, build.version)
 
     async def build(
         self, id: int, author: str, agreed: bool = True, instances: Sequence[int] | None = None
@@ -183,7 +184,9 @@ def _question(changes: Sequence[Change]) -> str:
 
 def _check_path(path: str) -> None:
     parts = path.split("/")
-    if not is_program_file(path) or len(path) > 200 or any(part.strip(". ") == "" for part in parts):
+    known = is_program_file(path) or path == USER_ERRORS
+    if not known or len(path) > 200 or any(part.strip(". ") == "" for part in parts):
         raise Refused(
-            f"{path!r} cannot be a file of a project: name it like motor.st, or {', '.join(ENDINGS[1:])}, or plant/inputs.csv"
+            f"{path!r} cannot be a file of a project: name it like motor.st, or {', '.join(ENDINGS[1:])}, or plant/inputs.csv; "
+            f"the project's own errors are in {USER_ERRORS}"
         )

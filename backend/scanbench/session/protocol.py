@@ -8,7 +8,10 @@ its command; `Standing` and `RunMarks` say what holds after all entries so far, 
 from dataclasses import dataclass
 
 from scanbench.check.violations import Violations
+from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.inject import Active
+from scanbench.faults.preview import PreviewedWrite
+from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.carry_over import Lost
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import Force
@@ -97,6 +100,15 @@ class Preview:
 
 
 @dataclass(frozen=True, slots=True)
+class PreviewErrors:
+    """What raising these would write now; answered with `PreviewedErrors`."""
+
+    ref: int
+    errors: tuple[ErrorRef, ...]
+    again: bool
+
+
+@dataclass(frozen=True, slots=True)
 class RollBack:
     """Swaps back in what ran before the last change of the program; answered with `Ack`."""
 
@@ -178,6 +190,13 @@ class Ready:
 
 
 @dataclass(frozen=True, slots=True)
+class NowRuns:
+    """Another program runs from the next entries on: what it is made of."""
+
+    sources: Sources
+
+
+@dataclass(frozen=True, slots=True)
 class StartFailed:
     """The program cannot be run at all."""
 
@@ -219,10 +238,11 @@ class HostState:
 
 @dataclass(frozen=True, slots=True)
 class Standing:
-    """What holds at the scan that is shown: forces, and the errors that are present."""
+    """What holds at the scan that is shown: forces, the errors that are present, the faults that are armed."""
 
     forces: tuple[Force, ...]
     errors: dict[str, Active]
+    armed: tuple[ArmedInfo, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
@@ -257,6 +277,17 @@ class Previewed:
     lost_count: int
     forgets: int
     refusal: str
+
+
+@dataclass(frozen=True, slots=True)
+class PreviewedErrors:
+    """Answer to `PreviewErrors`: what the plan says, or why it would be refused; `writes` in the order of the memory."""
+
+    ref: int
+    ok: bool
+    message: str
+    scan: int
+    writes: tuple[PreviewedWrite, ...]
 
 
 @dataclass(frozen=True, slots=True)

@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 
+from scanbench.plcmodel.user_errors import USER_ERRORS
 from scanbench.syntax.parse_file import is_program_file
 
 
@@ -35,5 +36,5 @@ def _texts(folder: Traversable, path: str) -> Iterator[tuple[str, str]]:
     for each in sorted(folder.iterdir(), key=lambda each: each.name):
         if each.is_dir():
             yield from _texts(each, f"{path}{each.name}/")
-        elif is_program_file(f"{path}{each.name}"):
+        elif is_program_file(f"{path}{each.name}") or f"{path}{each.name}" == USER_ERRORS:
             yield f"{path}{each.name}", each.read_text("utf-8")

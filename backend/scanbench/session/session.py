@@ -4,8 +4,13 @@ from collections.abc import Awaitable, Iterable, Sequence
 from pathlib import Path
 
 from scanbench.check.violations import Violations
+from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.history import ErrorRow, History
+from scanbench.faults.inject import Generate
+from scanbench.faults.reaction import Reaction
+from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.model import Model
+from scanbench.plcmodel.user_errors import model_for
 from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import Force
@@ -17,6 +22,8 @@ from scanbench.session.instance import Instance, Remembered, Unavailable
 from scanbench.session.keeper import Keeper
 from scanbench.session.load import Load, Loads
 from scanbench.session.marks import Marks, kind_of
+from scanbench.session.reacting import Raised, Reacting
+from scanbench.session.reactions import Reactions
 from scanbench.session.refused import Refused
 from scanbench.session.watches import Watches
 from scanbench.store.records import InstanceRow
@@ -25,6 +32,8 @@ LOG_LINES = 500
 LISTED = 100
 """Entries of one moment that get a line each."""
 _EVERYBODY = 0
+_LIVING = ("running", "paused", "stopped", "trapped", "fatal")
+"""States that a host tells of itself, with the version that runs."""
 
 
 class Session:
@@ -32,12 +41,14 @@ class Session:
 
     def __init__(
         self, row: InstanceRow, model: Model, memory: Remembered, keeper: Keeper,
-        rows: dict[str, ErrorRow], lines: Sequence[LogEntry], loads: Loads, cache: Path | None = None,
+        rows: Sequence[ErrorRow], lines: Sequence[LogEntry], loads: Loads, reactions: Reactions,
+        cache: Path | None = None,
     ) -> None:  # fmt: skip
-        self.row, self.model = row, model
+        """`model` is the device; the project's own errors come with the program that runs."""
+        self.row, self._device = row, model
         self._loads = loads
         self._keeper = keeper
-        self._history = History(model, rows)
+        self._history = History(model_for(model, memory.sources.files), memory.sources.version, rows)
         self._lines = list(lines)[-LOG_LINES:]
         self._subscribers: dict[int, Subscriber] = {}
         self._next_subscriber = 1
@@ -48,6 +59,11 @@ class Session:
         self._violations = Violations()
         self._forces: tuple[Force, ...] = ()
         self._past_rows: list[ErrorRow] = []
+        self._armed: tuple[ArmedInfo, ...] = ()
+        self._reacting = Reacting(reactions, lambda: self.run_file, self._on_reaction)
+        for known in rows:  # the run goes on, so what was being recorded is found out yet
+            if known.reaction is not None and known.reaction.state == "recording" and known.generated_scan is not None:
+                self._reacting.raised(Raised(known.id, known.generated_scan, known.program_version))
         self._timeline = Marks()
         self._instance = Instance(memory, self._on_state, self._on_message, cache)
         self._last_state = self._instance.state
@@ -73,6 +89,11 @@ class Session:
     def load(self) -> Load:
         """What the process cost lately; zeros while there is none."""
         return self._loads.of(self.state.pid)
+
+    @property
+    def model(self) -> Model:
+        """The model, with the errors of the project as the program that runs knows them."""
+        return model_for(self._device, self.sources.files)
 
     @property
     def sources(self) -> protocol.Sources:
@@ -105,6 +126,15 @@ class Session:
         return self._past_rows or self._history.rows
 
     @property
+    def history_versions(self) -> list[int]:
+        """Versions of the program that have an error history, that of the one that runs included."""
+        return self._history.versions
+
+    def rows_of(self, version: int, model: Model) -> list[ErrorRow]:
+        """The error history of a version of the program, which ran on this model."""
+        return self._history.rows_of(version, model)
+
+    @property
     def lines(self) -> list[LogEntry]:
         """The last lines of the log."""
         return list(self._lines)
@@ -113,6 +143,11 @@ class Session:
     def forces(self) -> tuple[Force, ...]:
         """The forces that hold, in the order in which they were made."""
         return self._forces
+
+    @property
+    def armed(self) -> tuple[ArmedInfo, ...]:
+        """The faults that are armed."""
+        return self._armed
 
     @property
     def violations(self) -> Violations:
@@ -133,6 +168,7 @@ class Session:
     async def stop(self) -> None:
         """Ends the PLC's process; its run is kept."""
         await self._instance.stop()
+        await self._reacting.close()
 
     async def change(self, row: InstanceRow, author: str) -> None:
         """Takes over a new name, new limits, and whether it is on."""
@@ -167,6 +203,15 @@ class Session:
         """A new run from scan 0; the old run file is kept aside."""
         return self._logged(await self._refusing(self._instance.begin_anew()), author)
 
+    async def preview_errors(self, errors: tuple[ErrorRef, ...], again: bool) -> protocol.PreviewedErrors:
+        """What raising these would write now."""
+        return await self._instance.preview_errors(errors, again)
+
+    def reaction(self, error: str) -> Reaction | None:
+        """How the program reacted to an error the last time it was raised; None where nobody compared."""
+        row = next((row for row in self._history.rows if row.id == error), None)
+        return None if row is None or row.reaction is None else row.reaction.found
+
     async def preview(self, sources: protocol.Sources) -> protocol.Previewed:
         """What a swap to these sources would do to the variables."""
         return await self._instance.preview(sources)
@@ -199,6 +244,10 @@ class Session:
     def told(self, author: str, text: str) -> None:
         """A line of the log."""
         self._add_line(LogEntry(wall_time(), self.state.scan, author, text, "run"))
+
+    def tell(self, event: Event) -> None:
+        """Something of the project that everybody here is told."""
+        self._publish(event)
 
     def told_saved(self, author: str, path: str, version: int) -> None:
         """Tells everybody here that a file was saved."""
@@ -262,6 +311,10 @@ class Session:
     def _on_state(self, state: PlcState) -> None:
         before, self._last_state = self._last_state, state
         self._publish(events.StateChanged(state))
+        if state.pid is not None and not state.past_by and state.state in _LIVING:
+            self._see_version(state.version, state.scan)
+        if not state.past_by:
+            self._reacting.reached(state.scan, state.state)
         if self._past_rows and not state.past_by:
             self._past_rows = []
             self._publish(events.ErrorsChanged(tuple(self._history.rows)))
@@ -285,6 +338,8 @@ class Session:
                 self._on_diagnosed(message.violations)
             case protocol.Ready():
                 self._on_ready(message)
+            case protocol.NowRuns():
+                self._history.take_model(self.model)
             case protocol.Watching():
                 self._on_watching(message)
 
@@ -297,14 +352,16 @@ class Session:
 
     def _on_entries(self, entries: Sequence[Entry]) -> None:
         """What was entered; a program that raises errors all the time is summed up, not listed."""
-        rows: dict[str, ErrorRow] = {}
+        rows: dict[tuple[int, str], ErrorRow] = {}
+        version = self._history.version
         for entry in entries:
-            rows.update((row.id, row) for row in self._history.fold(entry))
+            rows.update(((row.program_version, row.id), row) for row in self._history.fold(entry))
+            self._see_errors(entry)
             command = entry.command
             if isinstance(command, Write | Force):
                 forced = isinstance(command, Force)
                 self._publish(events.ValueWritten(command.path, command.author, entry.scan, forced))
-        self._publish_rows(list(rows.values()))
+        self._publish_rows(list(rows.values()), fresh=self._history.version != version)
         self._publish(self._timeline.add(entries))
         for entry in entries[:LISTED]:
             command = entry.command
@@ -313,13 +370,30 @@ class Session:
             last, more = entries[-1], len(entries) - LISTED
             self._add_line(LogEntry(last.at, last.scan, last.command.author, f"... and {more} more entries", "system"))
 
+    def _see_errors(self, entry: Entry) -> None:
+        """What may be reacted to, and where no reaction comes any more."""
+        command = entry.command
+        if entry.plan.effect is not None:
+            self._reacting.ended(entry.scan)
+        elif isinstance(command, Generate) and command.origin == "simulator":
+            for ref in command.errors:
+                self._reacting.raised(Raised(ref.id, entry.scan, self._history.version))
+
+    def _on_reaction(self, raised: Raised, found: Reaction | str) -> None:
+        row = self._history.set_reaction(raised.error, raised.version, raised.scan, found)
+        if row is not None:
+            self._publish_rows([row])
+
     def _on_standing(self, standing: protocol.Standing) -> None:
         """What holds now: also after a start, when entries of an earlier life or of a lost one count."""
         if standing.forces != self._forces:
             self._forces = standing.forces
             self._publish(events.ForcesChanged(self.forces))
+        if standing.armed != self._armed:
+            self._armed = standing.armed
+            self._publish(events.ArmedChanged(self._armed))
         if self.state.past_by:
-            self._past_rows = self._history.as_of(standing.errors, wall_time())
+            self._past_rows = self._history.as_of(standing.errors, wall_time(), self.state.version)
             self._publish(events.ErrorsChanged(tuple(self._past_rows)))
             return
         self._publish_rows(self._history.reconcile(standing.errors, wall_time()))
@@ -335,6 +409,12 @@ class Session:
                 self._add_line(LogEntry(wall_time(), each.first_scan, "PLC", text, "system"))
 
     def _on_ready(self, ready: protocol.Ready) -> None:
+        if ready.fresh:
+            self._reacting.forget()
+        self._history.take_model(self.model)
+        if ready.sources.version != self._history.version:
+            self._history.begin(ready.sources.version)
+            self._publish_rows((), fresh=True)
         if ready.message:
             self._add_line(LogEntry(wall_time(), self.state.scan, "server", ready.message, "system"))
         self._instance.tell(protocol.Attend(bool(self._subscribers)))
@@ -355,10 +435,17 @@ class Session:
 
     # ---- history and log ------------------------------------------------------------------------------------------
 
-    def _publish_rows(self, rows: Sequence[ErrorRow]) -> None:
-        if rows:
-            self._keeper.keep_rows(self.id, rows, self.state.version)
-            self._publish(events.ErrorsChanged(tuple(rows)))
+    def _see_version(self, version: int, scan: int) -> None:
+        """A run that goes on from its past may be back at a version that ran before, without an entry that says so."""
+        if version != self._history.version:
+            self._publish_rows(self._history.turn_to(version, wall_time(), scan), fresh=True)
+
+    def _publish_rows(self, rows: Sequence[ErrorRow], fresh: bool = False) -> None:
+        """Keeps and tells what changed; `fresh`: another version runs, whose rows are all others."""
+        self._keeper.keep_rows(self.id, rows)
+        now = self._history.rows if fresh else [row for row in rows if row.program_version == self._history.version]
+        if now and not self._past_rows:
+            self._publish(events.ErrorsChanged(tuple(now)))
 
     def _add_line(self, line: LogEntry) -> None:
         self._lines.append(line)

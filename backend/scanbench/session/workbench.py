@@ -19,10 +19,13 @@ from scanbench.session.keeper import Keeper, line_of, row_of
 from scanbench.session.load import Loads
 from scanbench.session.nursery import nursery
 from scanbench.session.projects import Projects
+from scanbench.session.reactions import Reactions
 from scanbench.session.refused import Refused
 from scanbench.session.runs import discard, discard_all, fresh_path, run_path, sources_of, sweep
 from scanbench.session.samples import samples
 from scanbench.session.session import LOG_LINES, Session
+from scanbench.session.states import States
+from scanbench.session.sweeps import Sweeps
 from scanbench.store.records import InstanceRow, Limits, NotFound, ProjectRow
 from scanbench.store.store import Store
 
@@ -47,12 +50,19 @@ class Workbench:
         self._loads, self._looked_at = Loads(), 0
         self._warming: asyncio.Task[None] | None = None
         self.projects = Projects(store, self.models, self._checker, self._sessions_of)
+        self._reactions = Reactions(self._cache)
+        self.states = States(store, data / "states")
+        self.sweeps = Sweeps(
+            store, self.states, self._cache, self._sessions_of, self.projects.built, self._open_state
+        )  # fmt: skip
 
     async def start(self) -> None:
         """Opens what the store holds, or the samples on the first start, and runs every instance."""
         self._keeper.start()
         await asyncio.to_thread(sweep, self._runs)
         await asyncio.to_thread(nursery().start)
+        await asyncio.to_thread(self.states.tidy)
+        await self.sweeps.start()
         if not await self.projects.all():
             await self._first_start()
         for instance in await asyncio.to_thread(self._store.instances):
@@ -75,7 +85,9 @@ class Workbench:
         if self._warming is not None:
             self._warming.cancel()
             await asyncio.gather(self._warming, return_exceptions=True)
+        await self.sweeps.close()
         await asyncio.gather(*(session.stop() for session in self._sessions.values()))
+        await self._reactions.close()
         await self._keeper.close()
         await self._checker.close()
 
@@ -171,6 +183,21 @@ class Workbench:
         session.told(author, "the run was imported")
         return session
 
+    async def _open_state(self, project: int, path: Path, name: str, author: str) -> Session:
+        """A new paused PLC of a project that goes on where a state was kept."""
+        row = await asyncio.to_thread(self._store.create_instance, project, name)
+        try:
+            await asyncio.to_thread(shutil.copyfile, path, run_path(self._runs, row.id))
+        except BaseException as error:
+            await asyncio.to_thread(self._store.delete_instance, row.id)
+            await asyncio.to_thread(discard_all, self._runs, row.id)
+            if isinstance(error, OSError):
+                raise Refused(f"the state cannot be copied: {error.strerror}") from error
+            raise
+        session = await self._open(row, paused=True)
+        session.told(author, "begun from a kept state")
+        return session
+
     def fresh_path(self) -> Path:
         """Where an upload may be written."""
         return fresh_path(self._runs, "import")
@@ -202,9 +229,8 @@ class Workbench:
             raise Refused(f"instance {row.name}: {project.name} has no accepted build on {project.model}")
         rows = [row_of(model, each) for each in await asyncio.to_thread(self._store.history, row.id)]
         lines = [line_of(each) for each in await asyncio.to_thread(self._store.log, row.id, LOG_LINES)]
-        kept = {each.id: each for each in rows if each is not None}
         memory = Remembered(row.name, sources, run_path(self._runs, row.id), row.limits, paused=paused)
-        session = Session(row, model, memory, self._keeper, kept, lines, self._loads, self._cache)
+        session = Session(row, model, memory, self._keeper, rows, lines, self._loads, self._reactions, self._cache)
         self._sessions[row.id] = session
         if row.powered:
             session.start()

@@ -1,11 +1,16 @@
 """What the store gives out: frozen data, and the refusals. This is the room's contract, with `store.Store`."""
 
+from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
 from typing import Literal
 
 Status = Literal["generated", "cleared"]
 Origin = Literal["simulator", "plc", "program"]
+ReactionState = Literal["recording", "done", "failed"]
+SweepStatus = Literal["running", "done", "cancelled", "interrupted", "failed"]
+Json = Mapping[str, object]
+"""What JSON can say; `faults.reaction_json` makes it and reads it."""
 
 
 class StoreError(Exception):
@@ -13,11 +18,11 @@ class StoreError(Exception):
 
 
 class NotFound(Exception):
-    """There is no such project, file or instance; the message names it."""
+    """There is no such project, file, instance, state, sweep or record; the message names it."""
 
 
 class NameTaken(Exception):
-    """Another project or instance has this name; the message says which."""
+    """Another project, instance or state has this name; the message says which."""
 
 
 class NotStorable(Exception):
@@ -97,7 +102,7 @@ class InstanceRow:
 
 @dataclass(frozen=True, slots=True)
 class HistoryRow:
-    """The last time an error of the catalogue was raised on an instance. Errors never raised have no row."""
+    """The last time an error was raised on an instance and a version of its program. Errors never raised have no row."""
 
     error: str
     program_version: int
@@ -111,6 +116,114 @@ class HistoryRow:
     by: str
     origin: Origin
     count: int
+    reaction_state: ReactionState | None = None
+    """None: nobody compared."""
+    reaction: Json | None = None
+    reaction_message: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class StateRow:
+    """A point in a run that was kept to begin sweeps from."""
+
+    id: int
+    project: int
+    name: str
+    instance: str
+    """Name of the PLC that it was taken from."""
+    scan: int
+    program_version: int
+    by: str
+    at: datetime
+
+
+@dataclass(frozen=True, slots=True)
+class SweptError:
+    """A row of a sweep's matrix: an error as the catalogue knew it then."""
+
+    id: str
+    name: str
+    code: str
+    severity: str
+    group: str
+
+
+@dataclass(frozen=True, slots=True)
+class SweepRow:
+    """Every error alone, from every state."""
+
+    id: int
+    project: int
+    instance_id: int | None
+    """None: that PLC is gone."""
+    instance: str
+    """The PLC's name when the sweep began."""
+    model: str
+    program_version: int
+    by: str
+    at: datetime
+    status: SweepStatus
+    message: str
+    window: int
+    states: tuple[str, ...]
+    errors: tuple[SweptError, ...]
+    seconds: float
+    done: int
+    """Cells that are there, those without a verdict included."""
+    counts: Mapping[str, int]
+    """Cells by verdict, without those that have none."""
+
+    @property
+    def total(self) -> int:
+        """Cells of the whole matrix."""
+        return len(self.states) * len(self.errors)
+
+
+@dataclass(frozen=True, slots=True)
+class CellRow:
+    """One error from one state."""
+
+    error: str
+    state: str
+    raised_scan: int
+    verdict: str | None
+    """None: it could not be raised or run, `note` says why."""
+    first_read: int | None = None
+    first_effect: int | None = None
+    difference_count: int = 0
+    note: str = ""
+    reaction: Json | None = None
+    """To be written; lists of cells come without, `cell_reaction` gives it."""
+
+
+@dataclass(frozen=True, slots=True)
+class AcceptedRow:
+    """Somebody accepted a finding."""
+
+    error: str
+    state: str
+    reason: str
+    by: str
+    at: datetime
+
+
+@dataclass(frozen=True, slots=True)
+class RecordInfo:
+    """A test record that came from elsewhere, without its text."""
+
+    id: int
+    project: int
+    title: str
+    by: str
+    """Who brought it in."""
+    at: datetime
+
+
+@dataclass(frozen=True, slots=True)
+class RecordRow(RecordInfo):
+    """And with it."""
+
+    text: str
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,9 +1,12 @@
 """From the tables' objects to the records that the store gives out."""
 
+from collections.abc import Mapping
 from typing import cast
 
 from scanbench.store.records import (
+    AcceptedRow,
     BuildRow,
+    CellRow,
     FileRow,
     HistoryRow,
     InstanceRow,
@@ -11,9 +14,27 @@ from scanbench.store.records import (
     LogRow,
     Origin,
     ProjectRow,
+    ReactionState,
+    RecordInfo,
+    StateRow,
     Status,
+    SweepRow,
+    SweepStatus,
+    SweptError,
 )
-from scanbench.store.tables import ErrorHistory, File, Instance, Log, ProgramVersion, Project
+from scanbench.store.tables import (
+    AcceptedFinding,
+    ErrorHistory,
+    File,
+    Instance,
+    Log,
+    ProgramState,
+    ProgramVersion,
+    Project,
+    Sweep,
+    SweepCell,
+    TestRecord,
+)
 
 
 def project(row: Project) -> ProjectRow:
@@ -52,7 +73,46 @@ def history(row: ErrorHistory) -> HistoryRow:
         by=row.by,
         origin=cast(Origin, row.origin),
         count=row.count,
+        reaction_state=cast(ReactionState | None, row.reaction_state),
+        reaction=row.reaction,
+        reaction_message=row.reaction_message,
     )
+
+
+def state(row: ProgramState) -> StateRow:
+    """A kept state."""
+    return StateRow(
+        row.id, row.project_id, row.name, row.instance, row.scan, row.program_version, row.by, row.at
+    )  # fmt: skip
+
+
+def sweep(row: Sweep, counts: Mapping[str | None, int]) -> SweepRow:
+    """A sweep; `counts` are its cells by verdict."""
+    return SweepRow(
+        id=row.id, project=row.project_id, instance_id=row.instance_id, instance=row.instance, model=row.model,
+        program_version=row.program_version, by=row.by, at=row.at, status=cast(SweepStatus, row.status),
+        message=row.message, window=row.window, states=tuple(row.states),
+        errors=tuple(SweptError(**each) for each in row.errors), seconds=row.seconds, done=sum(counts.values()),
+        counts={verdict: count for verdict, count in counts.items() if verdict is not None},
+    )  # fmt: skip
+
+
+def cell(row: SweepCell) -> CellRow:
+    """A cell without its reaction."""
+    return CellRow(
+        row.error, row.state, row.raised_scan, row.verdict, row.first_read, row.first_effect, row.difference_count,
+        row.note,
+    )  # fmt: skip
+
+
+def accepted(row: AcceptedFinding) -> AcceptedRow:
+    """An accepted finding."""
+    return AcceptedRow(row.error, row.state, row.reason, row.by, row.at)
+
+
+def record(row: TestRecord) -> RecordInfo:
+    """An imported record without its text."""
+    return RecordInfo(row.id, row.project_id, row.title, row.by, row.at)
 
 
 def log(row: Log) -> LogRow:

@@ -2,56 +2,35 @@
 
 import hashlib
 import json
-from collections.abc import Iterator, Mapping, Sequence
-from contextlib import contextmanager
+from collections.abc import Mapping, Sequence
 from datetime import datetime
 
 from sqlalchemy import delete, insert, select, update
 from sqlalchemy.exc import IntegrityError
-from sqlalchemy.orm import Session
 
 from scanbench.runtime.clock import wall_time
 from scanbench.store import rows
-from scanbench.store.database import WRITING, open_database
+from scanbench.store.connected import check, the_instance, the_project
+from scanbench.store.errors import Errors
+from scanbench.store.imported import ImportedRecords
 from scanbench.store.records import (
     BuildRow,
     Conflict,
     FileInfo,
     FileRow,
-    HistoryRow,
     InstanceRow,
     Limits,
     LogRow,
     NameTaken,
     NotFound,
-    NotStorable,
-    Origin,
     ProjectRow,
 )
-from scanbench.store.tables import AUTHOR, NAME, PATH, ErrorHistory, File, Instance, Log, ProgramVersion, Project
+from scanbench.store.sweeps import Sweeps
+from scanbench.store.tables import AUTHOR, NAME, PATH, File, Instance, Log, ProgramVersion, Project
 
 
-class Store:
-    """A database, with today's tables. `close` it at the end."""
-
-    def __init__(self, url: str) -> None:
-        """Opens it, and brings its tables up to date; `StoreError` says why it cannot."""
-        self._engine = open_database(url)
-        self._writer = self._engine.execution_options(**WRITING)
-
-    def close(self) -> None:
-        """Gives the connections back."""
-        self._engine.dispose()
-
-    @contextmanager
-    def _reading(self) -> Iterator[Session]:
-        with Session(self._engine) as session:
-            yield session
-
-    @contextmanager
-    def _writing(self) -> Iterator[Session]:
-        with Session(self._writer) as session, session.begin():
-            yield session
+class Store(Errors, Sweeps, ImportedRecords):
+    """A database, with today's tables: here projects, files, builds, instances and their log; `close` it at the end."""
 
     # ---- projects -----------------------------------------------------------------------------------------------
     def projects(self) -> list[ProjectRow]:
@@ -62,11 +41,11 @@ class Store:
     def project(self, project: int) -> ProjectRow:
         """One project."""
         with self._reading() as session:
-            return rows.project(_project(session, project))
+            return rows.project(the_project(session, project))
 
     def create_project(self, name: str, model: str, watch: Sequence[str] = ()) -> ProjectRow:
         """A new project without files; `watch` is what a fresh watch list begins with."""
-        _check("the name", name, NAME)
+        check("the name", name, NAME)
         try:
             with self._writing() as session:
                 made = Project(name=name, model=model, watch=list(watch), version=0, created=wall_time())
@@ -86,7 +65,7 @@ class Store:
     def files(self, project: int) -> list[FileInfo]:
         """The files of a project, by path."""
         with self._reading() as session:
-            _project(session, project)
+            the_project(session, project)
             columns = select(File.path, File.version, File.author, File.saved)
             found = session.execute(columns.where(File.project_id == project).order_by(File.path))
             return [FileInfo(path, version, author, saved) for path, version, author, saved in found]
@@ -94,14 +73,14 @@ class Store:
     def sources(self, project: int) -> dict[str, str]:
         """Path and text of every file of a project, as last saved."""
         with self._reading() as session:
-            _project(session, project)
+            the_project(session, project)
             columns = select(File.path, File.text).where(File.project_id == project).order_by(File.path)
             return {row.path: row.text for row in session.execute(columns)}
 
     def file(self, project: int, path: str) -> FileRow:
         """One file with its text."""
         with self._reading() as session:
-            _project(session, project)
+            the_project(session, project)
             found = session.get(File, (project, path))
             if found is None:
                 raise NotFound(f"there is no file {path!r} in this project")
@@ -109,12 +88,12 @@ class Store:
 
     def save_file(self, project: int, path: str, text: str, version: int, author: str) -> FileRow:
         """Saves a text that was edited from this `version` (0: a new file). `Conflict` if that is not the last one."""
-        _check("the path", path, PATH)
-        _check(path, text)
+        check("the path", path, PATH)
+        check(path, text)
         saved, author = wall_time(), author[:AUTHOR]
         try:
             with self._writing() as session:
-                _project(session, project)
+                the_project(session, project)
                 key = {"project_id": project, "path": path, "text": text, "author": author, "saved": saved}
                 if version == 0:
                     session.execute(insert(File).values(**key, version=1))
@@ -131,7 +110,7 @@ class Store:
     def delete_file(self, project: int, path: str, version: int | None = None) -> None:
         """Deletes a file; with a `version` only if it is still the last one."""
         with self._writing() as session:
-            _project(session, project)
+            the_project(session, project)
             found = session.get(File, (project, path), with_for_update=True)
             if found is None:
                 raise NotFound(f"there is no file {path!r} in this project")
@@ -174,7 +153,7 @@ class Store:
     def build(self, project: int, version: int | None = None) -> BuildRow | None:
         """An accepted build: the last one, or that of a `version`."""
         with self._reading() as session:
-            key = (project, _project(session, project).version if version is None else version)
+            key = (project, the_project(session, project).version if version is None else version)
             found = session.get(ProgramVersion, key)
             return None if found is None else rows.build(found)
 
@@ -186,10 +165,10 @@ class Store:
 
     def create_instance(self, project: int, name: str) -> InstanceRow:
         """A new virtual PLC for a project."""
-        _check("the name", name, NAME)
+        check("the name", name, NAME)
         try:
             with self._writing() as session:
-                _project(session, project)
+                the_project(session, project)
                 made = Instance(project_id=project, name=name, created=wall_time())
                 session.add(made)
                 session.flush()
@@ -202,10 +181,10 @@ class Store:
     ) -> InstanceRow:
         """Changes what is given."""
         if name is not None:
-            _check("the name", name, NAME)
+            check("the name", name, NAME)
         try:
             with self._writing() as session:
-                row = _instance(session, instance, lock=True)
+                row = the_instance(session, instance, lock=True)
                 row.name = row.name if name is None else name
                 row.powered = row.powered if powered is None else powered
                 if limits is not None:
@@ -223,70 +202,18 @@ class Store:
             if session.scalars(delete(Instance).where(Instance.id == instance).returning(Instance.id)).first() is None:
                 raise NotFound(f"there is no instance {instance}")
 
-    # ---- error history ------------------------------------------------------------------------------------------
-    def history(self, instance: int) -> list[HistoryRow]:
-        """The errors that were raised on an instance, by id."""
-        with self._reading() as session:
-            _instance(session, instance)
-            found = select(ErrorHistory).where(ErrorHistory.instance_id == instance).order_by(ErrorHistory.error)
-            return [rows.history(entry) for entry in session.scalars(found)]
-
-    def record_generated(
-        self,
-        instance: int,
-        error: str,
-        *,
-        program_version: int,
-        code: str,
-        details: str,
-        at: datetime,
-        scan: int,
-        by: str,
-        origin: Origin,
-        count: int | None = None,
-    ) -> HistoryRow:
-        """An error was raised: its row says so, and counts, or takes over the count."""
-        with self._writing() as session:
-            _instance(session, instance, lock=True)
-            row = session.get(ErrorHistory, (instance, error))
-            if row is None:
-                row = ErrorHistory(instance_id=instance, error=error, count=0)
-                session.add(row)
-            row.program_version, row.code, row.details, row.by, row.origin = (
-                program_version,
-                code,
-                details,
-                by[:AUTHOR],
-                origin,
-            )
-            row.status, row.count = "generated", row.count + 1 if count is None else count
-            row.generated_at, row.generated_scan, row.recovered_at, row.recovered_scan = at, scan, None, None
-            session.flush()
-            return rows.history(row)
-
-    def record_cleared(self, instance: int, error: str, *, at: datetime, scan: int) -> HistoryRow | None:
-        """An error was recovered; None if it was never raised."""
-        with self._writing() as session:
-            _instance(session, instance, lock=True)
-            row = session.get(ErrorHistory, (instance, error))
-            if row is None:
-                return None
-            row.status, row.recovered_at, row.recovered_scan = "cleared", at, scan
-            session.flush()
-            return rows.history(row)
-
     # ---- log ----------------------------------------------------------------------------------------------------
     def log(self, instance: int, limit: int) -> list[LogRow]:
         """The last `limit` lines, oldest first."""
         with self._reading() as session:
-            _instance(session, instance)
+            the_instance(session, instance)
             found = select(Log).where(Log.instance_id == instance).order_by(Log.id.desc()).limit(limit)
             return [rows.log(entry) for entry in reversed(session.scalars(found).all())]
 
     def add_log(self, instance: int, at: datetime, scan: int, author: str, kind: str, text: str) -> None:
         """One more line."""
         with self._writing() as session:
-            _instance(session, instance)
+            the_instance(session, instance)
             session.add(Log(instance_id=instance, at=at, scan=scan, author=author[:AUTHOR], kind=kind, text=text))
 
     def trim_log(self, instance: int, keep: int) -> None:
@@ -296,26 +223,3 @@ class Store:
             first = session.scalars(ids.offset(keep).limit(1)).first()
             if first is not None:
                 session.execute(delete(Log).where(Log.instance_id == instance, Log.id <= first))
-
-
-def _check(what: str, text: str, limit: int | None = None) -> None:
-    """The two databases differ in what they refuse; so it is refused here, with words."""
-    if "\x00" in text:
-        raise NotStorable(f"{what} contains a NUL character: remove it")
-    if limit is not None and not 0 < len(text) <= limit:
-        raise NotStorable(f"{what} has {len(text)} characters, 1 to {limit} are possible")
-
-
-def _project(session: Session, id: int) -> Project:
-    found = session.get(Project, id)
-    if found is None:
-        raise NotFound(f"there is no project {id}")
-    return found
-
-
-def _instance(session: Session, id: int, lock: bool = False) -> Instance:
-    """`lock`: until the end of the transaction nobody else changes what hangs on this instance."""
-    found = session.get(Instance, id, with_for_update=True if lock else None)
-    if found is None:
-        raise NotFound(f"there is no instance {id}")
-    return found

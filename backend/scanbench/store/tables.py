@@ -7,6 +7,7 @@ from sqlalchemy import (
     BigInteger,
     DateTime,
     Dialect,
+    Double,
     ForeignKey,
     Index,
     MetaData,
@@ -114,13 +115,13 @@ class Instance(Base):
 
 
 class ErrorHistory(Base):
-    """One row for an instance and an error of its model's catalogue that was raised at least once."""
+    """One row for an instance, a version of its program, and an error that was raised at least once on it."""
 
     __tablename__ = "error_history"
 
     instance_id: Mapped[int] = mapped_column(ForeignKey("instance.id", ondelete="CASCADE"), primary_key=True)
+    program_version: Mapped[int] = mapped_column(primary_key=True, autoincrement=False)
     error: Mapped[str] = mapped_column(String(ID), primary_key=True)
-    program_version: Mapped[int]
     status: Mapped[str] = mapped_column(String(16))
     code: Mapped[str] = mapped_column(String(16))
     details: Mapped[str] = mapped_column(Text)
@@ -131,6 +132,91 @@ class ErrorHistory(Base):
     by: Mapped[str] = mapped_column(String(AUTHOR))
     origin: Mapped[str] = mapped_column(String(16))
     count: Mapped[int]
+    reaction_state: Mapped[str | None] = mapped_column(String(16))
+    reaction: Mapped[dict[str, object] | None] = mapped_column(JSON(none_as_null=True))
+    reaction_message: Mapped[str] = mapped_column(Text, server_default="")
+
+
+class ProgramState(Base):
+    """A point in a run that was kept to begin sweeps from; the run file stands beside the database."""
+
+    __tablename__ = "program_state"
+    __table_args__ = (UniqueConstraint("project_id", "name"),)
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    project_id: Mapped[int] = mapped_column(ForeignKey("project.id", ondelete="CASCADE"))
+    name: Mapped[str] = mapped_column(String(NAME))
+    instance: Mapped[str] = mapped_column(String(NAME))
+    scan: Mapped[int] = mapped_column(BigInteger)
+    program_version: Mapped[int]
+    by: Mapped[str] = mapped_column(String(AUTHOR))
+    at: Mapped[datetime] = mapped_column(Moment)
+
+
+class Sweep(Base):
+    """Every error alone from every state. It outlives its instance: it is evidence."""
+
+    __tablename__ = "sweep"
+    __table_args__ = (Index(None, "project_id"),)
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    project_id: Mapped[int] = mapped_column(ForeignKey("project.id", ondelete="CASCADE"))
+    instance_id: Mapped[int | None] = mapped_column(ForeignKey("instance.id", ondelete="SET NULL"))
+    instance: Mapped[str] = mapped_column(String(NAME))
+    model: Mapped[str] = mapped_column(String(ID))
+    program_version: Mapped[int]
+    by: Mapped[str] = mapped_column(String(AUTHOR))
+    at: Mapped[datetime] = mapped_column(Moment)
+    status: Mapped[str] = mapped_column(String(16))
+    message: Mapped[str] = mapped_column(Text)
+    window: Mapped[int]
+    states: Mapped[list[str]] = mapped_column(JSON)
+    errors: Mapped[list[dict[str, str]]] = mapped_column(JSON)
+    seconds: Mapped[float] = mapped_column(Double)
+
+
+class SweepCell(Base):
+    """One error from one state. What is listed stands in columns, so that a matrix is read without its reactions."""
+
+    __tablename__ = "sweep_cell"
+
+    sweep_id: Mapped[int] = mapped_column(ForeignKey("sweep.id", ondelete="CASCADE"), primary_key=True)
+    error: Mapped[str] = mapped_column(String(ID), primary_key=True)
+    state: Mapped[str] = mapped_column(String(NAME), primary_key=True)
+    raised_scan: Mapped[int] = mapped_column(BigInteger)
+    verdict: Mapped[str | None] = mapped_column(String(16))
+    first_read: Mapped[int | None]
+    first_effect: Mapped[int | None]
+    difference_count: Mapped[int]
+    note: Mapped[str] = mapped_column(Text)
+    reaction: Mapped[dict[str, object] | None] = mapped_column(JSON(none_as_null=True), deferred=True)
+
+
+class AcceptedFinding(Base):
+    """Somebody accepted that a program does not react to an error in a state."""
+
+    __tablename__ = "accepted_finding"
+
+    project_id: Mapped[int] = mapped_column(ForeignKey("project.id", ondelete="CASCADE"), primary_key=True)
+    error: Mapped[str] = mapped_column(String(ID), primary_key=True)
+    state: Mapped[str] = mapped_column(String(NAME), primary_key=True)
+    reason: Mapped[str] = mapped_column(Text)
+    by: Mapped[str] = mapped_column(String(AUTHOR))
+    at: Mapped[datetime] = mapped_column(Moment)
+
+
+class TestRecord(Base):
+    """A test record that came from elsewhere, as it came."""
+
+    __tablename__ = "test_record"
+    __table_args__ = (Index(None, "project_id"),)
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    project_id: Mapped[int] = mapped_column(ForeignKey("project.id", ondelete="CASCADE"))
+    title: Mapped[str] = mapped_column(String(PATH))
+    text: Mapped[str] = mapped_column(Text, deferred=True)
+    by: Mapped[str] = mapped_column(String(AUTHOR))
+    at: Mapped[datetime] = mapped_column(Moment)
 
 
 class Log(Base):

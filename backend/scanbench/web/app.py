@@ -17,7 +17,15 @@ from scanbench.session.refused import Refused
 from scanbench.session.workbench import Workbench
 from scanbench.store.records import Conflict, NameTaken, NotFound, StoreError
 from scanbench.web import messages as wire
-from scanbench.web import routes_instances, routes_models, routes_projects, translate
+from scanbench.web import (
+    routes_errors,
+    routes_instances,
+    routes_models,
+    routes_projects,
+    routes_sweeps,
+    routes_user_errors,
+    translate,
+)
 from scanbench.web.auth import Gate, Guard
 from scanbench.web.pages import frontend_directory, not_built_page
 
@@ -58,7 +66,7 @@ def bare_app() -> FastAPI:
         title="Scanbench", version=__version__, docs_url=None, redoc_url=None, openapi_url="/api/openapi.json",
         responses={"4XX": {"model": wire.Refusal}},
     )  # fmt: skip
-    for routes in (routes_instances, routes_projects, routes_models):
+    for routes in (routes_instances, routes_errors, routes_sweeps, routes_projects, routes_user_errors, routes_models):
         app.include_router(routes.router)
     for error, status in _STATUS.items():
         app.add_exception_handler(error, _refusing(status))

@@ -1,4 +1,4 @@
-"""What goes over the wire: every JSON shape of the REST API and of the WebSocket, in one file.
+"""What goes over the wire: every JSON shape of the REST API and of the WebSocket, here and in `messages_errors.py`.
 
 The browser's types (`frontend/src/wire/messages.gen.ts`) are generated from these models through the OpenAPI
 document, so a change here is a compile error there. Binary value frames are described in `frames.py`.
@@ -6,17 +6,20 @@ document, so a change here is a compile error there. Binary value frames are des
 
 from typing import Annotated, Literal
 
-from pydantic import BaseModel, ConfigDict, Field
+from pydantic import Field
 
-
-class Wire(BaseModel):
-    """Base of all wire shapes: unknown fields are refused, so that a typing error never passes silently."""
-
-    model_config = ConfigDict(extra="forbid")
-
-
-Scan = Annotated[int, Field(ge=0, lt=1 << 63)]
-"""Number of a scan, or of scans."""
+from scanbench.web.messages_base import Scan, Wire
+from scanbench.web.messages_errors import (
+    Arm,
+    Armed,
+    ArmedFault,
+    Disarm,
+    ErrorGroup,
+    ErrorHistoryRow,
+    Generate,
+    Recover,
+    SweepProgress,
+)
 
 # ---- programs, files, problems -------------------------------------------------------------------------------
 
@@ -156,42 +159,12 @@ class Area(Wire):
     engine: Access
 
 
-class ErrorDetail(Wire):
-    """One thing to choose or enter when an error is raised."""
-
-    name: str = Field(description="key in the command line's and the API's `details`, e.g. `rack`")
-    control: Literal["List", "Spin", "Edit"]
-    description: str
-    address: str
-    choices: list["ErrorChoiceInfo"] = Field(default_factory=list, description="List: what can be chosen")
-    minimum: int | None = None
-    maximum: int | None = None
-    default: str = ""
-    base: int = 10
 
 
-class ErrorChoiceInfo(Wire):
-    id: str
-    description: str
-    address: str
 
 
-class ErrorInfo(Wire):
-    id: str
-    name: str
-    description: str
-    code: str = Field(description="four hex digits")
-    flag: str
-    severity: Literal["fatal", "nonfatal"]
-    verified: bool
-    source: str
-    details: list[ErrorDetail]
 
 
-class ErrorGroup(Wire):
-    name: str
-    groups: list["ErrorGroup"]
-    errors: list[ErrorInfo]
 
 
 class ModelSummary(Wire):
@@ -367,22 +340,6 @@ class Symbol(Wire):
     values: list[EnumValue] = Field(description="of an enumeration: the names of its numbers")
 
 
-class ErrorHistoryRow(Wire):
-    """One row per catalogue error: has it been tested?"""
-
-    id: str
-    name: str
-    severity: Literal["fatal", "nonfatal"]
-    status: Literal["never", "generated", "cleared"]
-    code: str
-    details: str
-    generated_at: str | None = Field(description="ISO 8601, UTC")
-    recovered_at: str | None
-    generated_scan: int | None
-    recovered_scan: int | None
-    by: str | None
-    origin: Literal["simulator", "plc", "program"] | None
-    count: int
 
 
 class Violation(Wire):
@@ -469,21 +426,10 @@ class Release(Wire):
     path: str | None = Field(description="null releases all")
 
 
-class GenerateOne(Wire):
-    id: str
-    details: dict[str, str] = Field(default_factory=dict, description="detail name to chosen entry or number")
 
 
-class Generate(Wire):
-    type: Literal["generate"] = "generate"
-    ref: int
-    errors: list[GenerateOne]
 
 
-class Recover(Wire):
-    type: Literal["recover"] = "recover"
-    ref: int
-    ids: list[str] | None = Field(description="null recovers every error that is generated")
 
 
 class SetMode(Wire):
@@ -544,6 +490,8 @@ ClientMessage = Annotated[
     | Release
     | Generate
     | Recover
+    | Arm
+    | Disarm
     | SetMode
     | Run
     | Restart
@@ -593,6 +541,7 @@ class Hello(Wire):
     errors: list[ErrorHistoryRow]
     log: list[LogLine]
     forces: list[ForceInfo]
+    armed: list[ArmedFault]
     diagnostics: Diagnostics
     timeline: Timeline
 
@@ -709,6 +658,8 @@ ServerMessage = Annotated[
     | Diagnostics
     | Timeline
     | Written
+    | Armed
+    | SweepProgress
     | Alive,
     Field(discriminator="type"),
 ]

@@ -14,6 +14,8 @@ from scanbench.store.records import Limits, NotFound
 from scanbench.web import messages as wire
 from scanbench.web import translate
 from scanbench.web.auth import user_of
+from scanbench.web.messages_base import Scan
+from scanbench.web.messages_errors import ErrorHistoryRow
 from scanbench.web.reach import Bench, SocketBench
 from scanbench.web.socket import Client
 
@@ -71,7 +73,7 @@ async def on_branch(bench: Bench, request: Request, instance: int, branch: wire.
 
 
 @router.get("/instances/{instance}/export", response_class=FileResponse)
-async def on_export(bench: Bench, request: Request, instance: int, scan: wire.Scan | None = None) -> FileResponse:
+async def on_export(bench: Bench, request: Request, instance: int, scan: Scan | None = None) -> FileResponse:
     """The run as one file, which replays byte for byte elsewhere; it ends before `scan`, or now."""
     name = f"{bench.session(instance).name}.scanrun"
     path = await bench.export(instance, scan, user_of(request).name)
@@ -126,7 +128,7 @@ async def on_complete(bench: Bench, instance: int, text: str = "") -> list[wire.
 
 
 @router.get("/instances/{instance}/errors")
-async def on_errors(bench: Bench, instance: int) -> list[wire.ErrorHistoryRow]:
+async def on_errors(bench: Bench, instance: int) -> list[ErrorHistoryRow]:
     """The error history, in the order of the catalogue."""
     return list(map(translate.error_row, bench.session(instance).rows))
 

@@ -12,8 +12,8 @@ from contextlib import suppress
 from fastapi import WebSocket, WebSocketDisconnect
 from pydantic import TypeAdapter, ValidationError
 
+from scanbench.faults.arm import Arm, Disarm
 from scanbench.faults.inject import Generate, Recover
-from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.command import Command
 from scanbench.runtime.forces import Force, Release
@@ -25,7 +25,8 @@ from scanbench.session.events import Event, User
 from scanbench.session.protocol import Ack
 from scanbench.session.session import Session
 from scanbench.web import messages as wire
-from scanbench.web import translate
+from scanbench.web import messages_errors as simulator
+from scanbench.web import translate, translate_errors
 
 WAITING_FRAMES = 4
 """So many frames not yet sent: the browser is slow, and gets a snapshot instead."""
@@ -37,8 +38,10 @@ _Commanding = (
     wire.Write
     | wire.Force
     | wire.Release
-    | wire.Generate
-    | wire.Recover
+    | simulator.Generate
+    | simulator.Recover
+    | simulator.Arm
+    | simulator.Disarm
     | wire.SetMode
     | wire.Restart
     | wire.ClearDiagnostics
@@ -116,6 +119,7 @@ class Client:
             errors=list(map(translate.error_row, self._session.rows)),
             log=list(map(translate.log_line, self._session.lines)),
             forces=list(map(translate.force, self._session.forces)),
+            armed=list(map(translate_errors.armed, self._session.armed)),
             diagnostics=translate.diagnostics(self._session.violations),
             timeline=translate.timeline(self._session.timeline),
         )
@@ -217,11 +221,14 @@ class Client:
                 return Force(author, message.path, message.value)
             case wire.Release():
                 return Release(author, message.path)
-            case wire.Generate():
-                refs = (ErrorRef(one.id, tuple(one.details.items())) for one in message.errors)
-                return Generate(author, tuple(refs))
-            case wire.Recover():
+            case simulator.Generate():
+                return Generate(author, translate_errors.refs(message.errors), again=message.again)
+            case simulator.Recover():
                 return Recover(author, None if message.ids is None else tuple(message.ids))
+            case simulator.Arm():
+                return Arm(author, translate_errors.wanted(message))
+            case simulator.Disarm():
+                return Disarm(author, None if message.ids is None else tuple(message.ids))
             case wire.SetMode():
                 return SetMode(author, message.mode)
             case wire.Restart():

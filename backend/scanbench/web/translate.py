@@ -1,7 +1,5 @@
 """The session's dataclasses -> wire shapes. Nothing is decided here."""
 
-from collections.abc import Iterable
-
 from scanbench.check.build import PouInfo
 from scanbench.check.program import CheckSite
 from scanbench.check.violations import Violation, Violations
@@ -17,6 +15,8 @@ from scanbench.session.protocol import SymbolInfo, WatchItem
 from scanbench.session.session import Session
 from scanbench.store.records import FileInfo, FileRow, ProjectRow
 from scanbench.web import messages as wire
+from scanbench.web import messages_errors as simulator
+from scanbench.web import translate_errors, translate_sweeps
 
 
 def user(who: User) -> wire.User:
@@ -151,14 +151,14 @@ def watched(item: WatchItem) -> wire.Watched:
     )
 
 
-def error_row(row: ErrorRow) -> wire.ErrorHistoryRow:
+def error_row(row: ErrorRow) -> simulator.ErrorHistoryRow:
     """A row of the error history."""
-    return wire.ErrorHistoryRow(
+    return simulator.ErrorHistoryRow(
         id=row.id, name=row.name, severity=row.severity, status=row.status, code=row.code, details=row.details,
         generated_at=None if row.generated_at is None else iso(row.generated_at),
         recovered_at=None if row.recovered_at is None else iso(row.recovered_at),
         generated_scan=row.generated_scan, recovered_scan=row.recovered_scan, by=row.by, origin=row.origin,
-        count=row.count,
+        count=row.count, reaction=translate_errors.in_short(row.reaction),
     )  # fmt: skip
 
 
@@ -230,6 +230,10 @@ def event(happened: events.Event) -> wire.ServerMessage:
             return diagnostics(happened.violations)
         case events.TimelineChanged():
             return timeline(happened)
+        case events.ArmedChanged():
+            return simulator.Armed(faults=list(map(translate_errors.armed, happened.faults)))
+        case events.SweepChanged():
+            return translate_sweeps.progress(happened)
         case events.ValueWritten():
             return wire.Written(
                 path=happened.path, author=happened.author, scan=happened.scan, forced=happened.forced
@@ -257,7 +261,7 @@ def model_info(model: plc.Model) -> wire.ModelInfo:
         areas=[_area(model, area, part) for area in model.areas for part in area.ranges],
         code_word=None if word is None else model.format(word.area, word.byte, word.bit, word.bits),
         status_words=list(model.status_words),
-        catalogue=_groups(model.catalogue),
+        catalogue=translate_errors.groups(model.catalogue),
     )
 
 
@@ -275,37 +279,3 @@ def _area(model: plc.Model, area: plc.Area, part: plc.AccessRange) -> wire.Area:
         tool=part.tool,
         engine=part.engine,
     )
-
-
-def _groups(groups: Iterable[plc.ErrorGroup]) -> list[wire.ErrorGroup]:
-    return [
-        wire.ErrorGroup(name=group.name, groups=_groups(group.groups), errors=list(map(_error, group.errors)))
-        for group in groups
-    ]
-
-
-def _error(error: plc.ErrorEntry) -> wire.ErrorInfo:
-    return wire.ErrorInfo(
-        id=error.id, name=error.name, description=error.description, code=error.code_text, flag=error.flag_text,
-        severity=error.severity, verified=error.verified, source=error.source,
-        details=list(map(_detail, error.details)),
-    )  # fmt: skip
-
-
-def _detail(detail: plc.ErrorDetail) -> wire.ErrorDetail:
-    first = detail.addresses[0]
-    choices = [
-        wire.ErrorChoiceInfo(id=each.id, description=each.description, address=each.text) for each in detail.addresses
-    ]
-    is_list = detail.control == "List"
-    return wire.ErrorDetail(
-        name=detail.name, control=detail.control, description=detail.description or first.description,
-        address="" if is_list else first.text, choices=choices if is_list else [],
-        minimum=None if is_list else first.minimum, maximum=None if is_list else first.maximum,
-        default=(detail.default or "") if is_list else _default(first), base=first.base,
-    )  # fmt: skip
-
-
-def _default(address: plc.ErrorAddress) -> str:
-    number = address.default if address.default is not None else address.minimum or 0
-    return f"{number:X}" if address.base == 16 else str(number)

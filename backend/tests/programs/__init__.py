@@ -6,6 +6,7 @@ the elementary types, and what a few of the `INGREDIENTS` add.
 
 from collections.abc import Sequence
 
+from tests.programs.areas import areas
 from tests.programs.calls import calls
 from tests.programs.derived import enumerations, parts_of_bits, subranges, unions
 from tests.programs.expressions import literal
@@ -20,7 +21,7 @@ from tests.programs.texts import dates, wide_strings
 
 INGREDIENTS: tuple[Ingredient, ...] = (
     calls, frames, library, enumerations, subranges, parts_of_bits, unions, open_arrays, wide_strings, dates, objects, enabled,
-    instruction_lists, tasks, references, pointers,
+    instruction_lists, tasks, areas, references, pointers,
 )  # fmt: skip
 """In the order in which they are added: the later ones refer to what the earlier ones declare."""
 ALWAYS = (TEXT, "INT", "BOOL")

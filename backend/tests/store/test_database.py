@@ -6,15 +6,20 @@ from concurrent.futures import ProcessPoolExecutor, ThreadPoolExecutor
 from pathlib import Path
 
 import pytest
+from alembic import command
 from alembic.autogenerate import compare_metadata
+from alembic.config import Config
 from alembic.migration import MigrationContext
 from sqlalchemy import text
 
+import scanbench.store
 from scanbench.store.__main__ import main
 from scanbench.store.database import database_url, open_database, writing
 from scanbench.store.records import Conflict, StoreError
 from scanbench.store.store import Store
 from scanbench.store.tables import Base
+
+MIGRATIONS = Path(scanbench.store.__file__).parent / "migrations"
 
 
 def test_the_migrations_make_exactly_the_tables(url: str) -> None:
@@ -34,6 +39,29 @@ def test_a_second_opening_finds_everything(url: str) -> None:
     assert second.projects() == [project]
     assert second.sources(project.id) == {"main.st": "text"}
     second.close()
+
+
+def test_a_history_of_before_its_versions_is_kept(url: str) -> None:
+    """What a server of issue 4's tables wrote is there behind the migration, with its version."""
+    engine = open_database(url)
+    with writing(engine) as connection:
+        config = Config()
+        config.set_main_option("script_location", str(MIGRATIONS))
+        config.attributes["connection"] = connection
+        command.downgrade(config, "0002")
+        moment = "2026-11-21 12:00:00+00:00" if engine.dialect.name == "postgresql" else "2026-11-21 12:00:00"
+        for line in (
+            f"INSERT INTO project VALUES (1, 'p', 'CJ1M-CPU63', '[]', 7, '{moment}')",
+            f"INSERT INTO instance (id, project_id, name, created) VALUES (1, 1, 'i', '{moment}')",
+            "INSERT INTO error_history VALUES"
+            f" (1, 'battery-error', 7, 'generated', '00F7', '', '{moment}', NULL, 5, NULL, 'ada', 'simulator', 3)",
+        ):
+            connection.execute(text(line))
+    engine.dispose()
+    store = Store(url)
+    (row,) = store.history(1)
+    assert (row.error, row.program_version, row.count, row.reaction_state) == ("battery-error", 7, 3, None)
+    store.close()
 
 
 def _open_and_count(url: str) -> int:

@@ -131,7 +131,7 @@ def generate(store: Store, instance: int, error: str, **changes: object) -> Hist
 def test_one_row_for_an_error_counts(store: Store) -> None:
     instance = store.create_instance(store.create_project("p", "CJ1M-CPU63").id, "i").id
     assert store.history(instance) == []
-    assert store.record_cleared(instance, "memory-error", at=NOON, scan=1) is None
+    assert store.record_cleared(instance, "memory-error", program_version=3, at=NOON, scan=1) is None
     row = generate(store, instance, "memory-error")
     assert row == HistoryRow(
         error="memory-error",
@@ -148,7 +148,7 @@ def test_one_row_for_an_error_counts(store: Store) -> None:
         count=1,
     )
     later = NOON + timedelta(minutes=1)
-    cleared = store.record_cleared(instance, "memory-error", at=later, scan=5000)
+    cleared = store.record_cleared(instance, "memory-error", program_version=3, at=later, scan=5000)
     assert cleared is not None
     assert (cleared.status, cleared.recovered_at, cleared.recovered_scan, cleared.count) == ("cleared", later, 5000, 1)
     again = generate(store, instance, "memory-error", scan=2**40, by="bob", origin="program")
@@ -156,6 +156,34 @@ def test_one_row_for_an_error_counts(store: Store) -> None:
     generate(store, instance, "battery-error")
     assert [row.error for row in store.history(instance)] == ["battery-error", "memory-error"]
     assert store.history(instance)[1] == again
+
+
+def test_every_version_of_the_program_has_rows_of_its_own(store: Store) -> None:
+    instance = store.create_instance(store.create_project("p", "CJ1M-CPU63").id, "i").id
+    old = generate(store, instance, "battery-error")
+    new = generate(store, instance, "battery-error", program_version=4, by="bob")
+    assert (old.count, new.count) == (1, 1)
+    assert store.history(instance, 3) == [old]
+    assert store.history(instance, 4) == [new]
+    assert store.history(instance, 5) == []
+    assert store.history(instance) == [old, new]
+    assert store.history_versions(instance) == [3, 4]
+    store.record_cleared(instance, "battery-error", program_version=4, at=NOON, scan=5)
+    assert store.history(instance, 3) == [old]
+
+
+def test_reactions_are_kept_as_they_came(store: Store) -> None:
+    instance = store.create_instance(store.create_project("p", "CJ1M-CPU63").id, "i").id
+    assert store.set_reaction(instance, 3, "battery-error", state="recording") is None
+    generate(store, instance, "battery-error")
+    told = {"verdict": "reacted", "differences": [{"path": "Main.灯", "output": True}], "first_read": None}
+    kept = store.set_reaction(instance, 3, "battery-error", state="done", reaction=told)
+    assert kept is not None
+    assert (kept.reaction_state, kept.reaction) == ("done", told)
+    assert store.history(instance) == [kept]
+    failed = store.set_reaction(instance, 3, "battery-error", state="failed", message="it died")
+    assert failed is not None
+    assert (failed.reaction_state, failed.reaction, failed.reaction_message) == ("failed", None, "it died")
 
 
 def test_moments_are_utc_whatever_they_came_as(store: Store) -> None:
@@ -191,7 +219,7 @@ def test_deleting_a_project_takes_everything_with_it(store: Store) -> None:
     assert store.instances() == []
     again = store.create_project("p", "CJ1M-CPU63").id
     assert store.files(again) == []
-    for ask in (store.files, store.last_build, store.history, lambda id: store.log(id, 1)):
+    for ask in (store.files, store.last_build, store.history, store.sweeps, store.states, lambda id: store.log(id, 1)):
         with pytest.raises(NotFound):
             ask(4711)
 

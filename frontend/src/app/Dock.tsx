@@ -6,7 +6,16 @@ import { closeDocument, holdsUnsaved, useDocuments } from "../store/documents";
 import { keep, recall } from "../store/keep";
 import { onNavigate } from "../store/navigate";
 import { components, HeaderEnd, PanelTab } from "./dockParts";
-import { closeFile, closeFiles, fileOf, filePanel, openFilePanel, restoreLayout, standardLayout } from "./layout";
+import {
+  closeFiles,
+  closeTab,
+  fileOf,
+  openFilePanel,
+  openPagePanel,
+  restoreLayout,
+  showFixedPanel,
+  standardLayout,
+} from "./layout";
 
 export interface DockHandle {
   reset: () => void;
@@ -45,17 +54,18 @@ export function Dock({ ref }: { ref: Ref<DockHandle> }) {
     });
     onNavigate({
       file: (path) => openFilePanel(dock, path),
-      panel: (name) => dock.getPanel(name)?.api.setActive(),
+      panel: (name) => showFixedPanel(dock, name),
+      page: (name) => openPagePanel(dock, name),
     });
   }, []);
 
   useFilesOfProject(api, project);
 
-  // A tab cannot hold a close button for the keyboard; Delete closes the file instead.
+  // A tab cannot hold a close button for the keyboard; Delete closes the file or page instead.
   function onKeyDown(event: KeyboardEvent): void {
     const tab = event.target instanceof HTMLElement ? event.target.closest(".dv-tab") : null;
-    const path = tab?.querySelector<HTMLElement>("[data-file]")?.dataset.file;
-    if (event.key === "Delete" && path !== undefined && api.current) closeFile(api.current, filePanel(path));
+    const panel = tab?.querySelector<HTMLElement>("[data-closes]")?.dataset.closes;
+    if (event.key === "Delete" && panel !== undefined && api.current) closeTab(api.current, panel);
   }
 
   return (

@@ -52,6 +52,9 @@ function dispatch(message: ServerMessage): void {
     case "errors":
       onErrors(message.rows);
       return;
+    case "armed":
+      usePlc.setState({ armed: message.faults });
+      return;
     case "log":
       onLog(message.lines);
       return;

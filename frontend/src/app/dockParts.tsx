@@ -1,5 +1,5 @@
 import type { IDockviewHeaderActionsProps, IDockviewPanelHeaderProps, IDockviewPanelProps } from "dockview-react";
-import { type MouseEvent, useEffect } from "react";
+import { type MouseEvent, type ReactNode, useEffect } from "react";
 import { allErrors } from "../logic/catalogue";
 import { baseName } from "../logic/paths";
 import { t } from "../logic/text";
@@ -12,10 +12,12 @@ import { ProblemsPanel } from "../panels/problems/ProblemsPanel";
 import { WatchPanel } from "../panels/watch/WatchPanel";
 import { useBench } from "../store/bench";
 import { isDirty, useDocuments } from "../store/documents";
+import { type PageName, pageOf } from "../store/navigate";
 import { usePlc } from "../store/plc";
 import { Icon, type IconName } from "../ui/Icon";
 import type { Pou } from "../wire/types";
-import { closeFile, fileOf } from "./layout";
+import { closeTab, fileOf } from "./layout";
+import { PAGES, pageComponents } from "./pages";
 import { Start } from "./Start";
 
 export const components = {
@@ -27,13 +29,16 @@ export const components = {
   log: LogPanel,
   errors: ErrorsPanel,
   history: HistoryPanel,
+  ...pageComponents,
 };
 
 /** The tab of a panel: icon and name, what is not saved, how many problems. */
 export function PanelTab({ api, containerApi }: IDockviewPanelHeaderProps) {
   const path = fileOf(api.id);
+  const page = pageOf(api.id);
+  if (page) return <PageTab page={page} api={api} onClose={() => closeTab(containerApi, api.id)} />;
   if (path === undefined) return <FixedTab api={api} />;
-  return <FileTab path={path} api={api} onClose={() => closeFile(containerApi, api.id)} />;
+  return <FileTab path={path} api={api} onClose={() => closeTab(containerApi, api.id)} />;
 }
 
 type PanelApi = IDockviewPanelHeaderProps["api"];
@@ -75,21 +80,48 @@ function FileTab({ path, api, onClose }: { path: string; api: PanelApi; onClose:
   const dirty = useDocuments((documents) => isDirty(documents.open[path]));
   const kind = useDocuments((documents) => documents.pous.find((pou) => pou.file === path)?.kind);
   useTitle(api, dirty ? `${baseName(path)}, ${t("unsaved")}` : baseName(path));
+  return (
+    <ClosableTab panel={api.id} name={path} onClose={onClose}>
+      <Icon name={kind ? ICONS[kind] : "init"} small />
+      {baseName(path)}
+      {dirty && <span className="dirty" title={t("unsaved")} />}
+    </ClosableTab>
+  );
+}
+
+function PageTab({ page, api, onClose }: { page: PageName; api: PanelApi; onClose: () => void }) {
+  const { icon, useTitle: usePageTitle } = PAGES[page];
+  const title = usePageTitle();
+  useTitle(api, title);
+  return (
+    <ClosableTab panel={api.id} name={page} onClose={onClose}>
+      <Icon name={icon} small />
+      {title}
+    </ClosableTab>
+  );
+}
+
+interface ClosableProps {
+  panel: string;
+  name: string;
+  onClose: () => void;
+  children: ReactNode;
+}
+
+function ClosableTab({ panel, name, onClose, children }: ClosableProps) {
   const close = (event: MouseEvent) => {
     event.preventDefault();
     event.stopPropagation();
     onClose();
   };
   return (
-    <span className="tab" title={path} data-file={path} onAuxClick={(event) => event.button === 1 && close(event)}>
-      <Icon name={kind ? ICONS[kind] : "init"} small />
-      {baseName(path)}
-      {dirty && <span className="dirty" title={t("unsaved")} />}
+    <span className="tab" title={name} data-closes={panel} onAuxClick={(event) => event.button === 1 && close(event)}>
+      {children}
       {/* Not a button: a tab must not contain one. By keyboard a tab is closed with Delete. */}
       <span
         className="x"
         title={t("close")}
-        data-testid={`close:${path}`}
+        data-testid={`close:${name}`}
         onPointerDown={(event) => event.stopPropagation()}
         onClick={close}
       >

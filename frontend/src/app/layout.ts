@@ -1,5 +1,6 @@
 /** The arrangement of panels: the usual one, and what this browser kept. */
 import type { AddPanelPositionOptions, DockviewApi, SerializedDockview } from "dockview-react";
+import { type PageName, pageOf } from "../store/navigate";
 
 const FILE = "file:";
 
@@ -61,8 +62,27 @@ export function openFilePanel(dock: DockviewApi, path: string): void {
   if (start) dock.removePanel(start);
 }
 
+/** Shows a page: its panel, or a new one where the files are, with the whole dock to itself until it is closed or put back. */
+export function openPagePanel(dock: DockviewApi, name: PageName): void {
+  const panel = dock.getPanel(name) ?? dock.addPanel({ id: name, component: name, position: editorPlace(dock) });
+  panel.api.setActive();
+  const start = dock.getPanel("start");
+  if (start) dock.removePanel(start);
+  if (!panel.api.isMaximized()) panel.api.maximize();
+}
+
+/** Shows a fixed panel; one that is hidden behind a page with the whole dock comes back into sight. */
+export function showFixedPanel(dock: DockviewApi, name: string): void {
+  const panel = dock.getPanel(name);
+  if (panel && dock.hasMaximizedGroup() && !panel.api.isMaximized()) dock.exitMaximizedGroup();
+  panel?.api.setActive();
+}
+
+/** Stands among the files in the centre. */
+const central = (id: string) => fileOf(id) !== undefined || pageOf(id) !== undefined;
+
 function editorPlace(dock: DockviewApi): AddPanelPositionOptions | undefined {
-  const neighbour = dock.getPanel("start") ?? dock.panels.findLast((panel) => fileOf(panel.id) !== undefined);
+  const neighbour = dock.getPanel("start") ?? dock.panels.findLast((panel) => central(panel.id));
   if (neighbour) return { referencePanel: neighbour };
   return dock.getPanel("watch") ? { referencePanel: "watch", direction: "above" } : undefined;
 }
@@ -71,14 +91,16 @@ function editorPlace(dock: DockviewApi): AddPanelPositionOptions | undefined {
 export function closeFiles(dock: DockviewApi, which: (path: string) => boolean): void {
   for (const panel of [...dock.panels]) {
     const path = fileOf(panel.id);
-    if (path !== undefined && which(path)) closeFile(dock, panel.id);
+    if (path !== undefined && which(path)) closeTab(dock, panel.id);
   }
 }
 
-export function closeFile(dock: DockviewApi, id: string): void {
+/** Closes a file or a page. */
+export function closeTab(dock: DockviewApi, id: string): void {
   const panel = dock.getPanel(id);
   if (!panel) return;
-  const others = dock.panels.filter((other) => other.id !== id && fileOf(other.id) !== undefined);
+  if (pageOf(id) && panel.api.isMaximized()) dock.exitMaximizedGroup();
+  const others = dock.panels.filter((other) => other.id !== id && central(other.id));
   if (others.length === 0) dock.addPanel({ id: "start", component: "start", position: { referencePanel: panel } });
   dock.removePanel(panel);
 }

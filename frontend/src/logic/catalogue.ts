@@ -1,7 +1,9 @@
 /** The error catalogue as rows: filtered, folded, with tri-state boxes and what was tested. */
-import type { ErrorGroup, ErrorHistoryRow, ErrorInfo } from "../wire/types";
+import type { ErrorGroup, ErrorHistoryRow, ErrorInfo, ReactionState, Verdict } from "../wire/types";
 
 export type ErrorStatus = ErrorHistoryRow["status"];
+/** By what is known of the reaction; a finding is what the program missed: nobody read it, or nothing came of it. */
+export type ReactionFilter = "all" | "findings" | "unknown" | Verdict;
 export type Check = "none" | "some" | "all";
 
 export interface GroupRow {
@@ -23,6 +25,7 @@ export interface LeafRow {
   checked: boolean;
   status: ErrorStatus;
   code: string;
+  reaction: ReactionState | null;
 }
 
 export type CatalogueRow = GroupRow | LeafRow;
@@ -30,6 +33,8 @@ export type CatalogueRow = GroupRow | LeafRow;
 export interface CatalogueView {
   filter: string;
   status: ErrorStatus | "all";
+  severity: ErrorInfo["severity"] | "all";
+  reaction: ReactionFilter;
   closed: ReadonlySet<string>;
   checked: ReadonlySet<string>;
   history: ReadonlyMap<string, ErrorHistoryRow>;
@@ -76,7 +81,7 @@ function groupRows(group: ErrorGroup, view: CatalogueView, level: number, parent
   const shown = allErrors([group]).filter((error) => passes(error, view));
   if (shown.length === 0) return [];
   const ids = shown.map((error) => error.id);
-  const open = !view.closed.has(key) || view.filter !== "";
+  const open = !view.closed.has(key) || view.filter.trim() !== "";
   const head: GroupRow = {
     kind: "group",
     key,
@@ -85,7 +90,7 @@ function groupRows(group: ErrorGroup, view: CatalogueView, level: number, parent
     open,
     check: checkOf(ids, view.checked),
     ids,
-    tested: ids.filter((id) => statusOf(id, view) !== "never").length,
+    tested: ids.filter((id) => isTested(view.history.get(id))).length,
   };
   if (!open) return [head];
   const leaves = group.errors
@@ -105,8 +110,20 @@ function leafRow(error: ErrorInfo, view: CatalogueView, level: number): LeafRow 
     checked: view.checked.has(error.id),
     status,
     code: status === "generated" && raised?.code ? raised.code : error.code,
+    reaction: raised?.reaction ?? null,
   };
 }
+
+/** Tested is an error when it is known what the program did about it. */
+export function isTested(row: ErrorHistoryRow | undefined): boolean {
+  return verdictOf(row) !== null;
+}
+
+export function verdictOf(row: ErrorHistoryRow | undefined): Verdict | null {
+  return row?.reaction?.state === "done" ? row.reaction.verdict : null;
+}
+
+export const isFinding = (verdict: Verdict | null): boolean => verdict === "never_read" || verdict === "no_effect";
 
 function statusOf(id: string, view: CatalogueView): ErrorStatus {
   return view.history.get(id)?.status ?? "never";
@@ -114,8 +131,17 @@ function statusOf(id: string, view: CatalogueView): ErrorStatus {
 
 function passes(error: ErrorInfo, view: CatalogueView): boolean {
   if (view.status !== "all" && statusOf(error.id, view) !== view.status) return false;
+  if (view.severity !== "all" && error.severity !== view.severity) return false;
+  if (!reactionPasses(verdictOf(view.history.get(error.id)), view.reaction)) return false;
   const wanted = view.filter.trim().toLowerCase();
-  return [error.name, error.code, error.flag, error.id].some((text) => text.toLowerCase().includes(wanted));
+  const names = (error.wordings ?? []).map((wording) => wording.name);
+  return [error.name, ...names, error.code, error.flag, error.id].some((text) => text.toLowerCase().includes(wanted));
+}
+
+function reactionPasses(verdict: Verdict | null, wanted: ReactionFilter): boolean {
+  if (wanted === "all") return true;
+  if (wanted === "findings") return isFinding(verdict);
+  return wanted === "unknown" ? verdict === null : verdict === wanted;
 }
 
 function checkOf(ids: readonly string[], checked: ReadonlySet<string>): Check {
@@ -135,19 +161,15 @@ export function toggleAll(ids: readonly string[], checked: ReadonlySet<string>):
   return next;
 }
 
-/** The details of an error as first shown: the default of each control, or its first choice, or its least number. */
-export function defaultDetails(error: ErrorInfo): Record<string, string> {
-  const entries = error.details.map((detail) => {
-    const fallback = detail.control === "List" ? detail.choices?.[0]?.id : detail.minimum?.toString();
-    return [detail.name, detail.default || (fallback ?? "")] as const;
-  });
-  return Object.fromEntries(entries);
+/** The row to go to for typed letters: the next one behind `from` whose name, code or flag begins with them. */
+export function rowFor(rows: readonly CatalogueRow[], typed: string, from: number): CatalogueRow | undefined {
+  const wanted = typed.toLowerCase();
+  const inTurn = [...rows.slice(from), ...rows.slice(0, from)];
+  return inTurn.find((row) =>
+    textsOf(row).some((text) => text.toLowerCase().startsWith(wanted)),
+  );
 }
 
-/** The reason why an entry of a Spin control is not valid, or null. The server checks again. */
-export function outOfRange(text: string, minimum: number | null, maximum: number | null, base: number): boolean {
-  const digits = base === 16 ? /^[0-9a-f]+$/i : /^-?\d+$/;
-  if (!digits.test(text.trim())) return true;
-  const value = Number.parseInt(text, base);
-  return (minimum !== null && value < minimum) || (maximum !== null && value > maximum);
+function textsOf(row: CatalogueRow): string[] {
+  return row.kind === "group" ? [row.name] : [row.error.name, row.error.code, row.error.flag];
 }

@@ -16,3 +16,15 @@ export function withName(expression: string, refusal: string, name: string): str
 function escaped(text: string): string {
   return text.replace(/[.*+?^${}()|[\]\\]/g, "\\$&");
 }
+
+/** The path that is being typed in front of the caret: what to complete. Empty when it is none. */
+export function pathBefore(text: string, caret: number): string {
+  const found = /(?:%|[A-Za-z_])[\w.%[\]:]*$/.exec(text.slice(0, caret))?.[0] ?? "";
+  return WORDS.has(found.toUpperCase()) ? "" : found;
+}
+
+/** The condition with the path in front of the caret completed, and where the caret then stands. */
+export function withPath(text: string, caret: number, path: string): { text: string; caret: number } {
+  const from = caret - pathBefore(text, caret).length;
+  return { text: text.slice(0, from) + path + text.slice(caret), caret: from + path.length };
+}

@@ -8,7 +8,7 @@ import { loadProject, messageOf } from "./documents";
 import { resetForces } from "./forces";
 import { keep, recall } from "./keep";
 import { resetMembers } from "./members";
-import { resetPlc } from "./plc";
+import { resetPlc, usePlc } from "./plc";
 import { resetSimulator } from "./simulator";
 import { resetTimeline } from "./timeline";
 import { loadWatchList } from "./watchlist";
@@ -70,13 +70,22 @@ async function look(project: Project, instance: Instance | null): Promise<void> 
   resetMembers(instance?.id ?? null);
   link.connect(instance?.id ?? null);
   loadWatchList(instance?.id ?? null, instance?.project.watch ?? []);
-  await Promise.all([other ? loadProject(project.id) : null, loadModel(instance?.model ?? project.model)]);
+  await Promise.all([other ? loadProject(project.id) : null, loadModel()]);
 }
 
-async function loadModel(name: string): Promise<void> {
-  const model = await rest.model(name);
-  set({ model });
+/** The model as the PLC has it, with the errors that its program's project added; a project without a PLC has the model alone. */
+async function loadModel(): Promise<void> {
+  const { project, instance } = get();
+  if (!project) return;
+  const model = await (instance ? rest.instanceModel(instance.id) : rest.model(project.model));
+  const now = get();
+  if (now.project?.id === project.id && now.instance?.id === instance?.id) set({ model });
 }
+
+// Another program of the project may have other errors of its own.
+usePlc.subscribe(({ state: now }, { state: before }) => {
+  if (now && before && now.program_version !== before.program_version) loadModel().catch(() => undefined);
+});
 
 /** Makes a project with a first program and an instance that runs it. Throws what the server said when it refuses. */
 export async function createProject(name: string, model: string, instanceName: string): Promise<void> {

@@ -2,6 +2,11 @@
 import { create } from "zustand";
 
 export type PanelName = "watch" | "problems" | "log" | "errors" | "history";
+/** What stands among the files in the centre without being one: opened when asked for, closed like a file. */
+const PAGES = ["sweep"] as const;
+export type PageName = (typeof PAGES)[number];
+
+export const pageOf = (panel: string): PageName | undefined => PAGES.find((name) => name === panel);
 
 interface Place {
   path: string;
@@ -18,8 +23,12 @@ interface Navigation {
 
 export const useNavigation = create<Navigation>(() => ({ place: null }));
 
-type Opener = { file: (path: string) => void; panel: (name: PanelName) => void };
-let opener: Opener = { file: () => undefined, panel: () => undefined };
+type Opener = {
+  file: (path: string) => void;
+  panel: (name: PanelName) => void;
+  page: (name: PageName) => void;
+};
+let opener: Opener = { file: () => undefined, panel: () => undefined, page: () => undefined };
 
 export function onNavigate(next: Opener): void {
   opener = next;
@@ -33,4 +42,8 @@ export function openFile(path: string, line?: number, column = 1): void {
 
 export function showPanel(name: PanelName): void {
   opener.panel(name);
+}
+
+export function openPage(name: PageName): void {
+  opener.page(name);
 }

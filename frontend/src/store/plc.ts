@@ -3,7 +3,7 @@ import { create } from "zustand";
 import { type Deed, forbidden } from "../logic/permits";
 import { t } from "../logic/text";
 import type { LinkStatus } from "../wire/socket";
-import type { Diagnostics, ErrorHistoryRow, Hello, InstanceState, LogLine, User } from "../wire/types";
+import type { ArmedFault, Diagnostics, ErrorHistoryRow, Hello, InstanceState, LogLine, User } from "../wire/types";
 import { setClock } from "./clock";
 
 export type { LinkStatus } from "../wire/socket";
@@ -16,6 +16,8 @@ interface Plc {
   you: User | null;
   users: User[];
   errors: ReadonlyMap<string, ErrorHistoryRow>;
+  /** Faults with a shape that are not over. */
+  armed: readonly ArmedFault[];
   log: readonly LogLine[];
   /** What the compiler's embedded checks found while the program ran. */
   diagnostics: Diagnostics;
@@ -29,6 +31,7 @@ const nothing: Plc = {
   you: null,
   users: [],
   errors: new Map(),
+  armed: [],
   log: [],
   diagnostics: NO_DIAGNOSTICS,
 };
@@ -59,6 +62,7 @@ export function onHello(hello: Hello): void {
     you: hello.you,
     users: hello.users,
     errors: new Map(hello.errors.map((row) => [row.id, row])),
+    armed: hello.armed,
     log: hello.log,
     diagnostics: hello.diagnostics,
   });

@@ -1,33 +1,50 @@
-/** What is chosen in the error simulator, and its three commands. */
+/** What is chosen in the error simulator, what is typed there, and its commands. */
 import { create } from "zustand";
-import { allErrors, defaultDetails, type ErrorStatus, toggleAll } from "../logic/catalogue";
+import { type ErrorStatus, type ReactionFilter, toggleAll } from "../logic/catalogue";
+import { defaultEntries, type Entries, type Entry, needsDetails, wireDetails } from "../logic/details";
+import { isPlain, plainShape, readShape, type ShapeForm } from "../logic/shapes";
 import { send } from "../wire/send";
-import type { ErrorInfo, ModelInfo } from "../wire/types";
+import type { ErrorInfo, GenerateOne } from "../wire/types";
+import { readClock } from "./clock";
 import { usePlc } from "./plc";
 
 export interface Outcome {
   ok: boolean;
   message: string;
+  /** What it was about. */
+  ids: readonly string[];
+  /** Of these, the ones that are generated already: generating them again changes their details. */
+  present: readonly string[];
 }
 
 interface Simulator {
   filter: string;
   status: ErrorStatus | "all";
+  severity: ErrorInfo["severity"] | "all";
+  reaction: ReactionFilter;
   closed: ReadonlySet<string>;
   checked: ReadonlySet<string>;
   selected: string | null;
   /** Details as edited, by error; the others stand at their defaults. */
-  details: Readonly<Record<string, Record<string, string>>>;
+  details: Readonly<Record<string, Entries>>;
+  /** When the next fault begins and how it goes on. */
+  shape: ShapeForm;
+  /** The dialog for several errors is open, with these. */
+  asking: readonly string[] | null;
   outcome: Outcome | null;
 }
 
 const nothing: Simulator = {
   filter: "",
   status: "all",
+  severity: "all",
+  reaction: "all",
   closed: new Set(),
   checked: new Set(),
   selected: null,
   details: {},
+  shape: plainShape,
+  asking: null,
   outcome: null,
 };
 
@@ -39,9 +56,11 @@ export function resetSimulator(): void {
   set(nothing);
 }
 
-export const setFilter = (filter: string) => set({ filter });
-export const setStatusFilter = (status: ErrorStatus | "all") => set({ status });
+type Filters = Pick<Simulator, "filter" | "status" | "severity" | "reaction">;
+export const setFilters = (filters: Partial<Filters>) => set(filters);
 export const selectError = (selected: string | null) => set({ selected, outcome: null });
+export const setShape = (change: Partial<ShapeForm>) => set(({ shape }) => ({ shape: { ...shape, ...change } }));
+export const closeDialog = () => set({ asking: null });
 
 export function toggleChecked(ids: readonly string[]): void {
   set(({ checked }) => ({ checked: toggleAll(ids, checked), outcome: null }));
@@ -55,10 +74,16 @@ export function toggleGroup(key: string): void {
   });
 }
 
-export function setDetail(error: ErrorInfo, name: string, value: string): void {
-  set(({ details }) => ({
-    details: { ...details, [error.id]: { ...(details[error.id] ?? defaultDetails(error)), [name]: value } },
-  }));
+export function entriesOf({ details }: Pick<Simulator, "details">, error: ErrorInfo): Entries {
+  return details[error.id] ?? defaultEntries(error);
+}
+
+export function setDetail(error: ErrorInfo, name: string, entry: Entry): void {
+  setEntries(error, { ...entriesOf(get(), error), [name]: entry });
+}
+
+export function setEntries(error: ErrorInfo, entries: Entries): void {
+  set(({ details }) => ({ details: { ...details, [error.id]: entries } }));
 }
 
 /** What the buttons work on: what is ticked, else the selected error; the key of a group begins with a slash. */
@@ -67,14 +92,55 @@ export function targets(state: Pick<Simulator, "checked" | "selected">): string[
   return state.selected === null || state.selected.startsWith("/") ? [] : [state.selected];
 }
 
-export async function generate(model: ModelInfo): Promise<void> {
-  const state = get();
+/** Several errors are asked for in a dialog; those of one stand in place, unless another error is shown there. */
+export function asksFirst(state: Pick<Simulator, "checked" | "selected">, errors: readonly ErrorInfo[]): boolean {
+  const chosen = chosenOf(state, errors);
+  if (chosen.length === 1 && chosen[0]?.id === state.selected) return false;
+  return chosen.some(needsDetails);
+}
+
+/** The errors that the buttons work on, in the order of the catalogue. */
+export function chosenOf(state: Pick<Simulator, "checked" | "selected">, errors: readonly ErrorInfo[]): ErrorInfo[] {
   const wanted = new Set(targets(state));
-  const errors = allErrors(model.catalogue)
-    .filter((error) => wanted.has(error.id))
-    .map((error) => ({ id: error.id, details: state.details[error.id] ?? defaultDetails(error) }));
-  if (errors.length === 0) return;
-  await report(send({ type: "generate", errors }));
+  return errors.filter((error) => wanted.has(error.id));
+}
+
+/** Opens the dialog for what is chosen, whether it needs details or not. */
+export function askDetails(errors: readonly ErrorInfo[]): void {
+  const chosen = chosenOf(get(), errors);
+  if (chosen.length > 0) set({ asking: chosen.map((error) => error.id), outcome: null });
+}
+
+/** Raises what is chosen; asks for the details first where several need some. */
+export async function generate(errors: readonly ErrorInfo[]): Promise<void> {
+  if (asksFirst(get(), errors)) askDetails(errors);
+  else await raise(chosenOf(get(), errors));
+}
+
+export const asWanted = (errors: readonly ErrorInfo[]): GenerateOne[] =>
+  errors.map((error) => ({ id: error.id, details: wireDetails(error, entriesOf(get(), error)) }));
+
+/** Raises these in one seam, or arms them when they come later, one by one or not to stay. True when it was accepted. */
+export async function raise(errors: readonly ErrorInfo[], { gap = 0, again = false } = {}): Promise<boolean> {
+  if (errors.length === 0) return false;
+  const { shape: form } = get();
+  const wanted = asWanted(errors);
+  if (again || (isPlain(form) && gap === 0)) return report(send({ type: "generate", errors: wanted, again }), errors);
+  const { start, shape, troubles } = readShape(form, readClock().scan);
+  if (Object.keys(troubles).length > 0) return false;
+  const accepted = await report(send({ type: "arm", errors: wanted, start, shape, gap }), errors);
+  // The next error is an ordinary one again, unless somebody says otherwise.
+  if (accepted) set(({ shape: now }) => ({ shape: { ...now, when: "now", how: "stay" } }));
+  return accepted;
+}
+
+/** What was refused because some of it is present, once more: what is present takes the details that are shown now. */
+export async function changeDetails(errors: readonly ErrorInfo[], outcome: Outcome): Promise<void> {
+  const ids = new Set(outcome.ids);
+  await raise(
+    errors.filter((error) => ids.has(error.id)),
+    { again: true },
+  );
 }
 
 /** Recovers those of the chosen errors that are generated; `everything` recovers all there are. */
@@ -84,15 +150,24 @@ export async function recover(everything: boolean): Promise<void> {
   await report(send({ type: "recover", ids }));
 }
 
-/** The way out of a fatal stop: recovers the fatal errors, the others stay. */
-export async function clearFatal(): Promise<void> {
-  const rows = [...usePlc.getState().errors.values()];
-  const ids = rows.filter((row) => row.status === "generated" && row.severity === "fatal").map((row) => row.id);
-  await report(send({ type: "recover", ids: ids.length > 0 ? ids : null }));
+/** Takes faults back; null is all of them. */
+export async function disarm(ids: number[] | null): Promise<void> {
+  await report(send({ type: "disarm", ids }));
 }
 
-async function report(answer: ReturnType<typeof send>): Promise<void> {
+/** The way out of a fatal stop: recovers the fatal errors, the others stay. True when it was done. */
+export async function clearFatal(): Promise<boolean> {
+  const rows = [...usePlc.getState().errors.values()];
+  const ids = rows.filter((row) => row.status === "generated" && row.severity === "fatal").map((row) => row.id);
+  return report(send({ type: "recover", ids: ids.length > 0 ? ids : null }));
+}
+
+async function report(answer: ReturnType<typeof send>, errors: readonly ErrorInfo[] = []): Promise<boolean> {
   set({ outcome: null });
-  const { ok, message } = await answer;
-  set({ outcome: { ok, message } });
+  const { ok, message, near } = await answer;
+  const ids = errors.map((error) => error.id);
+  const raised = usePlc.getState().errors;
+  const present = ok ? [] : (near ?? []).filter((id) => ids.includes(id) && raised.get(id)?.status === "generated");
+  set({ outcome: { ok, message, ids, present } });
+  return ok;
 }

@@ -11,6 +11,8 @@ interface Props {
   action: string;
   /** What it is called unless somebody types; may change with what else is filled in. */
   initial?: string;
+  /** What is said when nothing was entered. */
+  missing?: string;
   /** Throws what was wrong; it is shown below the field. */
   onName: (name: string) => Promise<void>;
   onClose: () => void;
@@ -19,7 +21,7 @@ interface Props {
 }
 
 /** A dialog that asks for one name. */
-export function AskName({ title, about, label, action, initial = "", onName, onClose, children }: Props) {
+export function AskName({ title, about, label, action, initial = "", missing = t("name.missing"), onName, onClose, children }: Props) {
   const [typed, setTyped] = useState<string | null>(null);
   const name = typed ?? initial;
   const [refused, setRefused] = useState<string | null>(null);
@@ -27,7 +29,7 @@ export function AskName({ title, about, label, action, initial = "", onName, onC
 
   async function submit(): Promise<void> {
     if (name.trim() === "") {
-      setRefused(t("name.missing"));
+      setRefused(missing);
       return;
     }
     setBusy(true);

@@ -58,6 +58,16 @@ export const drawings = {
   never: <circle cx="8" cy="8" r="5" strokeDasharray="2.1 2.4" />,
   generated: <path d="M9 1.75 3.75 9h3.6L7 14.25 12.25 7h-3.6z" className="f" />,
   cleared: <path d="M9 1.75 3.75 9h3.6L7 14.25 12.25 7h-3.6z" strokeWidth="1.25" />,
+  handled: <path d="M8 1.9 13 3.6v4c0 3-2 5.4-5 6.5-3-1.1-5-3.5-5-6.5v-4zM5.75 8l1.6 1.6 3-3.2" />,
+  noeffect: (
+    <>
+      <path d="M1.75 8S4 3.9 8 3.9 14.25 8 14.25 8 12 12.1 8 12.1 1.75 8 1.75 8z" />
+      <circle cx="8" cy="8" r="1.75" />
+    </>
+  ),
+  unhandled: (
+    <path d="M4.4 4.9C2.7 6.1 1.75 8 1.75 8S4 12.1 8 12.1c1.2 0 2.3-.4 3.2-.9M7 4c.3-.1.7-.1 1-.1 4 0 6.25 4.1 6.25 4.1s-.6 1.1-1.7 2.1M2.5 2.5l11 11" />
+  ),
   "chev-r": <path d="m6.25 4.5 3.5 3.5-3.5 3.5" />,
   "chev-d": <path d="M4.5 6.25 8 9.75l3.5-3.5" />,
   "chev-u": <path d="M4.5 9.75 8 6.25l3.5 3.5" />,

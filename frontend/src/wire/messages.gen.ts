@@ -132,6 +132,86 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/errors/{error}/reaction": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Reaction
+         * @description How the program reacted to an error the last time it was raised here.
+         */
+        get: operations["on_reaction_api_instances__instance__errors__error__reaction_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/errors/generate": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Generate
+         * @description Raises errors, all in one seam, or none of them.
+         */
+        post: operations["on_generate_api_instances__instance__errors_generate_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/errors/preview": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Preview
+         * @description What raising these would write now; nothing is changed.
+         */
+        post: operations["on_preview_api_instances__instance__errors_preview_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/errors/recover": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Recover
+         * @description Recovers these errors, or all that are generated.
+         */
+        post: operations["on_recover_api_instances__instance__errors_recover_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/export": {
         parameters: {
             query?: never;
@@ -152,6 +232,66 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/model": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Model
+         * @description The model with the errors that the project added, as the program that runs knows it.
+         */
+        get: operations["on_model_api_instances__instance__model_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/states": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On New State
+         * @description Keeps the PLC as it was before a scan, or is now.
+         */
+        post: operations["on_new_state_api_instances__instance__states_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/sweeps": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On New Sweep
+         * @description Begins a sweep; progress comes by the WebSockets of the project's PLCs.
+         */
+        post: operations["on_new_sweep_api_instances__instance__sweeps_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/symbols": {
         parameters: {
             query?: never;
@@ -166,6 +306,26 @@ export interface paths {
         get: operations["on_symbols_api_instances__instance__symbols_get"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/write": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Write
+         * @description Writes a variable or an address, with the rights of a tool: error memory is read-only here.
+         */
+        post: operations["on_write_api_instances__instance__write_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -364,10 +524,255 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/projects/{project}/states": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On States
+         * @description The states that somebody kept.
+         */
+        get: operations["on_states_api_projects__project__states_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/projects/{project}/sweeps": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Sweeps
+         * @description The sweeps of a project, the newest first.
+         */
+        get: operations["on_sweeps_api_projects__project__sweeps_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/states/{state}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * On Delete State
+         * @description Forgets a state; sweeps that began there keep their results.
+         */
+        delete: operations["on_delete_state_api_states__state__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sweeps/{before}/compare/{after}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Compare
+         * @description What became better or worse from one sweep to another: of two versions, or of two models.
+         */
+        get: operations["on_compare_api_sweeps__before__compare__after__get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sweeps/{sweep}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Sweep
+         * @description A sweep with all its cells.
+         */
+        get: operations["on_sweep_api_sweeps__sweep__get"];
+        put?: never;
+        post?: never;
+        /**
+         * On Delete Sweep
+         * @description Forgets a sweep; one that runs is cancelled.
+         */
+        delete: operations["on_delete_sweep_api_sweeps__sweep__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sweeps/{sweep}/accept": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Accept
+         * @description Accepts a finding with a reason, for this and later sweeps of the project; it stands in the test record.
+         */
+        post: operations["on_accept_api_sweeps__sweep__accept_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sweeps/{sweep}/cancel": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Cancel
+         * @description Stops a sweep; what it found is kept, and it can be resumed.
+         */
+        post: operations["on_cancel_api_sweeps__sweep__cancel_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sweeps/{sweep}/open": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Open
+         * @description A new PLC in this state with this error raised, paused: to look at what the sweep saw.
+         */
+        post: operations["on_open_api_sweeps__sweep__open_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sweeps/{sweep}/reaction": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Cell
+         * @description All that was found out about one cell.
+         */
+        post: operations["on_cell_api_sweeps__sweep__reaction_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sweeps/{sweep}/resume": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Resume
+         * @description Goes on with the cells that are missing.
+         */
+        post: operations["on_resume_api_sweeps__sweep__resume_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/sweeps/{sweep}/withdraw": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Withdraw
+         * @description The finding is accepted no more.
+         */
+        post: operations["on_withdraw_api_sweeps__sweep__withdraw_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
 }
 export type webhooks = Record<string, never>;
 export interface components {
     schemas: {
+        /**
+         * Accepted
+         * @description Somebody accepted a finding: it stands in the record with this reason.
+         */
+        Accepted: {
+            /** At */
+            at: string;
+            /** By */
+            by: string;
+            /** Reason */
+            reason: string;
+        };
+        /** AcceptFinding */
+        AcceptFinding: {
+            /** Error */
+            error: string;
+            /** Reason */
+            reason: string;
+            /** State */
+            state: string;
+        };
         /**
          * Alive
          * @description Sent when there was nothing else to say for a while: a browser that hears nothing at all knows the server is gone.
@@ -427,6 +832,92 @@ export interface components {
              * @description size in 16-bit words
              */
             words: number;
+        };
+        /**
+         * Arm
+         * @description Errors with a beginning and a shape; `gap` scans from one to the next (0: all in one seam).
+         */
+        Arm: {
+            /** Errors */
+            errors: components["schemas"]["GenerateOne"][];
+            /**
+             * Gap
+             * @default 0
+             */
+            gap: number;
+            /** Ref */
+            ref: number;
+            /**
+             * @default {
+             *       "acknowledge": "",
+             *       "kind": "stay",
+             *       "period": 2,
+             *       "scans": 1,
+             *       "seed": null,
+             *       "times": null
+             *     }
+             */
+            shape: components["schemas"]["FaultShape"];
+            /**
+             * @default {
+             *       "condition": "",
+             *       "file": "",
+             *       "kind": "now",
+             *       "line": 0,
+             *       "scan": null
+             *     }
+             */
+            start: components["schemas"]["FaultStart"];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "arm";
+        };
+        /**
+         * Armed
+         * @description All faults that are armed, whenever they change.
+         */
+        Armed: {
+            /** Faults */
+            faults: components["schemas"]["ArmedFault"][];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "armed";
+        };
+        /**
+         * ArmedFault
+         * @description A fault that was armed and is not over.
+         */
+        ArmedFault: {
+            /** By */
+            by: string;
+            /** Errors */
+            errors: string[];
+            /** Id */
+            id: number;
+            /**
+             * Next Scan
+             * @description of its next step, when that is known
+             */
+            next_scan: number | null;
+            /**
+             * Raised
+             * @description how often until now
+             */
+            raised: number;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "waiting" | "running";
+            /**
+             * Text
+             * @description start and shape in a sentence
+             */
+            text: string;
         };
         /**
          * Branch
@@ -490,6 +981,13 @@ export interface components {
              */
             type: "built";
         };
+        /** CellRef */
+        CellRef: {
+            /** Error */
+            error: string;
+            /** State */
+            state: string;
+        };
         /**
          * ChangeInstance
          * @description Null leaves as it is.
@@ -536,7 +1034,21 @@ export interface components {
              */
             type: "clear_diagnostics";
         };
-        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["SetMode"] | components["schemas"]["Run"] | components["schemas"]["Restart"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["ClearDiagnostics"];
+        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["SetMode"] | components["schemas"]["Run"] | components["schemas"]["Restart"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["ClearDiagnostics"];
+        /**
+         * CommandResult
+         * @description What became of a command that came by REST.
+         */
+        CommandResult: {
+            /** Message */
+            message: string;
+            /** Near */
+            near?: string[];
+            /** Ok */
+            ok: boolean;
+            /** Scan */
+            scan: number;
+        };
         /**
          * Deleted
          * @description Somebody deleted a file of this project.
@@ -568,6 +1080,43 @@ export interface components {
             type: "diagnostics";
             /** Violations */
             violations: components["schemas"]["Violation"][];
+        };
+        /**
+         * Difference
+         * @description A variable or address that had another value than in the same run without the error.
+         */
+        Difference: {
+            /** Output */
+            output: boolean;
+            /** Path */
+            path: string;
+            /**
+             * Scan
+             * @description of the window, from 1
+             */
+            scan: number;
+            /** Value */
+            value: string;
+            /** Without */
+            without: string;
+        };
+        /**
+         * Disarm
+         * @description Takes faults back: nothing more is raised, and what they raised and is still present is recovered.
+         */
+        Disarm: {
+            /**
+             * Ids
+             * @description null is all of them
+             */
+            ids: number[] | null;
+            /** Ref */
+            ref: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "disarm";
         };
         /**
          * Done
@@ -631,10 +1180,17 @@ export interface components {
         ErrorChoiceInfo: {
             /** Address */
             address: string;
+            /**
+             * Adds
+             * @description what choosing it adds to the error code; null: nothing
+             */
+            adds?: number | null;
             /** Description */
             description: string;
             /** Id */
             id: string;
+            /** Wordings */
+            wordings?: components["schemas"]["Wording"][];
         };
         /**
          * ErrorDetail
@@ -643,6 +1199,12 @@ export interface components {
         ErrorDetail: {
             /** Address */
             address: string;
+            /**
+             * Adds
+             * @description the number is added to the error code
+             * @default false
+             */
+            adds: boolean;
             /**
              * Base
              * @default 10
@@ -665,6 +1227,12 @@ export interface components {
             default: string;
             /** Description */
             description: string;
+            /**
+             * Kind
+             * @description of a List: of its first choice
+             * @enum {string}
+             */
+            kind: "Bit" | "Word" | "Byte" | "BCD" | "Nibble" | "BitArray";
             /** Maximum */
             maximum?: number | null;
             /** Minimum */
@@ -674,6 +1242,8 @@ export interface components {
              * @description key in the command line's and the API's `details`, e.g. `rack`
              */
             name: string;
+            /** Wordings */
+            wordings?: components["schemas"]["Wording"][];
         };
         /** ErrorGroup */
         ErrorGroup: {
@@ -683,10 +1253,12 @@ export interface components {
             groups: components["schemas"]["ErrorGroup"][];
             /** Name */
             name: string;
+            /** Wordings */
+            wordings?: components["schemas"]["Wording"][];
         };
         /**
          * ErrorHistoryRow
-         * @description One row per catalogue error: has it been tested?
+         * @description One row per catalogue error: has this version of the program been tested against it?
          */
         ErrorHistoryRow: {
             /** By */
@@ -710,6 +1282,8 @@ export interface components {
             name: string;
             /** Origin */
             origin: ("simulator" | "plc" | "program") | null;
+            /** @description of the last time; null when nobody compared */
+            reaction: components["schemas"]["ReactionState"] | null;
             /** Recovered At */
             recovered_at: string | null;
             /** Recovered Scan */
@@ -729,7 +1303,7 @@ export interface components {
         ErrorInfo: {
             /**
              * Code
-             * @description four hex digits
+             * @description as the device shows it, without what details add
              */
             code: string;
             /** Description */
@@ -743,14 +1317,27 @@ export interface components {
             /** Name */
             name: string;
             /**
+             * Priority
+             * @description 1 is the most serious
+             */
+            priority: number;
+            /**
              * Severity
              * @enum {string}
              */
             severity: "fatal" | "nonfatal";
             /** Source */
             source: string;
+            /**
+             * User
+             * @description one of the project's own (errors.xml)
+             * @default false
+             */
+            user: boolean;
             /** Verified */
             verified: boolean;
+            /** Wordings */
+            wordings?: components["schemas"]["Wording"][];
         };
         /**
          * Errors
@@ -764,6 +1351,77 @@ export interface components {
              * @enum {string}
              */
             type: "errors";
+        };
+        /**
+         * FaultShape
+         * @description How a fault goes on. stay: until it is recovered. for: `scans`. intermittent: present for `scans` of each `period`,
+         *     `times` times (null: until it is taken back), varied by chance when there is a `seed`. chatter: on and off in turn, scan by scan,
+         *     `times` times. unacknowledged: recovered after `scans`, before `acknowledge` (a condition) holds.
+         */
+        FaultShape: {
+            /**
+             * Acknowledge
+             * @default
+             */
+            acknowledge: string;
+            /**
+             * Kind
+             * @default stay
+             * @enum {string}
+             */
+            kind: "stay" | "for" | "intermittent" | "chatter" | "unacknowledged";
+            /**
+             * Period
+             * @default 2
+             */
+            period: number;
+            /**
+             * Scans
+             * @default 1
+             */
+            scans: number;
+            /**
+             * Seed
+             * @default null
+             */
+            seed: number | null;
+            /**
+             * Times
+             * @default null
+             */
+            times: number | null;
+        };
+        /**
+         * FaultStart
+         * @description When a fault begins: now, in front of `scan`, when `condition` holds, when the statement at `file`:`line` is reached.
+         */
+        FaultStart: {
+            /**
+             * Condition
+             * @default
+             */
+            condition: string;
+            /**
+             * File
+             * @default
+             */
+            file: string;
+            /**
+             * Kind
+             * @default now
+             * @enum {string}
+             */
+            kind: "now" | "scan" | "condition" | "line";
+            /**
+             * Line
+             * @default 0
+             */
+            line: number;
+            /**
+             * Scan
+             * @default null
+             */
+            scan: number | null;
         };
         /** FileInfo */
         FileInfo: {
@@ -830,8 +1488,16 @@ export interface components {
              */
             type: "forces";
         };
-        /** Generate */
+        /**
+         * Generate
+         * @description All of them in one seam, or none. `again`: errors that are present change to these details.
+         */
         Generate: {
+            /**
+             * Again
+             * @default false
+             */
+            again: boolean;
             /** Errors */
             errors: components["schemas"]["GenerateOne"][];
             /** Ref */
@@ -841,6 +1507,16 @@ export interface components {
              * @enum {string}
              */
             type: "generate";
+        };
+        /** GenerateErrors */
+        GenerateErrors: {
+            /**
+             * Again
+             * @default false
+             */
+            again: boolean;
+            /** Errors */
+            errors: components["schemas"]["GenerateOne"][];
         };
         /** GenerateOne */
         GenerateOne: {
@@ -855,10 +1531,22 @@ export interface components {
             id: string;
         };
         /**
+         * HandlerLine
+         * @description A statement that was reached only with the error.
+         */
+        HandlerLine: {
+            /** File */
+            file: string;
+            /** Line */
+            line: number;
+        };
+        /**
          * Hello
          * @description First message after connecting, and after every reconnection: everything but the values.
          */
         Hello: {
+            /** Armed */
+            armed: components["schemas"]["ArmedFault"][];
             diagnostics: components["schemas"]["Diagnostics"];
             /** Errors */
             errors: components["schemas"]["ErrorHistoryRow"][];
@@ -1111,6 +1799,16 @@ export interface components {
             /** Project */
             project: number;
         };
+        /**
+         * NewProgramState
+         * @description Keeps the PLC as it was before `scan`, or is now, as a point to begin sweeps from.
+         */
+        NewProgramState: {
+            /** Name */
+            name: string;
+            /** Scan */
+            scan?: number | null;
+        };
         /** NewProject */
         NewProject: {
             /**
@@ -1135,6 +1833,24 @@ export interface components {
             type: "new_run";
         };
         /**
+         * NewSweep
+         * @description Every error alone, from every state. `states`: numbers of kept states; none: from the PLC as it is now.
+         */
+        NewSweep: {
+            /**
+             * Errors
+             * @description ids; null is the whole catalogue
+             */
+            errors?: string[] | null;
+            /** States */
+            states?: number[];
+            /**
+             * Window
+             * @default 200
+             */
+            window: number;
+        };
+        /**
          * OnlineChange
          * @description What a swap of the program does to the variables of one running PLC.
          */
@@ -1157,6 +1873,18 @@ export interface components {
              * @description why this PLC cannot be changed now (mode RUN, say); empty when it can
              */
             refusal: string;
+        };
+        /** OpenCell */
+        OpenCell: {
+            /** Error */
+            error: string;
+            /**
+             * Name
+             * @description of the new PLC
+             */
+            name: string;
+            /** State */
+            state: string;
         };
         /**
          * PastInfo
@@ -1185,6 +1913,55 @@ export interface components {
             /** Name */
             name: string;
         };
+        /** PreviewedErrors */
+        PreviewedErrors: {
+            /**
+             * Message
+             * @description what would happen, or why it would be refused
+             */
+            message: string;
+            /** Ok */
+            ok: boolean;
+            /** Scan */
+            scan: number;
+            /** Writes */
+            writes: components["schemas"]["PreviewedWrite"][];
+        };
+        /** PreviewedWrite */
+        PreviewedWrite: {
+            /**
+             * Address
+             * @description in the vendor's notation
+             */
+            address: string;
+            /** After */
+            after: string;
+            /** Before */
+            before: string;
+            /**
+             * Error
+             * @description which error writes it; empty for the code word and the log
+             */
+            error: string;
+            /**
+             * What
+             * @enum {string}
+             */
+            what: "detail" | "code" | "flag" | "log" | "other";
+        };
+        /**
+         * PreviewErrors
+         * @description What raising these would write now. Nothing is changed.
+         */
+        PreviewErrors: {
+            /**
+             * Again
+             * @default false
+             */
+            again: boolean;
+            /** Errors */
+            errors: components["schemas"]["GenerateOne"][];
+        };
         /**
          * Problem
          * @description One finding of the compiler. Lines and columns count from 1; the end is exclusive.
@@ -1210,6 +1987,28 @@ export interface components {
              */
             severity: "error" | "warning" | "info";
         };
+        /** ProgramState */
+        ProgramState: {
+            /** At */
+            at: string;
+            /** By */
+            by: string;
+            /** Id */
+            id: number;
+            /**
+             * Instance
+             * @description name of the PLC that it was taken from
+             */
+            instance: string;
+            /** Name */
+            name: string;
+            /** Program Version */
+            program_version: number;
+            /** Project */
+            project: number;
+            /** Scan */
+            scan: number;
+        };
         /** Project */
         Project: {
             /** Id */
@@ -1229,6 +2028,81 @@ export interface components {
              */
             watch: string[];
         };
+        /**
+         * Reaction
+         * @description What the program did about an error, beside the same run without it.
+         */
+        Reaction: {
+            /** Difference Count */
+            difference_count: number;
+            /**
+             * Differences
+             * @description at most 200, outputs first
+             */
+            differences: components["schemas"]["Difference"][];
+            /** First Effect */
+            first_effect: number | null;
+            /** First Read */
+            first_read: number | null;
+            /** Lines */
+            lines: components["schemas"]["HandlerLine"][];
+            /** Note */
+            note: string;
+            /** Readers */
+            readers: components["schemas"]["Reader"][];
+            /**
+             * Verdict
+             * @enum {string}
+             */
+            verdict: "reacted" | "no_effect" | "never_read" | "stopped";
+            /**
+             * Window
+             * @description scans that were compared
+             */
+            window: number;
+        };
+        /**
+         * ReactionState
+         * @description In short, for the tables. `recording`: the window is not over; `failed`: `message` says why there is none.
+         */
+        ReactionState: {
+            /** Message */
+            message: string;
+            /**
+             * Scans
+             * @description scans until the first effect, from 1
+             */
+            scans: number | null;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "recording" | "done" | "failed";
+            /** Verdict */
+            verdict: ("reacted" | "no_effect" | "never_read" | "stopped") | null;
+        };
+        /**
+         * Reader
+         * @description A statement that read what the error writes.
+         */
+        Reader: {
+            /** File */
+            file: string;
+            /** Line */
+            line: number;
+            /** Pou */
+            pou: string;
+            /**
+             * Scan
+             * @description of the window, from 1
+             */
+            scan: number;
+            /**
+             * What
+             * @enum {string}
+             */
+            what: "flag" | "code" | "detail";
+        };
         /** Recover */
         Recover: {
             /**
@@ -1243,6 +2117,11 @@ export interface components {
              * @enum {string}
              */
             type: "recover";
+        };
+        /** RecoverErrors */
+        RecoverErrors: {
+            /** Ids */
+            ids?: string[] | null;
         };
         /**
          * Refusal
@@ -1369,7 +2248,7 @@ export interface components {
             /** Version */
             version: number;
         };
-        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Alive"];
+        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["Alive"];
         /** SetMode */
         SetMode: {
             /**
@@ -1393,6 +2272,186 @@ export interface components {
              * @enum {string}
              */
             type: "state";
+        };
+        /** Sweep */
+        Sweep: {
+            /** At */
+            at: string;
+            /** By */
+            by: string;
+            /** Cells */
+            cells: components["schemas"]["SweepCell"][];
+            /** Counts */
+            counts: {
+                [key: string]: number;
+            };
+            /** Done */
+            done: number;
+            /** Errors */
+            errors: components["schemas"]["SweepError"][];
+            /** Id */
+            id: number;
+            /** Instance */
+            instance: string;
+            /** Message */
+            message: string;
+            /** Model */
+            model: string;
+            /** Program Version */
+            program_version: number;
+            /** Project */
+            project: number;
+            /**
+             * Seconds
+             * @description spent so far
+             */
+            seconds: number;
+            /** States */
+            states: string[];
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "running" | "done" | "cancelled" | "interrupted" | "failed";
+            /** Total */
+            total: number;
+            /** Window */
+            window: number;
+        };
+        /** SweepCell */
+        SweepCell: {
+            /** @default null */
+            accepted: components["schemas"]["Accepted"] | null;
+            /** Difference Count */
+            difference_count: number;
+            /** Error */
+            error: string;
+            /** First Effect */
+            first_effect: number | null;
+            /** First Read */
+            first_read: number | null;
+            /** Note */
+            note: string;
+            /** Raised Scan */
+            raised_scan: number;
+            /** State */
+            state: string;
+            /**
+             * Verdict
+             * @description null: it could not be raised, `note` says why
+             */
+            verdict: ("reacted" | "no_effect" | "never_read" | "stopped") | null;
+        };
+        /**
+         * SweepChange
+         * @description One cell in two sweeps; null where a sweep has none.
+         */
+        SweepChange: {
+            /** After */
+            after: ("reacted" | "no_effect" | "never_read" | "stopped") | null;
+            /** Before */
+            before: ("reacted" | "no_effect" | "never_read" | "stopped") | null;
+            /**
+             * Change
+             * @enum {string}
+             */
+            change: "same" | "better" | "worse" | "slower" | "faster" | "new" | "gone";
+            /** Error */
+            error: string;
+            /** Name */
+            name: string;
+            /** Scans After */
+            scans_after: number | null;
+            /** Scans Before */
+            scans_before: number | null;
+            /** State */
+            state: string;
+        };
+        /** SweepComparison */
+        SweepComparison: {
+            after: components["schemas"]["SweepSummary"];
+            before: components["schemas"]["SweepSummary"];
+            /** Changes */
+            changes: components["schemas"]["SweepChange"][];
+        };
+        /**
+         * SweepError
+         * @description A row of the matrix: an error as the catalogue knew it then.
+         */
+        SweepError: {
+            /** Code */
+            code: string;
+            /** Group */
+            group: string;
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+            /**
+             * Severity
+             * @enum {string}
+             */
+            severity: "fatal" | "nonfatal";
+        };
+        /**
+         * SweepProgress
+         * @description A sweep of this project began, went on or ended; `cells` are those that are new since the last message.
+         */
+        SweepProgress: {
+            /** Cells */
+            cells: components["schemas"]["SweepCell"][];
+            /**
+             * Now
+             * @description what is tried now, for people
+             */
+            now: string;
+            sweep: components["schemas"]["SweepSummary"];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "sweep";
+        };
+        /** SweepSummary */
+        SweepSummary: {
+            /** At */
+            at: string;
+            /** By */
+            by: string;
+            /** Counts */
+            counts: {
+                [key: string]: number;
+            };
+            /** Done */
+            done: number;
+            /** Id */
+            id: number;
+            /** Instance */
+            instance: string;
+            /** Message */
+            message: string;
+            /** Model */
+            model: string;
+            /** Program Version */
+            program_version: number;
+            /** Project */
+            project: number;
+            /**
+             * Seconds
+             * @description spent so far
+             */
+            seconds: number;
+            /** States */
+            states: string[];
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "running" | "done" | "cancelled" | "interrupted" | "failed";
+            /** Total */
+            total: number;
+            /** Window */
+            window: number;
         };
         /**
          * Symbol
@@ -1633,6 +2692,21 @@ export interface components {
              */
             type: "watching";
         };
+        /**
+         * Wording
+         * @description Name and description in another language than English; empty where the model has none.
+         */
+        Wording: {
+            /** Description */
+            description: string;
+            /**
+             * Language
+             * @description as in xml:lang, e.g. ja
+             */
+            language: string;
+            /** Name */
+            name: string;
+        };
         /** Write */
         Write: {
             /** Path */
@@ -1648,6 +2722,16 @@ export interface components {
              * Value
              * @description as typed: TRUE, 42, 16#FF, T#5s, 1.5, 'text'
              */
+            value: string;
+        };
+        /**
+         * WriteValue
+         * @description Write a variable or an address, with the rights of a tool.
+         */
+        WriteValue: {
+            /** Path */
+            path: string;
+            /** Value */
             value: string;
         };
         /**
@@ -1963,6 +3047,143 @@ export interface operations {
             };
         };
     };
+    on_reaction_api_instances__instance__errors__error__reaction_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                error: string;
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Reaction"];
+                };
+            };
+        };
+    };
+    on_generate_api_instances__instance__errors_generate_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["GenerateErrors"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
+                };
+            };
+        };
+    };
+    on_preview_api_instances__instance__errors_preview_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["PreviewErrors"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["PreviewedErrors"];
+                };
+            };
+        };
+    };
+    on_recover_api_instances__instance__errors_recover_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["RecoverErrors"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
+                };
+            };
+        };
+    };
     on_export_api_instances__instance__export_get: {
         parameters: {
             query?: {
@@ -1991,6 +3212,107 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+        };
+    };
+    on_model_api_instances__instance__model_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ModelInfo"];
+                };
+            };
+        };
+    };
+    on_new_state_api_instances__instance__states_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewProgramState"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProgramState"];
+                };
+            };
+        };
+    };
+    on_new_sweep_api_instances__instance__sweeps_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewSweep"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SweepSummary"];
+                };
             };
         };
     };
@@ -2023,6 +3345,41 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Symbol"][];
+                };
+            };
+        };
+    };
+    on_write_api_instances__instance__write_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["WriteValue"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
                 };
             };
         };
@@ -2398,6 +3755,389 @@ export interface operations {
             cookie?: never;
         };
         requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    on_states_api_projects__project__states_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProgramState"][];
+                };
+            };
+        };
+    };
+    on_sweeps_api_projects__project__sweeps_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SweepSummary"][];
+                };
+            };
+        };
+    };
+    on_delete_state_api_states__state__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                state: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    on_compare_api_sweeps__before__compare__after__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                after: number;
+                before: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SweepComparison"];
+                };
+            };
+        };
+    };
+    on_sweep_api_sweeps__sweep__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                sweep: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Sweep"];
+                };
+            };
+        };
+    };
+    on_delete_sweep_api_sweeps__sweep__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                sweep: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    on_accept_api_sweeps__sweep__accept_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                sweep: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["AcceptFinding"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Accepted"];
+                };
+            };
+        };
+    };
+    on_cancel_api_sweeps__sweep__cancel_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                sweep: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SweepSummary"];
+                };
+            };
+        };
+    };
+    on_open_api_sweeps__sweep__open_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                sweep: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["OpenCell"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Instance"];
+                };
+            };
+        };
+    };
+    on_cell_api_sweeps__sweep__reaction_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                sweep: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CellRef"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Reaction"];
+                };
+            };
+        };
+    };
+    on_resume_api_sweeps__sweep__resume_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                sweep: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SweepSummary"];
+                };
+            };
+        };
+    };
+    on_withdraw_api_sweeps__sweep__withdraw_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                sweep: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CellRef"];
+            };
+        };
         responses: {
             /** @description Client Error */
             "4XX": {

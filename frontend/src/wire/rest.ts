@@ -1,18 +1,28 @@
 /** The REST routes of the backend (`web/README.md` there), typed and thin. */
 import type {
+  Accepted,
   AppInfo,
   BuildResult,
+  CellRef,
   ChangeInstance,
   CheckResult,
   FileInfo,
   FileText,
+  GenerateOne,
   Instance,
   ModelInfo,
   ModelSummary,
+  NewSweep,
   PlcSymbol,
+  PreviewedErrors,
+  ProgramState,
   Project,
+  Reaction,
   Refusal,
   SaveConflict,
+  Sweep,
+  SweepComparison,
+  SweepSummary,
 } from "./types";
 
 /** A request that the server refused: what, and what to do next, in the server's words. */
@@ -84,6 +94,13 @@ export const rest = {
   models: () => json<ModelSummary[]>("GET", "/models"),
   model: (name: string) => json<ModelInfo>("GET", `/models/${encodeURIComponent(name)}`),
 
+  /** The model with the project's own errors, as the program that runs knows it. */
+  instanceModel: (instance: number) => json<ModelInfo>("GET", `/instances/${instance}/model`),
+  previewErrors: (instance: number, errors: readonly GenerateOne[], again: boolean) =>
+    json<PreviewedErrors>("POST", `/instances/${instance}/errors/preview`, { errors, again }),
+  reaction: (instance: number, error: string) =>
+    json<Reaction>("GET", `/instances/${instance}/errors/${encodeURIComponent(error)}/reaction`),
+
   instances: () => json<Instance[]>("GET", "/instances"),
   createInstance: (project: number, name: string) => json<Instance>("POST", "/instances", { project, name }),
   changeInstance: (instance: number, change: Partial<ChangeInstance>) =>
@@ -96,6 +113,35 @@ export const rest = {
   },
   exportRun: (instance: number, signal: AbortSignal) =>
     request("GET", `/instances/${instance}/export`, undefined, [], signal),
+  states: (project: number) => json<ProgramState[]>("GET", `/projects/${project}/states`),
+  /** Keeps the PLC as it was before a scan; null is as it is now. */
+  keepState: (instance: number, name: string, scan: number | null) =>
+    json<ProgramState>("POST", `/instances/${instance}/states`, { name, scan }),
+  deleteState: async (state: number): Promise<void> => {
+    await request("DELETE", `/states/${state}`);
+  },
+  sweeps: (project: number) => json<SweepSummary[]>("GET", `/projects/${project}/sweeps`),
+  sweep: (sweep: number) => json<Sweep>("GET", `/sweeps/${sweep}`),
+  beginSweep: (instance: number, wanted: NewSweep) =>
+    json<SweepSummary>("POST", `/instances/${instance}/sweeps`, wanted),
+  cancelSweep: (sweep: number) => json<SweepSummary>("POST", `/sweeps/${sweep}/cancel`),
+  resumeSweep: (sweep: number) => json<SweepSummary>("POST", `/sweeps/${sweep}/resume`),
+  deleteSweep: async (sweep: number): Promise<void> => {
+    await request("DELETE", `/sweeps/${sweep}`);
+  },
+  sweepReaction: (sweep: number, { error, state }: CellRef) =>
+    json<Reaction>("POST", `/sweeps/${sweep}/reaction`, { error, state }),
+  acceptFinding: (sweep: number, { error, state }: CellRef, reason: string) =>
+    json<Accepted>("POST", `/sweeps/${sweep}/accept`, { error, state, reason }),
+  withdrawFinding: async (sweep: number, { error, state }: CellRef): Promise<void> => {
+    await request("POST", `/sweeps/${sweep}/withdraw`, { error, state });
+  },
+  /** A new PLC in this state with this error raised, paused. */
+  openCell: (sweep: number, { error, state }: CellRef, name: string) =>
+    json<Instance>("POST", `/sweeps/${sweep}/open`, { error, state, name }),
+  compareSweeps: (before: number, after: number) =>
+    json<SweepComparison>("GET", `/sweeps/${before}/compare/${after}`),
+
   symbols: (instance: number, path: string) =>
     json<PlcSymbol[]>("GET", `/instances/${instance}/symbols?path=${encodeURIComponent(path)}`),
   complete: (instance: number, text: string) =>

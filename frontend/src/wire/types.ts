@@ -5,6 +5,7 @@ type Shapes = components["schemas"];
 
 export type AppInfo = Shapes["AppInfo"];
 export type Area = Shapes["Area"];
+export type ArmedFault = Shapes["ArmedFault"];
 export type BuildResult = Shapes["BuildResult"];
 export type CheckResult = Shapes["CheckResult"];
 export type ChangeInstance = Shapes["ChangeInstance"];
@@ -15,6 +16,8 @@ export type ErrorDetail = Shapes["ErrorDetail"];
 export type ErrorGroup = Shapes["ErrorGroup"];
 export type ErrorHistoryRow = Shapes["ErrorHistoryRow"];
 export type ErrorInfo = Shapes["ErrorInfo"];
+export type FaultShape = Shapes["FaultShape"];
+export type FaultStart = Shapes["FaultStart"];
 export type FileInfo = Shapes["FileInfo"];
 export type FileText = Shapes["FileText"];
 export type ForceInfo = Shapes["ForceInfo"];
@@ -32,6 +35,8 @@ export type ModelInfo = Shapes["ModelInfo"];
 export type ModelSummary = Shapes["ModelSummary"];
 export type OnlineChange = Shapes["OnlineChange"];
 export type Pou = Shapes["Pou"];
+export type PreviewedErrors = Shapes["PreviewedErrors"];
+export type PreviewedWrite = Shapes["PreviewedWrite"];
 export type Problem = Shapes["Problem"];
 export type Project = Shapes["Project"];
 export type Refusal = Shapes["Refusal"];
@@ -44,6 +49,21 @@ export type TimelineInfo = Shapes["TimelineInfo"];
 export type User = Shapes["User"];
 export type Violation = Shapes["Violation"];
 export type Watched = Shapes["Watched"];
+
+export type Accepted = Shapes["Accepted"];
+export type CellRef = Shapes["CellRef"];
+export type NewSweep = Required<Shapes["NewSweep"]>;
+export type ProgramState = Shapes["ProgramState"];
+export type Reaction = Shapes["Reaction"];
+export type ReactionState = Shapes["ReactionState"];
+export type Sweep = Shapes["Sweep"];
+export type SweepCell = Shapes["SweepCell"];
+export type SweepChange = Shapes["SweepChange"];
+export type SweepComparison = Shapes["SweepComparison"];
+export type SweepError = Shapes["SweepError"];
+export type SweepProgress = Shapes["SweepProgress"];
+export type SweepSummary = Shapes["SweepSummary"];
+export type Verdict = NonNullable<SweepCell["verdict"]>;
 
 export type ServerMessage = Shapes["ServerMessage"];
 

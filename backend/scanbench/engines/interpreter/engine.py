@@ -11,29 +11,32 @@ from scanbench.check.program import Expr, Pou, Program, ProgramInstance, Task
 from scanbench.check.types import Kind, Record
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.interpreter.expressions import Body
+from scanbench.engines.interpreter.observed import Watcher
 from scanbench.engines.interpreter.places import Places, Read, Trapped
 from scanbench.engines.interpreter.statements import Statements
 from scanbench.engines.interpreter.violations import recorder
+from scanbench.engines.observe import Observed
 from scanbench.problems import Span
 
 LOST_NS = 100_000_000
 
 
 class ReferenceEngine(Engine):
-    """Runs the checked tree in plain Python."""
+    """Runs the checked tree in plain Python; with a watcher, it is told what the program does."""
 
     name = "reference"
 
-    def __init__(self, program: Program, memory: bytearray) -> None:
+    def __init__(self, program: Program, memory: bytearray, watcher: Watcher | None = None) -> None:
         self.program = program
         self.memory = memory
+        self.watcher = watcher
         self.state_size = program.layout.state_size
         self.record = recorder(memory, program.layout.violations)
         self._bodies: dict[Pou, Body] = {}
         for pou in program.pous:
             self._bodies[pou] = Statements(self, pou).block(pou.body)
-        self._common = [self._program(each) for each in program.common]
-        self._plant = [self._program(each) for each in program.plant]
+        self._common = [self._silent(self._program(each)) for each in program.common]
+        self._plant = [self._silent(self._program(each)) for each in program.plant]
         self._tasks = [(self._due(task), [self._program(each) for each in task.programs]) for task in program.tasks]
         self._knock = threading.Event()
         self._condition: Callable[[], bool] | None = None
@@ -53,6 +56,18 @@ class ReferenceEngine(Engine):
             after(0)
 
         return run
+
+    def _silent(self, run: Callable[[], None]) -> Callable[[], None]:
+        """What is not the user's program is not observed."""
+        watcher = self.watcher
+        if watcher is None:
+            return run
+
+        def silent() -> None:
+            with watcher.silence():
+                run()
+
+        return silent
 
     def _due(self, task: Task) -> Callable[[int], bool]:
         """Whether a task runs in a scan; asked when its turn comes."""
@@ -77,8 +92,13 @@ class ReferenceEngine(Engine):
     def knock(self) -> None:
         self._knock.set()
 
-    def stop_when(self, condition: Condition | None) -> None:
-        self._condition = None if condition is None else self._holds(condition)
+    def stop_when(self, condition: Condition | None, *others: Condition) -> None:
+        conditions = others if condition is None else (condition, *others)
+        checks = [self._holds(each) for each in conditions]
+        self._condition = (lambda: any(check() for check in checks)) if checks else None
+
+    def holds(self, condition: Condition) -> bool:
+        return self._holds(condition)()
 
     def _holds(self, condition: Condition) -> Callable[[], bool]:
         """Evaluates the condition on the image."""
@@ -166,3 +186,9 @@ class ReferenceEngine(Engine):
             mask, value = memory[at + 4], memory[at + 5]
             if offset < len(memory):
                 memory[offset] = memory[offset] & ~mask | value & mask
+
+
+def observed_engine(program: Program, memory: bytearray) -> Observed:
+    """An engine whose code is observed, with what it notes; see `engines.observe`."""
+    watcher = Watcher(program)
+    return ReferenceEngine(program, memory, watcher), watcher

@@ -29,6 +29,7 @@ from scanbench.engines.interpreter import arithmetic
 from scanbench.engines.interpreter.arithmetic import Operand
 from scanbench.engines.interpreter.intrinsics import intrinsic
 from scanbench.engines.interpreter.memory import Put, Value, decode, putter
+from scanbench.engines.interpreter.observed import ObservedPlaces, Watcher
 from scanbench.engines.interpreter.places import Places, Read, Trapped, Write
 from scanbench.engines.interpreter.violations import Record
 
@@ -42,6 +43,8 @@ class Bodies(Protocol):
     memory: bytearray
     state_size: int
     record: Record
+    watcher: Watcher | None
+    """Of observed code."""
 
     def body(self, pou: Pou) -> Body: ...
 
@@ -58,7 +61,8 @@ class Expressions(ABC):
         self.pou = pou
         self.caller = caller
         self.memory = bodies.memory
-        self.places = Places(bodies.memory, bodies.state_size, pou.frame_offset, self.evaluate, pou.first_trap)
+        found = bodies.memory, bodies.state_size, pou.frame_offset, self.evaluate, pou.first_trap
+        self.places = Places(*found) if bodies.watcher is None else ObservedPlaces(bodies.watcher, *found)
 
     @abstractmethod
     def block(self, statements: Sequence[Stmt]) -> Body:

@@ -39,7 +39,7 @@ class Statements(Expressions):
     """Makes the closure of one POU's body."""
 
     def block(self, statements: Sequence[Stmt]) -> Body:
-        steps = tuple(self._statement(statement) for statement in statements)
+        steps = tuple(self._step(statement) for statement in statements)
         if len(steps) == 1:
             return steps[0]
 
@@ -50,6 +50,10 @@ class Statements(Expressions):
             return GO_ON
 
         return run
+
+    def _step(self, node: Stmt) -> Body:
+        run, watcher = self._statement(node), self.bodies.watcher
+        return run if watcher is None else watcher.statement(node, run)
 
     def _statement(self, node: Stmt) -> Body:
         match node:

@@ -13,21 +13,26 @@ from scanbench.problems import Span
 
 KEPT = 32
 """Conditions whose code is kept: the same one comes again when optimised code of the program takes over."""
-SCRATCH = '@"t.condition"'
+SCRATCH = '@"t.condition{n}"'
 
 ENTRY = """\
 define i32 @condition(ptr {image}) #0 {{
-; 1 where it holds. A trap is the number of a site, which is positive, and FALSE
-  %status = call i32 @evaluate(ptr %img)
-  %holds = icmp slt i32 %status, 0
-  %result = zext i1 %holds to i32
-  ret i32 %result
+; 1 where one of them holds. A trap is the number of a site, which is positive, and FALSE
+{calls}  ret i32 0
+holds:
+  ret i32 1
 }}"""
+CALL = """\
+  %status{n} = call i32 @evaluate{n}(ptr %img)
+  %holds{n} = icmp slt i32 %status{n}, 0
+  br i1 %holds{n}, label %holds, label %next{n}
+next{n}:
+"""
 
 
-def link_condition(program: Program, condition: Condition) -> jit.Code:
-    """The code, in this process, as `condition`."""
-    return jit.link([_compiled(emit_condition(program, condition))], jit.Timings())
+def link_condition(program: Program, *conditions: Condition) -> jit.Code:
+    """The code, in this process, as `condition`: whether one of these holds."""
+    return jit.link([_compiled(emit_condition(program, *conditions))], jit.Timings())
 
 
 @lru_cache(KEPT)
@@ -35,19 +40,22 @@ def _compiled(text: str) -> bytes:
     return jit.compile_object(text, FAST, jit.Timings())
 
 
-def emit_condition(program: Program, condition: Condition) -> str:
-    """The module's text."""
+def emit_condition(program: Program, *conditions: Condition) -> str:
+    """The module's text. Each condition is a function of its own, so that a trap in one hides no other."""
     layout = program.layout
     image = f"nonnull noundef align 8 dereferenceable({layout.size}) %img"
     unit = Unit(image_size=layout.size, state_size=layout.state_size)
     empty = Record("CONDITION", Kind.STRUCT)
-    pou = Pou("CONDITION", "function", empty, empty, (), None, Span("", 0, 0, 0, 0))
-    text = FunctionText(f"define internal i32 @evaluate(ptr {image}) #0", SCRATCH)
-    body = Body(unit, pou, text, emit_expressions.scalar, emit_expressions.pieces, emit_statements.run)
-    value = body.scalar(condition.expr)
-    text.do(f"ret i32 {text.op(f'sext i1 {value.ssa} to i32')}")
-    if text.scratch_size:
-        unit.reserve(pou, SCRATCH, text.scratch_size)
-    unit.module.add(text.text())
-    unit.module.add(ENTRY.format(image=image))
+    for number, condition in enumerate(conditions):
+        pou = Pou("CONDITION", "function", empty, empty, (), None, Span("", 0, 0, 0, 0))
+        scratch = SCRATCH.format(n=number)
+        text = FunctionText(f"define internal i32 @evaluate{number}(ptr {image}) #0", scratch)
+        body = Body(unit, pou, text, emit_expressions.scalar, emit_expressions.pieces, emit_statements.run)
+        value = body.scalar(condition.expr)
+        text.do(f"ret i32 {text.op(f'sext i1 {value.ssa} to i32')}")
+        if text.scratch_size:
+            unit.reserve(pou, scratch, text.scratch_size)
+        unit.module.add(text.text())
+    calls = "".join(CALL.format(n=number) for number in range(len(conditions)))
+    unit.module.add(ENTRY.format(image=image, calls=calls))
     return unit.module.text()

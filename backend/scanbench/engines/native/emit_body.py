@@ -16,6 +16,7 @@ from scanbench.engines.native.registers import Signature, signature
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
+    from scanbench.engines.native.emit_observed import Observing
     from scanbench.engines.native.emit_strings import Piece
 
 SCRATCH_LIMIT = 64 << 20
@@ -49,6 +50,8 @@ class Unit:
     scratch: int = 0
     """Bytes of temporaries, up to now."""
     signatures: dict[Pou, Signature] = field(default_factory=dict)
+    observing: "Observing | None" = None
+    """Of observed code."""
 
     def reserve(self, pou: Pou, name: str, size: int) -> None:
         """Memory for the temporaries of the POU's statements."""
@@ -118,6 +121,10 @@ class Body:
         """Blocks that a `Jump` goes to, by number."""
         self.leave = "leave"
         """Block that RETURN goes to."""
+        self.site: int | None = None
+        """Observed code: the statement that is being emitted, by its number in the POU."""
+        self.marks = ""
+        """Observed code: pointer to the marks of the POU's statements, once there is one."""
         self._swallowed = 0
         self._scalar = scalar
         self._pieces = pieces

@@ -3,6 +3,7 @@
 from scanbench.check.layout import Layout
 from scanbench.check.program import Base, Expr, Index, Place
 from scanbench.check.types import Elementary, Kind
+from scanbench.engines.native import emit_observed
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
 from scanbench.engines.native.emit_memory import Address, load_at
@@ -38,7 +39,11 @@ def address(body: Body, place: Place) -> Address:
 def load(body: Body, place: Place) -> Value:
     """The value of an elementary place."""
     known = body.counter(place)
-    return known if known is not None else load_at(body, address(body, place), elementary(place.type))
+    if known is not None:
+        return known
+    where = address(body, place)
+    emit_observed.read(body, place, where)
+    return load_at(body, where, elementary(place.type))
 
 
 def _direct(body: Body, place: Place) -> Address:

@@ -3,7 +3,7 @@
 from scanbench.check.layout import Layout
 from scanbench.check.program import Pou, Program, ProgramInstance, Task
 from scanbench.check.types import BOOL, Kind, Record
-from scanbench.engines.native import emit_expressions, emit_loop, emit_statements
+from scanbench.engines.native import emit_expressions, emit_loop, emit_observed, emit_statements
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_function import UNLIKELY, FunctionText, Value
 from scanbench.engines.native.emit_memory import store
@@ -83,8 +83,10 @@ def _scan(unit: Unit, program: Program) -> str:
         f"store i64 {program.interval_ns}, ptr {_field(text, Layout.INTERVAL)}, align 8{unit.module.tag('#interval')}"
     )
     text.do(f"store i32 0, ptr {_field(text, Layout.ASKED_COUNT)}, align 8{unit.module.tag('#asked')}")
+    emit_observed.silent(body)
     for instance in (*program.common, *program.plant):
         _program(body, instance)
+    emit_observed.heard(body)
     _forces(unit, text)
     for task in program.tasks:
         _task(body, task, number)

@@ -22,7 +22,7 @@ from scanbench.check.program import (
     While,
 )
 from scanbench.check.types import Elementary, Kind
-from scanbench.engines.native import emit_calls, emit_loops, walk
+from scanbench.engines.native import emit_calls, emit_loops, emit_observed, walk
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_memory import canonical, load_at, move, put
 from scanbench.engines.native.emit_places import address
@@ -36,8 +36,13 @@ WIDEST_RANGE = 64
 
 def run(body: Body, statements: tuple[Stmt, ...]) -> None:
     """Emits the statements in order."""
+    observing = body.unit.observing
     for statement in statements:
-        one(body, statement)
+        if observing is None:
+            one(body, statement)
+        else:
+            with emit_observed.statement(body, observing, statement):
+                one(body, statement)
         body.text.end_statement()
 
 
@@ -53,7 +58,9 @@ def one(body: Body, statement: Stmt) -> None:
         case Evaluate(call):
             emit_calls.run(body, call)
         case If():
-            selects(body, statement) if to_selects(body, statement) else branches(body, statement)
+            # observed code says which statements ran and what they read, so it runs no others
+            speculated = body.unit.observing is None and to_selects(body, statement)
+            selects(body, statement) if speculated else branches(body, statement)
         case Case():
             case(body, statement)
         case For():

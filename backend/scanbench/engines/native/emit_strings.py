@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 from scanbench.check.program import Expr, Place
 from scanbench.check.types import StringType
-from scanbench.engines.native import walk
+from scanbench.engines.native import emit_observed, walk
 from scanbench.engines.native.emit_body import Body, Self
 from scanbench.engines.native.emit_memory import Address
 from scanbench.engines.native.emit_places import address
@@ -72,6 +72,7 @@ def bytes_of(body: Body, length: str, width: int) -> str:
 def of_place(body: Body, place: Place) -> Piece:
     """The characters of a variable."""
     where = address(body, place)
+    emit_observed.read(body, place, where)
     piece = of_pointer(body, where.pointer, string(place.type), where.tag)
     return replace(piece, variable=place.variable, start_of=(place, body.self))
 

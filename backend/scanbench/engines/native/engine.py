@@ -10,6 +10,7 @@ from scanbench.engines.native import jit
 from scanbench.engines.native.compiler import FAST, Compiler
 from scanbench.engines.native.condition_code import link_condition
 from scanbench.engines.native.emit_loop import ASKED, CONDITION, DONE, FUTEX, FUTEX_WAKE_PRIVATE, KNOCKED, TRAP
+from scanbench.engines.native.recorder import Recorder
 
 
 class _Control(ctypes.Structure):
@@ -32,6 +33,7 @@ _REASONS = {
 _LIBC = ctypes.PyDLL(None)
 """Keeps the GIL: waking somebody takes less than giving it away and getting it back."""
 
+_HOLDS = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p)
 _RUN = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_void_p, ctypes.c_void_p, ctypes.c_int64, ctypes.c_void_p)
 
 
@@ -41,16 +43,27 @@ class NativeEngine(Engine):
     name = "native"
 
     def __init__(
-        self, program: Program, memory: bytearray, opt_level: int = FAST, objects: Sequence[bytes] | None = None
+        self,
+        program: Program,
+        memory: bytearray,
+        opt_level: int = FAST,
+        objects: Sequence[bytes] | None = None,
+        recorder: Recorder | None = None,
     ) -> None:
-        """`opt_level` 0 builds fast, 2 runs fast. Object code of the program that is there already is only linked."""
+        """`opt_level` 0 builds fast, 2 runs fast. Object code of the program that is there already is only linked.
+
+        With a recorder, that is observed code.
+        """
         if len(memory) != program.layout.size:
             raise ValueError(f"the image has {len(memory)} bytes, but the program needs {program.layout.size}")
         self.timings = jit.Timings()
         if objects is None:
-            build = Compiler().build(program, opt_level)
+            build = Compiler(observed=recorder is not None).build(program, opt_level)
             objects, self.timings = build.objects, build.timings
         self._code = jit.link(objects, self.timings)
+        self._recorder = recorder  # the code writes to its memory
+        if recorder is not None:
+            recorder.attach(self._code)
         self._run = _RUN(self._code.function("run"))
         self._image = (ctypes.c_uint8 * len(memory)).from_buffer(memory)
         self._address = ctypes.addressof(self._image)
@@ -78,11 +91,17 @@ class NativeEngine(Engine):
             pace.busy_ns, pace.scans, pace.late_scans = measured.busy, measured.scans, measured.late_scans
         return Stop(_REASONS[reason], self._control.trap)
 
-    def stop_when(self, condition: Condition | None) -> None:
+    def stop_when(self, condition: Condition | None, *others: Condition) -> None:
         """See `Engine.stop_when`. Compiling takes some 10 ms, the same condition again next to nothing."""
-        code = None if condition is None else link_condition(self._program, condition)
+        conditions = others if condition is None else (condition, *others)
+        code = link_condition(self._program, *conditions) if conditions else None
         self._control.condition = None if code is None else code.function("condition")
         self._condition = code
+
+    def holds(self, condition: Condition) -> bool:
+        """See `Engine.holds`."""
+        code = link_condition(self._program, condition)
+        return bool(_HOLDS(code.function("condition"))(self._address))
 
     def knock(self) -> None:
         """See `Engine.knock`."""

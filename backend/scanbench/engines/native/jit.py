@@ -38,6 +38,10 @@ class Code:
         """Address of an exported function."""
         return int(self._engine.get_function_address(name))
 
+    def variable(self, name: str) -> int:
+        """Address of an exported variable."""
+        return int(self._engine.get_global_value_address(name))
+
     def close(self) -> None:
         """Frees the code; nobody may run it any more."""
         self._engine.close()

@@ -6,6 +6,7 @@ from scanbench.check.program import Pou, Program, Stmt
 from scanbench.engines.native import inlining, jit
 from scanbench.engines.native.effects import Effects, touched
 from scanbench.engines.native.emit_body import SCRATCH_LIMIT, TooLarge
+from scanbench.engines.native.emit_observed import Observing
 from scanbench.engines.native.emit_program import Emitter
 from scanbench.engines.native.registers import Signature, signature
 from scanbench.garbage import without_collection
@@ -66,7 +67,8 @@ class _Emitted:
 class Parts:
     """Makes the parts of programs. It remembers the last program: the next one may share POUs with it."""
 
-    def __init__(self) -> None:
+    def __init__(self, observed: bool = False) -> None:
+        self._observed = observed
         self._bodies: dict[Pou, _Body] = {}
         self._emitted: dict[Pou, _Emitted] = {}
 
@@ -78,18 +80,19 @@ class Parts:
     def of(self, program: Program) -> list[Part]:
         """One part for each POU, the scan, and the numbers that the others refer to; one part for a small program."""
         with without_collection():
+            observing = Observing(program) if self._observed else None
             if sum(inlining.size(pou.body) for pou in program.pous) <= SMALL:
-                unit = Emitter(program).whole()
+                unit = Emitter(program, observing=observing).whole()
                 return _fitting([Part(unit.module.text(), unit.scratch)])
-            return self._of(program)
+            return self._of(program, observing)
 
-    def _of(self, program: Program) -> list[Part]:
+    def _of(self, program: Program, observing: Observing | None) -> list[Part]:
         bodies: dict[Pou, _Body] = {}
         emitted: dict[Pou, _Emitted] = {}
         faces: dict[Pou, object] = {}
         writes: dict[Pou, frozenset[str]] = {}
         signatures: dict[Pou, Signature] = {}
-        emitter = Emitter(program, Effects(writes), signatures)
+        emitter = Emitter(program, Effects(writes), signatures, observing)
         sizes = program.layout.size, program.layout.state_size
         for pou in program.pous:
             body = bodies[pou] = self._body(pou)
@@ -99,8 +102,9 @@ class Parts:
             if pou in emitter.housed:
                 continue  # no POU calls a program
             called = tuple(faces[callee] for callee in body.callees)
-            faces[pou] = _face(emitter.names[pou], pou, body, writes[pou], called)
-            depends = (emitter.names[pou], body.same, pou.frame_offset, sizes, called)
+            sites = 0 if observing is None else observing.sites_in(pou)
+            faces[pou] = _face(emitter.names[pou], pou, body, writes[pou], called, sites > 0)
+            depends = (emitter.names[pou], body.same, pou.frame_offset, sizes, called, sites)
             known = self._emitted.get(pou)
             if known is None or known.depends != depends:
                 unit = emitter.pou(pou)
@@ -119,12 +123,12 @@ class Parts:
         return _Body(_Same(pou.body), frozenset(writes), tuple(callees), inlining.shared(pou), how)
 
 
-def _face(name: str, pou: Pou, body: _Body, writes: frozenset[str], called: object) -> object:
+def _face(name: str, pou: Pou, body: _Body, writes: frozenset[str], called: object, observed: bool) -> object:
     """Everything that the modules of callers may depend on."""
     how = body.signature
     passed = how and tuple((each.member.name, each.member.offset, each.passing) for each in how.all)
     inside = (body.same, called) if body.shared else None
-    return name, pou.frame_offset, passed, writes, inside
+    return name, pou.frame_offset, passed, writes, inside, observed
 
 
 def _fitting(parts: list[Part]) -> list[Part]:

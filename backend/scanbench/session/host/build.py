@@ -14,6 +14,7 @@ from scanbench.engines.engine import Engine
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem, Severity
+from scanbench.session.host.observed import ObservedCode
 from scanbench.session.known import key_of, recall
 from scanbench.session.protocol import Sources
 
@@ -65,6 +66,8 @@ class Builder:
         self._cache = BlobCache(cache) if cache is not None else None
         self._engines = find_engines(self._cache)
         self._checks = Checks()
+        self.observed = ObservedCode(self._cache)
+        """Who notes what statements do."""
         self._lock = threading.Lock()
         self._ready = False  # what was checked before makes the next check a short one
 
@@ -100,6 +103,10 @@ class Builder:
             if self._engines.tiers is not None and not self._engines.tiers.optimising:
                 return self._checked(sources, model)
             return _program(Checks(), sources, model)
+
+    def anew(self, sources: Sources) -> Program:
+        """The program checked once more, by itself: no later check changes its statements."""
+        return _program(Checks(), sources, find_model(sources.model))
 
     def prepare(self, sources: Sources) -> None:
         """Gets ready for an edit of what was recalled: checks it after all, when nobody waits for it."""

@@ -10,6 +10,7 @@ from scanbench.session.host.build import Builder
 from scanbench.session.host.limits import MemoryLimit
 from scanbench.session.host.link import Link
 from scanbench.session.host.loop import Loop
+from scanbench.session.host.observed import Observable
 from scanbench.session.host.swaps import BuildRefused, Swap
 
 log = logging.getLogger("scanbench")
@@ -41,6 +42,10 @@ class Builds:
                 else:
                     _behind("build", lambda: self._build(message.ref, sources, message.author, loop))
 
+    def observe(self, submit: protocol.Submit, loop: Loop) -> None:
+        """Builds observed code of what runs; the command that waits for a statement is entered when that is there."""
+        _behind("observe", lambda: self._observe(submit, loop))
+
     def get_ready(self, loop: Loop) -> None:
         """Somebody looks, and may edit: checks what runs, once, so that the next check is a short one."""
         if not self._ready:
@@ -56,6 +61,8 @@ class Builds:
         with self._building:
             try:
                 loaded = loop.programs.make(sources)
+                if loop.resource.observing:
+                    self._builder.observed.prepare(loaded.program)
             except Exception as error:  # whatever it is, the old program goes on and somebody must be told
                 why = f"the build failed, the old program goes on: {self._why(error)}"
                 loop.give(BuildRefused(ref, why))
@@ -64,18 +71,30 @@ class Builds:
             self.optimise(loop)
 
     def _preview(self, preview: protocol.Preview, loop: Loop) -> None:
-        change, refusal = Change(), ""
+        change, refusal, program = Change(), "", loop.live_program
         with self._building:
             try:
                 program = self._builder.preview(preview.sources)
                 change = changes(loop.live_program, program)
             except Exception as error:  # as above
                 refusal = f"the build failed: {self._why(error)}"
-        refusal = refusal or loop.change_refusal()
+        refusal = refusal or loop.change_refusal(program)
         forgotten = [each for each in change.lost if each.reason not in (NEW, REMOVED)]
         others = [each for each in change.lost if each.reason in (NEW, REMOVED)]
         lost = tuple((forgotten + others)[:LOST_LIMIT])
         self._link.post(protocol.Previewed(preview.ref, change.kept, lost, len(change.lost), len(forgotten), refusal))
+
+    def _observe(self, submit: protocol.Submit, loop: Loop) -> None:
+        with self._building:
+            version = loop.timeline.live_version
+            try:
+                program = self._builder.anew(loop.programs.sources(version))
+                self._builder.observed.prepare(program)
+            except Exception as error:  # as above
+                why = f"no code could be built that tells when a statement is reached: {self._why(error)}"
+                loop.give(BuildRefused(submit.ref, why))
+                return
+        loop.give(Observable(version, program, submit))
 
     def _prepare(self, loop: Loop) -> None:
         with self._building:

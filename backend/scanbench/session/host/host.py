@@ -9,6 +9,8 @@ import threading
 from pathlib import Path
 
 from scanbench.engines.lifeline import end_with_parent
+from scanbench.faults.arm import Arm
+from scanbench.faults.shapes import Start, Wanted
 from scanbench.session import protocol
 from scanbench.session.host.build import Builder, BuildFailed
 from scanbench.session.host.builds import Builds
@@ -121,6 +123,8 @@ class Host:
         match message:
             case protocol.Lookup():
                 self._link.post(look_up(self._loop.resource.program, message))
+            case protocol.Submit(command=Arm(wanted=Wanted(start=Start(kind="line")))):
+                self._builds.observe(message, self._loop)
             case protocol.Build() | protocol.Preview() | protocol.RollBack():
                 self._builds.take(message, self._loop)
             case protocol.Attend():

@@ -6,11 +6,14 @@ frames and state. Everything that touches the image is here, in one thread.
 
 import threading
 from collections import deque
+from collections.abc import Mapping
 from pathlib import Path
 
 from scanbench.check.condition import Condition, compile_condition
 from scanbench.check.program import Program
 from scanbench.engines.engine import Reason
+from scanbench.faults.carried import why_not_carried
+from scanbench.faults.inject import ACTIVE, Active
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.header import Mode
 from scanbench.runtime.program_change import ProgramChange
@@ -21,6 +24,7 @@ from scanbench.session import protocol
 from scanbench.session.codec import pack_body
 from scanbench.session.host.course import MAX_SPEED, Course
 from scanbench.session.host.link import Link
+from scanbench.session.host.observed import Observable
 from scanbench.session.host.services import Services
 from scanbench.session.host.shelf import HostPrograms
 from scanbench.session.host.swaps import BuildRefused, Copied, Optimising, Recode, Swap
@@ -42,7 +46,7 @@ class Loop:
         self._quit = self._rested = False
         self._course = Course(self.resource.program.interval_ns, start.speed, start.paused, start.cpu_percent)
         self._go_on(start)
-        self._services = Services(timeline, self._course, link, note, tiers)
+        self._services = Services(timeline, self._course, link, note, tiers, programs.sources)
 
     @property
     def resource(self) -> Resource:
@@ -72,15 +76,19 @@ class Loop:
         version = self._services.previous_version
         return None if version is None else self.programs.sources(version)
 
-    def change_refusal(self) -> str:
-        """Why the program cannot be changed now; empty when it can."""
+    def change_refusal(self, new: Program) -> str:
+        """Why the program cannot be changed to this one now; empty when it can. In any thread: by what was told last."""
+        standing = self._services.standing
+        return self._change_refusal(new, {} if standing is None else standing.errors)
+
+    def _change_refusal(self, new: Program, present: Mapping[str, Active]) -> str:
         if self.timeline.past:
             return PAST
         header = self.resource.header
         if header.halted_by_trap:  # it starts anew with the new one
             return ""
         refusal = may(header.mode, Right.TRANSFER if header.mode is Mode.PROGRAM else Right.CHANGE)
-        return refusal.message if refusal is not None else ""
+        return refusal.message if refusal is not None else why_not_carried(present, self.live_program, new)
 
     def give(self, message: object) -> None:
         """Hands over a message; the engine comes back for it after the current scan."""
@@ -153,6 +161,8 @@ class Loop:
                 self._answer(message.ref, message.refusal, "written")
             case Swap():
                 self._swap(message)
+            case Observable():
+                self._observe(message)
             case Recode():
                 self._recode(message)
             case BuildRefused():
@@ -261,7 +271,7 @@ class Loop:
     # ---- program --------------------------------------------------------------------------------------------------
 
     def _swap(self, swap: Swap) -> None:
-        refused = self.change_refusal()
+        refused = self._change_refusal(swap.loaded.program, self.resource.journal.derived(ACTIVE))
         if refused:  # before it is kept in the run
             self._ack(swap.ref, False, refused)
             return
@@ -286,6 +296,14 @@ class Loop:
             self._course.condition = self.timeline.condition
         self.programs.drop_idle(self.timeline.version, self.timeline.live_version)
         self._services.moved()
+
+    def _observe(self, observable: Observable) -> None:
+        loaded, then = self.timeline.live, observable.then
+        if loaded.version != observable.version:
+            self._ack(then.ref, False, "the program was changed meanwhile: look where the statement is now, and arm again")
+            return
+        loaded.fresh = observable.program
+        self._entered(then.ref, self.timeline.submit(then.command))
 
     def _recode(self, recode: Recode) -> None:
         if recode.engine is not None:

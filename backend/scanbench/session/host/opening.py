@@ -4,6 +4,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from scanbench.faults.detect import Detection
+from scanbench.faults.schedule import Schedule
 from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.contents import KeptProgram
@@ -37,8 +38,9 @@ def _begun(start: protocol.Start, path: Path, builder: Builder) -> tuple[Timelin
     sources = start.sources
     programs = HostPrograms(builder, {sources.version: sources})
     timeline = Timeline.begin(
-        path, programs, sources.version, pack_body(sources), ENTRIES, start.name, Detection(), run_limit(start.run_mib)
-    )
+        path, programs, sources.version, pack_body(sources), ENTRIES, start.name, Detection(), run_limit(start.run_mib),
+        Schedule(builder.observed.make),
+    )  # fmt: skip
     refusal = timeline.submit(SetClock("server", wall_time()))
     if isinstance(refusal, Refusal):
         raise OSError(refusal.message)
@@ -49,6 +51,9 @@ def _resumed(start: protocol.Start, path: Path, builder: Builder) -> tuple[Timel
     def programs_of(kept: Mapping[int, KeptProgram]) -> HostPrograms:
         return HostPrograms(builder, {each.version: sources_in(each) for each in kept.values()})
 
-    timeline = Timeline.resume(path, programs_of, ENTRIES, start.until, Detection(), run_limit(start.run_mib))
+    schedule = Schedule(builder.observed.make)
+    timeline = Timeline.resume(
+        path, programs_of, ENTRIES, start.until, Detection(), run_limit(start.run_mib), schedule
+    )  # fmt: skip
     assert isinstance(timeline.programs, HostPrograms)
     return timeline, timeline.programs

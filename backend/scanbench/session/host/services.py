@@ -1,15 +1,18 @@
 """Phase 7, tool services: value frames, state, diagnostics, forces, marks; what the parent is told of the PLC."""
 
+from collections.abc import Callable
 from dataclasses import replace
 
 from scanbench.check.symbols import Symbol
 from scanbench.check.violations import Violations, read_violations
+from scanbench.faults.arm import ARMED, armed_faults
 from scanbench.faults.inject import ACTIVE
+from scanbench.faults.preview import preview
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.forces import FORCED
 from scanbench.runtime.recording import RecordingInfo
 from scanbench.runtime.resource import Resource
-from scanbench.runtime.timeline import Timeline
+from scanbench.runtime.timeline import PAST, Timeline
 from scanbench.session import protocol
 from scanbench.session.host.course import Course
 from scanbench.session.host.link import Link
@@ -33,9 +36,11 @@ class Services:
     """Reads the image in the seam; never writes it."""
 
     def __init__(
-        self, timeline: Timeline, course: Course, link: Link, note: str, tiers: Optimising | None
+        self, timeline: Timeline, course: Course, link: Link, note: str, tiers: Optimising | None,
+        sources: Callable[[int], protocol.Sources],
     ) -> None:  # fmt: skip
         self._timeline, self._course, self._link, self._note, self._tiers = timeline, course, link, note, tiers
+        self._sources, self._version_told = sources, timeline.live_version
         self.past_by = ""
         self._attended = False
         self._quick_since = 0
@@ -74,6 +79,11 @@ class Services:
         """What a roll back swaps in, as it was told last; for any thread."""
         return None if self._last_state is None else self._last_state.previous_version
 
+    @property
+    def standing(self) -> protocol.Standing | None:
+        """What holds, as it was told last; for any thread."""
+        return self._standing
+
     # ---- what the parent asks -------------------------------------------------------------------------------------
 
     def serve(self, message: object) -> None:
@@ -89,11 +99,16 @@ class Services:
                 header = self._resource.header
                 frame = self._plan.snapshot(self._resource.memory, header.scan, self._time_ns)
                 self._link.post(protocol.Frame(frame, message.to))
+            case protocol.PreviewErrors():
+                self._preview(message)
             case protocol.Attend():
                 self._attended = message.anybody
 
     def entered(self) -> None:
-        """Tells of the journal's new entries."""
+        """Tells of the journal's new entries, and first what runs now, when that is another program."""
+        if self._timeline.live_version != self._version_told:
+            self._version_told = self._timeline.live_version
+            self._link.post(protocol.NowRuns(self._sources(self._version_told)))
         entries = self._timeline.new_entries()
         if entries:
             self._link.post(protocol.Entered(tuple(entries)))
@@ -139,10 +154,19 @@ class Services:
         journal = self._resource.journal
         forces = tuple(journal.derived(FORCED).values())
         present = journal.derived(ACTIVE)
-        standing = protocol.Standing(forces, dict(present))
+        standing = protocol.Standing(forces, dict(present), armed_faults(journal.derived(ARMED)))
         if standing != self._standing:
             self._standing = standing
             self._link.post(standing)
+
+    def _preview(self, asked: protocol.PreviewErrors) -> None:
+        view = self._resource.view
+        if self._timeline.past:
+            answer = protocol.PreviewedErrors(asked.ref, False, PAST, view.header.scan, ())
+        else:
+            found = preview(view, asked.errors, asked.again)
+            answer = protocol.PreviewedErrors(asked.ref, found.ok, found.message, view.header.scan, found.writes)
+        self._link.post(answer)
 
     def _tell_info(self) -> None:
         info = self._timeline.recording.info

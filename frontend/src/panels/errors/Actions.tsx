@@ -1,43 +1,45 @@
-import { allErrors, inNames } from "../../logic/catalogue";
+import { inNames } from "../../logic/catalogue";
+import { troubles } from "../../logic/details";
+import { isPlain, readShape } from "../../logic/shapes";
 import { t } from "../../logic/text";
+import { useCatalogue } from "../../store/catalogue";
+import { readClock } from "../../store/clock";
 import { useForbidden, usePlc } from "../../store/plc";
-import { generate, recover, targets, useSimulator } from "../../store/simulator";
+import { asksFirst, changeDetails, chosenOf, entriesOf, generate, recover, useSimulator } from "../../store/simulator";
 import { Icon } from "../../ui/Icon";
-import type { ModelInfo } from "../../wire/types";
 
 /** Generate what is ticked (or selected), recover it, or clear everything that is generated. */
-export function Actions({ model }: { model: ModelInfo }) {
+export function Actions({ refusedInTree }: { refusedInTree: boolean }) {
   const state = useSimulator();
-  const errors = usePlc((plc) => plc.errors);
+  const { errors } = useCatalogue();
+  const history = usePlc((plc) => plc.errors);
   const forbidden = useForbidden("errors");
   const locked = forbidden !== null;
   const why = forbidden ?? undefined;
-  const chosen = targets(state);
-  const raised = chosen.filter((id) => errors.get(id)?.status === "generated").length;
-  const any = [...errors.values()].some((row) => row.status === "generated");
-  const { outcome } = state;
-  const message = inNames(allErrors(model.catalogue), outcome?.message ?? "");
+  const chosen = chosenOf(state, errors);
+  const raised = chosen.filter(({ id }) => history.get(id)?.status === "generated").length;
+  const any = [...history.values()].some((row) => row.status === "generated");
+  const asks = asksFirst(state, errors);
+  const unready =
+    !asks &&
+    (chosen.some((error) => troubles(error, entriesOf(state, error)).size > 0) ||
+      Object.keys(readShape(state.shape, readClock().scan).troubles).length > 0);
   return (
     <>
-      {outcome && !outcome.ok && (
-        <p className="trouble st fatal" role="alert">
-          <Icon name="error" small />
-          <span>{message || t("notsent.about")}</span>
-        </p>
-      )}
+      {!refusedInTree && <Refusal />}
       <p className="outcome muted" role="status">
-        {outcome?.ok ? message : ""}
+        {state.outcome?.ok ? inNames(errors, state.outcome.message) : ""}
       </p>
       <div className="acts">
         <button
           type="button"
           className="btn primary sm"
-          disabled={locked || chosen.length === 0}
+          disabled={locked || unready || chosen.length === 0}
           title={why}
-          onClick={() => void generate(model)}
+          onClick={() => void generate(errors)}
         >
-          <Icon name="generated" small />
-          {chosen.length > 1 ? t("errors.generate.many", { count: chosen.length }) : t("errors.generate")}
+          <Icon name={isPlain(state.shape) ? "generated" : "clock"} small />
+          {label(chosen.length, asks, isPlain(state.shape))}
         </button>
         <button
           type="button"
@@ -61,4 +63,30 @@ export function Actions({ model }: { model: ModelInfo }) {
       </div>
     </>
   );
+}
+
+/** A refusal that is not about one row in sight. */
+function Refusal() {
+  const outcome = useSimulator((state) => state.outcome);
+  const { errors } = useCatalogue();
+  if (!outcome || outcome.ok) return null;
+  return (
+    <p className="trouble st fatal" role="alert">
+      <Icon name="error" small />
+      <span>
+        {inNames(errors, outcome.message) || t("notsent.about")}{" "}
+        {outcome.present.length > 0 && (
+          <button type="button" className="link" onClick={() => void changeDetails(errors, outcome)}>
+            {t("errors.again")}
+          </button>
+        )}
+      </span>
+    </p>
+  );
+}
+
+function label(count: number, asks: boolean, plain: boolean): string {
+  if (asks) return t("errors.generate.asks", { count });
+  if (!plain) return count > 1 ? t("errors.arm.many", { count }) : t("errors.arm");
+  return count > 1 ? t("errors.generate.many", { count }) : t("errors.generate");
 }

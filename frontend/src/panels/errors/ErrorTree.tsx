@@ -1,63 +1,65 @@
 import { type KeyboardEvent, useEffect, useRef } from "react";
-import type { CatalogueRow, GroupRow, LeafRow } from "../../logic/catalogue";
+import { type CatalogueRow, rowFor } from "../../logic/catalogue";
 import { t } from "../../logic/text";
 import { selectError, toggleChecked, toggleGroup, useSimulator } from "../../store/simulator";
-import { Checkbox } from "../../ui/Checkbox";
-import { Icon } from "../../ui/Icon";
-import { StateWord } from "../../ui/StateWord";
-import { STATUS_ICONS } from "../../ui/statuses";
+import { Group, Leaf, RefusalRow } from "./rows";
 
-/** The catalogue. Arrow keys move, Space ticks, Right and Left unfold and fold. */
-export function ErrorTree({ rows, label }: { rows: readonly CatalogueRow[]; label: string }) {
+interface Props {
+  rows: readonly CatalogueRow[];
+  label: string;
+  /** The error below which the last refusal stands. */
+  refused: string | null;
+  onGenerate: () => void;
+}
+
+/** Letters typed with less than this between them, in ms, belong together. */
+const TOGETHER = 700;
+
+/** The catalogue. Arrows move, fold and unfold; Space ticks; Enter generates; letters jump. */
+export function ErrorTree({ rows, label, refused, onGenerate }: Props) {
   const grid = useRef<HTMLDivElement>(null);
+  const typed = useRef({ text: "", at: 0 });
   const selected = useSimulator((state) => state.selected);
   const now = rows.findIndex((row) => row.key === selected);
-
-  // The details of the selected error take room from the tree: it must not push its own row out of sight.
-  useEffect(() => {
-    const tree = grid.current;
-    if (selected === null || !tree) return;
-    // Called at once, and again whenever the details grow.
-    const resized = new ResizeObserver(() =>
-      tree.querySelector(`[data-key="${CSS.escape(selected)}"]`)?.scrollIntoView({ block: "nearest" }),
-    );
-    resized.observe(tree);
-    return () => resized.disconnect();
-  }, [selected]);
+  useRowInSight(grid, selected);
 
   function move(index: number): void {
     const row = rows[Math.max(0, Math.min(rows.length - 1, index))];
-    if (!row) return;
-    selectError(row.key);
+    if (row) selectError(row.key);
+  }
+
+  function sideways(row: CatalogueRow | undefined, unfold: boolean): void {
+    if (row?.kind === "group" && row.open !== unfold) toggleGroup(row.key);
+    else if (unfold && row?.kind === "group") move(now + 1);
+    else if (!unfold && row) {
+      const parent = rows.slice(0, now).findLastIndex((before) => before.level < row.level);
+      if (parent >= 0) move(parent);
+    }
+  }
+
+  function jump(event: KeyboardEvent): void {
+    const fresh = event.timeStamp - typed.current.at > TOGETHER;
+    const text = (fresh ? "" : typed.current.text) + event.key;
+    typed.current = { text, at: event.timeStamp };
+    // The first letter goes on from the row behind; more letters may still mean this one.
+    const row = rowFor(rows, text, text.length === 1 ? now + 1 : Math.max(0, now));
+    if (row) selectError(row.key);
   }
 
   function onKeyDown(event: KeyboardEvent): void {
+    if (event.target !== event.currentTarget || event.ctrlKey || event.metaKey || event.altKey) return;
     const row = rows[now];
-    switch (event.key) {
-      case "ArrowDown":
-        move(now + 1);
-        break;
-      case "ArrowUp":
-        move(now - 1);
-        break;
-      case "Home":
-        move(0);
-        break;
-      case "End":
-        move(rows.length - 1);
-        break;
-      case "ArrowRight":
-        if (row?.kind === "group" && !row.open) toggleGroup(row.key);
-        break;
-      case "ArrowLeft":
-        if (row?.kind === "group" && row.open) toggleGroup(row.key);
-        break;
-      case " ":
-        if (row) toggleChecked(row.kind === "group" ? row.ids : [row.error.id]);
-        break;
-      default:
-        return;
-    }
+    const to = { ArrowDown: now + 1, ArrowUp: now - 1, Home: 0, End: rows.length - 1 }[event.key];
+    if (to !== undefined) move(to);
+    else if (event.key === "PageDown") move(now + 10);
+    else if (event.key === "PageUp") move(now - 10);
+    else if (event.key === "ArrowRight") sideways(row, true);
+    else if (event.key === "ArrowLeft") sideways(row, false);
+    else if (event.key === " ") {
+      if (row) toggleChecked(row.kind === "group" ? row.ids : [row.error.id]);
+    } else if (event.key === "Enter") onGenerate();
+    else if (event.key.length === 1) jump(event);
+    else return;
     event.preventDefault();
   }
 
@@ -75,20 +77,14 @@ export function ErrorTree({ rows, label }: { rows: readonly CatalogueRow[]; labe
         if (now < 0 && event.currentTarget.matches(":focus-visible")) move(0);
       }}
     >
-      <div className="gr h" role="row">
-        <span role="columnheader" className="first">
-          {t("errors.error")}
-        </span>
-        <span role="columnheader" className="c-code">
-          {t("errors.code")}
-        </span>
-        <span role="columnheader">{t("errors.state")}</span>
-      </div>
+      <Head />
       {rows.map((row, index) =>
         row.kind === "group" ? (
           <Group key={row.key} row={row} index={index} selected={row.key === selected} />
         ) : (
-          <Leaf key={row.key} row={row} index={index} selected={row.key === selected} />
+          <Leaf key={row.key} row={row} index={index} selected={row.key === selected}>
+            {row.key === refused && <RefusalRow error={row.error} />}
+          </Leaf>
         ),
       )}
       {rows.length === 0 && <p className="lonely faint">{t("errors.nomatch")}</p>}
@@ -96,62 +92,40 @@ export function ErrorTree({ rows, label }: { rows: readonly CatalogueRow[]; labe
   );
 }
 
-function Group({ row, index, selected }: { row: GroupRow; index: number; selected: boolean }) {
+function Head() {
   return (
-    <div
-      id={`error-${index}`}
-      className={`gr grp${selected ? " on" : ""}`}
-      role="row"
-      style={{ "--lv": row.level }}
-      aria-level={row.level + 1}
-      aria-expanded={row.open}
-      aria-selected={selected}
-      data-key={row.key}
-      onClick={() => toggleGroup(row.key)}
-    >
-      <span className="name" role="gridcell">
-        <Icon name={row.open ? "chev-d" : "chev-r"} className="tw" />
-        <Checkbox label={row.name} check={row.check} onToggle={() => toggleChecked(row.ids)} />
-        <span className="cut">{row.name}</span>
+    <div className="gr h" role="row">
+      <span role="columnheader" className="first">
+        {t("errors.error")}
       </span>
-      <span className="tested" role="gridcell">
-        {t("errors.tested", { tested: row.tested, total: row.ids.length })}
+      <span role="columnheader" className="c-code">
+        {t("errors.code")}
+      </span>
+      <span role="columnheader" className="c-flag">
+        {t("errors.flag")}
+      </span>
+      <span role="columnheader" className="c-severity">
+        {t("errors.severity")}
+      </span>
+      <span role="columnheader">{t("errors.state")}</span>
+      <span role="columnheader" className="c-reaction">
+        {t("errors.reaction")}
+        <span className="scans">{t("errors.reaction.scans")}</span>
       </span>
     </div>
   );
 }
 
-function Leaf({ row, index, selected }: { row: LeafRow; index: number; selected: boolean }) {
-  const { error } = row;
-  return (
-    <div
-      id={`error-${index}`}
-      className={`gr${selected ? " on" : ""}`}
-      role="row"
-      style={{ "--lv": row.level + 1 }}
-      aria-level={row.level + 1}
-      aria-selected={selected}
-      data-key={row.key}
-      title={error.description}
-      onClick={() => selectError(error.id)}
-    >
-      <span className="name" role="gridcell">
-        <Checkbox
-          label={error.name}
-          check={row.checked ? "all" : "none"}
-          onToggle={() => {
-            toggleChecked([error.id]);
-            selectError(error.id);
-          }}
-        />
-        <span className="cut">{error.name}</span>
-      </span>
-      <span className="mono muted c-code" role="gridcell">
-        {row.code}
-      </span>
-      <span role="gridcell">
-        <StateWord tone={row.status} icon={STATUS_ICONS[row.status]} word={t(`errors.status.${row.status}`)} />
-      </span>
-    </div>
-  );
+/** The details of the selected error take room from the tree: it must not push its own row out of sight. */
+function useRowInSight(grid: { current: HTMLDivElement | null }, selected: string | null): void {
+  useEffect(() => {
+    const tree = grid.current;
+    if (selected === null || !tree) return;
+    // Called at once, and again whenever the details grow.
+    const resized = new ResizeObserver(() =>
+      tree.querySelector(`[data-key="${CSS.escape(selected)}"]`)?.scrollIntoView({ block: "nearest" }),
+    );
+    resized.observe(tree);
+    return () => resized.disconnect();
+  }, [grid, selected]);
 }

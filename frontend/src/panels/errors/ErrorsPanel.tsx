@@ -1,18 +1,23 @@
 import { useMemo } from "react";
-import { allErrors, catalogueRows } from "../../logic/catalogue";
+import { catalogueRows } from "../../logic/catalogue";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
-import { usePlc } from "../../store/plc";
-import { setFilter, setStatusFilter, useSimulator } from "../../store/simulator";
+import { useCatalogue } from "../../store/catalogue";
+import { useForbidden, usePlc } from "../../store/plc";
+import { generate, setFilters, useSimulator } from "../../store/simulator";
+import { openSweep } from "../../store/sweeps";
 import { Icon } from "../../ui/Icon";
-import { MenuButton } from "../../ui/Menu";
 import type { ModelInfo } from "../../wire/types";
 import { Actions } from "./Actions";
+import { ArmedList } from "./ArmedList";
 import { Details } from "./Details";
+import { DetailsDialog } from "./DetailsDialog";
 import { ErrorTree } from "./ErrorTree";
+import "./errors.css";
+import { FilterMenu } from "./FilterMenu";
+import { FirstSteps } from "./FirstSteps";
+import { refusedRow } from "./refusal";
 import { StatusWords } from "./StatusWords";
-
-const STATUSES = ["all", "never", "generated", "cleared"] as const;
 
 /** Every error the model knows, to be raised and recovered without touching the program. */
 export function ErrorsPanel() {
@@ -26,13 +31,17 @@ export function ErrorsPanel() {
 }
 
 function Simulator({ model }: { model: ModelInfo }) {
-  const { filter, status, closed, checked, selected } = useSimulator();
+  const { filter, status, severity, reaction, closed, checked, selected, outcome, asking } = useSimulator();
+  const { groups, errors, byId } = useCatalogue();
   const history = usePlc((plc) => plc.errors);
+  const locked = useForbidden("errors") !== null;
   const rows = useMemo(
-    () => catalogueRows(model.catalogue, { filter, status, closed, checked, history }),
-    [model, filter, status, closed, checked, history],
+    () => catalogueRows(groups, { filter, status, severity, reaction, closed, checked, history }),
+    [groups, filter, status, severity, reaction, closed, checked, history],
   );
-  const error = useMemo(() => allErrors(model.catalogue).find((known) => known.id === selected), [model, selected]);
+  const error = selected === null ? undefined : byId.get(selected);
+  const untouched = useMemo(() => [...history.values()].every((row) => row.status === "never"), [history]);
+  const refused = refusedRow(rows, outcome);
   return (
     <>
       <div className="sub">
@@ -44,27 +53,28 @@ function Simulator({ model }: { model: ModelInfo }) {
             placeholder={t("errors.filter")}
             value={filter}
             spellCheck={false}
-            onChange={(event) => setFilter(event.target.value)}
+            onChange={(event) => setFilters({ filter: event.target.value })}
           />
         </span>
-        <MenuButton
-          label={t("errors.status", { status: t(`errors.status.${status}`) })}
-          items={() =>
-            STATUSES.map((value) => ({
-              label: t(`errors.status.${value}`),
-              checked: value === status,
-              onSelect: () => setStatusFilter(value),
-            }))
-          }
-        >
-          {t(`errors.status.${status}`)}
-          <Icon name="chev-d" small />
-        </MenuButton>
+        <FilterMenu />
+        <button type="button" className="btn sm" title={t("errors.runall.hint")} onClick={openSweep}>
+          {t("errors.runall")}
+        </button>
       </div>
-      <ErrorTree rows={rows} label={t("errors.of", { model: model.name })} />
+      <ErrorTree
+        rows={rows}
+        label={t("errors.of", { model: model.name })}
+        refused={refused}
+        onGenerate={() => {
+          if (!locked) void generate(errors);
+        }}
+      />
       {error && <Details error={error} />}
+      {!error && untouched && <FirstSteps />}
+      <ArmedList />
       <StatusWords words={model.status_words} />
-      <Actions model={model} />
+      <Actions refusedInTree={refused !== null} />
+      {asking && <DetailsDialog errors={errors.filter((known) => asking.includes(known.id))} />}
     </>
   );
 }

@@ -1,0 +1,107 @@
+"""Sites: the statements of a user's program, as people would count them, each with a number of its own.
+
+For tools that say where something happened: who read a bit, which statements ran. What the compiler made has no site: start
+values, what goes around a call, bodies that choose a method; nor have the system program, the plant and the library.
+"""
+
+from collections.abc import Iterable, Iterator, Mapping
+from dataclasses import dataclass
+
+from scanbench.check.program import Blocks, Case, For, If, Pou, Program, Repeat, Stmt, While
+from scanbench.check.standard.library import in_library
+from scanbench.check.system_text import is_system
+from scanbench.check.types import Record
+from scanbench.problems import Span
+
+
+@dataclass(frozen=True, slots=True)
+class StatementSite:
+    """A statement, or a line of a CONFIGURATION that connects a program to a variable."""
+
+    span: Span
+    pou: str
+    """In which POU it stands; the text of one statement has several sites where several POUs are made of it."""
+
+
+class Sites:
+    """The sites of one program. The numbers are the same wherever the same program is checked."""
+
+    def __init__(self, program: Program) -> None:
+        self._program = program  # the numbers count while its statements live
+        found = [(pou, stmt, span) for pou in program.tasked for stmt, span in _of_pou(pou)]
+        joined = [(each.name, stmt) for task in program.tasks for each in task.programs for stmt in each.before]
+        joined += [(each.name, stmt) for task in program.tasks for each in task.programs for stmt in each.after]
+        named = [(pou.name, stmt, span) for pou, stmt, span in found]
+        named += [(name, stmt, stmt.span.plain()) for name, stmt in joined]
+        named.sort(key=lambda each: (each[2].file, each[2].line, each[2].column))
+        self.statements = tuple(StatementSite(span, name) for name, _, span in named)
+        """Ordered by file, line and column, and what stands in one place as the program has it."""
+        self._numbers = {id(stmt): number for number, (_, stmt, _) in enumerate(named)}
+        bodies: dict[Pou, list[int]] = {}
+        for pou, stmt, _ in found:
+            bodies.setdefault(pou, []).append(self._numbers[id(stmt)])
+        self.bodies: Mapping[Pou, tuple[int, ...]] = {pou: tuple(numbers) for pou, numbers in bodies.items()}
+        """The sites of each POU that has any, in the order of its tree: outer before inner."""
+        self._lines: dict[tuple[str, int], list[int]] = {}
+        for number, site in enumerate(self.statements):
+            self._lines.setdefault((site.span.file, site.span.line), []).append(number)
+
+    def number(self, stmt: Stmt) -> int | None:
+        """The number of this very statement, or None if it has none."""
+        return self._numbers.get(id(stmt))
+
+    def at_line(self, file: str, line: int) -> tuple[int, ...]:
+        """The statements that begin in this line."""
+        return tuple(self._lines.get((file, line), ()))
+
+
+def sites_of(program: Program) -> Sites:
+    """The sites of a program."""
+    return Sites(program)
+
+
+def _of_pou(pou: Pou) -> Iterator[tuple[Stmt, Span]]:
+    if in_library(pou.span) or is_system(pou.span):
+        return
+    # start values stand where the variable is declared; what was made for the whole POU, where that is
+    made = {pou.span.plain(), *_declared(pou.frame), *_declared(pou.instance)}
+    body = [(stmt, stmt.span.plain()) for stmt in pou.body]
+    yield from _in_order([each for each in body if each[1] not in made])
+
+
+def _declared(record: Record) -> Iterator[Span]:
+    return (member.span.plain() for member in record.members.values() if not member.hidden)
+
+
+def _in_order(body: Iterable[tuple[Stmt, Span]]) -> Iterator[tuple[Stmt, Span]]:
+    """Statements one after the other. An instruction of IL may be several; only the first is not behind the text."""
+    end = (0, 0)
+    for stmt, span in body:
+        if (span.line, span.column) >= end:
+            yield from _of_statement(stmt, span)
+            end = span.end_line, span.end_column
+
+
+def _of_statement(stmt: Stmt, span: Span) -> Iterator[tuple[Stmt, Span]]:
+    bodies = [[(each, each.span.plain()) for each in body] for body in _bodies(stmt)]
+    if isinstance(stmt, Blocks):  # the whole of an instruction list that has labels
+        for body in bodies:
+            yield from _in_order(body)
+        return
+    yield stmt, span
+    if any(own == span for body in bodies for _, own in body):
+        return  # it goes around what the statement itself is: EN, S=, JMPC, what an argument needs before a call
+    for body in bodies:
+        yield from _in_order(body)
+
+
+def _bodies(stmt: Stmt) -> tuple[tuple[Stmt, ...], ...]:
+    match stmt:
+        case If(branches, orelse) | Case(_, branches, orelse):
+            return (*(body for _, body in branches), orelse)
+        case For() | While() | Repeat():
+            return (stmt.body,)
+        case Blocks(blocks):
+            return blocks
+        case _:
+            return ()

@@ -1,0 +1,299 @@
+"""Observed code: a mark where a statement begins, a note where watched bits are read; see `engines.observe`.
+
+Both go to memory beside the image, whose addresses stand in `@observed`. A read costs a look into a map of the watched bits,
+and only where the place may lie in an area of the model. The statement is a number in the code; before a call of what has no
+statements of its own, the library's, it is put where that finds it.
+"""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from scanbench.check.layout import Layout
+from scanbench.check.program import Base, Place, Pou, Program, Stmt
+from scanbench.check.sites import Sites, sites_of
+from scanbench.check.types import Kind
+from scanbench.engines.native.emit_body import Body, Unit
+from scanbench.engines.native.emit_memory import Address
+from scanbench.engines.observe import LIMIT, areas_end
+
+STATE = "@observed"
+"""What the code and the engine share: pointers to the marks and to the map in use, to the log, u64 the site that calls the
+library, pointers to the marks and the map of the program, and to those that are used while something else runs."""
+MARKS, MAP, LOG, SITE, OWN_MARKS, OWN_MAP, SPARE_MARKS, SPARE_MAP = range(0, 64, 8)
+STATE_BYTES = 64
+
+SLOTS = 2 * LIMIT
+"""Of the table that finds an entry of the log: the number of the entry plus one, or 0."""
+ENTRIES = 8 + 4 * SLOTS
+"""Where the entries begin in the log, behind u32 entries, u32 reads lost, and the table. An entry: u32 site, offset, mask."""
+ENTRY_BYTES = 12
+LOG_BYTES = ENTRIES + ENTRY_BYTES * LIMIT
+SCAN = "$scan"
+"""In place of the name of a POU: what a configuration connects."""
+
+LOOK = """\
+declare i64 @llvm.umin.i64(i64, i64)
+define internal void @observed.look(i64 %offset, i64 %size, i8 %bits, i32 %site) noinline #0 {{
+; notes which of these bits are watched, of so many bytes at the offset
+entry:
+  %inside = icmp ult i64 %offset, {end}
+  br i1 %inside, label %start, label %done
+start:
+  %behind = add i64 %offset, %size
+  %last = call i64 @llvm.umin.i64(i64 %behind, i64 {end})
+  %map = load ptr, ptr getelementptr (i8, ptr {state}, i64 {map}), align 8
+  br label %next
+next:
+  %at = phi i64 [ %offset, %start ], [ %after, %on ]
+  %more = icmp ult i64 %at, %last
+  br i1 %more, label %byte, label %done
+byte:
+  %maskat = getelementptr inbounds i8, ptr %map, i64 %at
+  %mask = load i8, ptr %maskat, align 1
+  %read = and i8 %mask, %bits
+  %any = icmp ne i8 %read, 0
+  br i1 %any, label %watched, label %on
+watched:
+  call void @observed.note(i64 %at, i8 %read, i32 %site)
+  br label %on
+on:
+  %after = add i64 %at, 1
+  br label %next
+done:
+  ret void
+}}
+define internal void @observed.note(i64 %at, i8 %read, i32 %site) noinline cold #0 {{
+; finds the entry of the site and byte, or appends one
+entry:
+  %log = load ptr, ptr getelementptr (i8, ptr {state}, i64 {log}), align 8
+  %offset = trunc i64 %at to i32
+  %bits = zext i8 %read to i32
+  %a = mul i32 %site, -1640531535
+  %b = mul i32 %offset, -2048144789
+  %mixed = xor i32 %a, %b
+  %hash = lshr i32 %mixed, 15
+  br label %probe
+probe:
+  %number = phi i32 [ %hash, %entry ], [ %following, %other ]
+  %slot = and i32 %number, {last}
+  %wide = zext i32 %slot to i64
+  %scaled = mul i64 %wide, 4
+  %slotoffset = add i64 %scaled, 8
+  %slotat = getelementptr inbounds i8, ptr %log, i64 %slotoffset
+  %found = load i32, ptr %slotat, align 4
+  %free = icmp eq i32 %found, 0
+  br i1 %free, label %new, label %known
+known:
+  %index = sub i32 %found, 1
+  %entryat = call ptr @observed.entry(ptr %log, i32 %index)
+  %itssite = load i32, ptr %entryat, align 4
+  %itsoffsetat = getelementptr inbounds i8, ptr %entryat, i64 4
+  %itsoffset = load i32, ptr %itsoffsetat, align 4
+  %samesite = icmp eq i32 %itssite, %site
+  %sameoffset = icmp eq i32 %itsoffset, %offset
+  %same = and i1 %samesite, %sameoffset
+  br i1 %same, label %again, label %other
+other:
+  %following = add i32 %slot, 1
+  br label %probe
+again:
+  %maskat = getelementptr inbounds i8, ptr %entryat, i64 8
+  %before = load i32, ptr %maskat, align 4
+  %now = or i32 %before, %bits
+  store i32 %now, ptr %maskat, align 4
+  ret void
+new:
+  %count = load i32, ptr %log, align 4
+  %full = icmp uge i32 %count, {limit}
+  br i1 %full, label %lose, label %append
+lose:
+  %lostat = getelementptr inbounds i8, ptr %log, i64 4
+  %lost = load i32, ptr %lostat, align 4
+  %more = add i32 %lost, 1
+  store i32 %more, ptr %lostat, align 4
+  ret void
+append:
+  %grown = add i32 %count, 1
+  store i32 %grown, ptr %log, align 4
+  store i32 %grown, ptr %slotat, align 4
+  %fresh = call ptr @observed.entry(ptr %log, i32 %count)
+  store i32 %site, ptr %fresh, align 4
+  %freshoffset = getelementptr inbounds i8, ptr %fresh, i64 4
+  store i32 %offset, ptr %freshoffset, align 4
+  %freshmask = getelementptr inbounds i8, ptr %fresh, i64 8
+  store i32 %bits, ptr %freshmask, align 4
+  ret void
+}}
+define internal ptr @observed.entry(ptr %log, i32 %index) #0 {{
+  %wide = zext i32 %index to i64
+  %distance = mul i64 %wide, {entry_bytes}
+  %behind = add i64 %distance, {entries}
+  %at = getelementptr inbounds i8, ptr %log, i64 %behind
+  ret ptr %at
+}}"""
+
+
+class Observing:
+    """What the emitters of observed code know of the program."""
+
+    def __init__(self, program: Program) -> None:
+        self.sites: Sites = sites_of(program)
+        self.end = areas_end(program.layout)
+        self.first: dict[Pou, int] = {}
+        """Where the numbers of each POU's sites begin: in the code, each POU's follow one another."""
+        self.order: list[int] = []
+        """The number of the site, by its number in the code."""
+        for pou, numbers in self.sites.bodies.items():
+            self.first[pou] = len(self.order)
+            self.order += numbers
+        self.connections = len(self.order)
+        """Where the numbers of what the configuration connects begin."""
+        inside = set(self.order)
+        self.order += [number for number in range(len(self.sites.statements)) if number not in inside]
+        self._places = {number: place for place, number in enumerate(self.order)}
+
+    def sites_in(self, pou: Pou) -> int:
+        """How many statements of the POU have a site."""
+        return len(self.sites.bodies.get(pou, ()))
+
+    def local(self, pou: Pou, statement: Stmt) -> int | None:
+        """The number of the statement, counted from where those of its POU begin."""
+        number = self.sites.number(statement)
+        return None if number is None else self._places[number] - self.first.get(pou, self.connections)
+
+
+def first_site(name: str) -> str:
+    """The number that the numbers of a POU's sites count from."""
+    return f'@"site.{name}"'
+
+
+def field(offset: int) -> str:
+    """The address of a field of the state."""
+    return f"getelementptr (i8, ptr {STATE}, i64 {offset})" if offset else STATE
+
+
+# ---- statements -----------------------------------------------------------------------------------------------
+
+
+@contextmanager
+def statement(body: Body, observing: Observing, node: Stmt) -> Iterator[None]:
+    """Marks that the statement begins; what is emitted meanwhile belongs to it."""
+    number = observing.local(body.pou, node)
+    if number is None:
+        yield
+        return
+    body.text.do(f"store i8 1, ptr {body.text.address(_marks(body), number)}, align 1")
+    outer, body.site = body.site, number
+    yield
+    body.site = outer
+
+
+def before_call(body: Body, callee: Pou) -> None:
+    """Tells what has no statements of its own on whose behalf it runs."""
+    observing = body.unit.observing
+    if observing is not None and body.site is not None and not observing.sites_in(callee):
+        body.text.do(f"store i32 {_site(body)}, ptr {field(SITE)}, align 8")
+
+
+def _marks(body: Body) -> str:
+    """The marks of the POU's statements."""
+    if not body.marks:
+        body.marks, name = "%marks", body.unit.names.get(body.pou, SCAN)
+        marks = MARKS if body.unit.has(body.pou) else OWN_MARKS  # the scan itself begins before it says which
+        body.text.entry += [
+            f"  %sites = load i32, ptr {first_site(name)}, align 4",
+            f"  %allmarks = load ptr, ptr {field(marks)}, align 8",
+            "  %firstmark = zext i32 %sites to i64",
+            "  %marks = getelementptr inbounds i8, ptr %allmarks, i64 %firstmark",
+        ]
+    return body.marks
+
+
+def _site(body: Body) -> str:
+    """The number of the statement that runs; of the library, that of the user's statement that called it."""
+    if body.site is not None:
+        return body.text.op(f"add i32 %sites, {body.site}") if body.site else "%sites"
+    load = f"  %caller = load i32, ptr {field(SITE)}, align 8"
+    if load not in body.text.entry:
+        body.text.entry.append(load)
+    return "%caller"
+
+
+# ---- reads ----------------------------------------------------------------------------------------------------
+
+
+def read(body: Body, place: Place, where: Address) -> None:
+    """Notes that the value of the place is read, if any of it is watched."""
+    observing = body.unit.observing
+    if observing is None or (place.variable and not place.variable.startswith("@")):
+        return
+    if body.site is None and (observing.sites_in(body.pou) or not body.unit.has(body.pou)):
+        return  # what looks whether a task is due, and the start of a body
+    _declare(body.unit, observing)
+    mask = _mask(body, place, where)
+    if place.slot is not None or place.reference is not None or place.indices:
+        pointer, image = (body.text.op(f"ptrtoint ptr {each} to i64") for each in (where.pointer, body.image))
+        offset = body.text.op(f"sub i64 {pointer}, {image}")
+        _look(body, offset, place.type.size, mask)
+    elif place.base is Base.IMAGE and Layout.HEADER_SIZE <= place.offset < observing.end:
+        _look_if(body, place.offset, place.type.size, mask)
+
+
+def _mask(body: Body, place: Place, where: Address) -> str:
+    if place.type.kind is not Kind.BOOL:
+        return "-1"
+    bit = where.bit or "0"
+    return str((1 << int(bit) ^ 0x80) - 0x80) if bit.isdigit() else body.text.op(f"shl i8 1, {bit}")
+
+
+def _look(body: Body, offset: str, size: int, mask: str) -> None:
+    body.text.do(f"call void @observed.look(i64 {offset}, i64 {size}, i8 {mask}, i32 {_site(body)})")
+
+
+def _look_if(body: Body, offset: int, size: int, mask: str) -> None:
+    """A look of the code's own first, as nearly nothing is watched."""
+    text = body.text
+    if size not in (1, 2, 4, 8):
+        _look(body, str(offset), size, mask)
+        return
+    width = f"i{8 * size}"
+    map = text.op(f"load ptr, ptr {field(MAP)}, align 8")
+    found = text.op(f"load {width}, ptr {text.op(f'getelementptr inbounds i8, ptr {map}, i64 {offset}')}, align 1")
+    if mask != "-1":
+        found = text.op(f"and {width} {found}, {mask}")
+    watched, on = text.name("watched"), text.name("on")
+    text.choose(text.op(f"icmp ne {width} {found}, 0"), watched, on)
+    text.begin(watched)
+    _look(body, str(offset), size, mask)
+    text.go(on)
+    text.begin(on)
+
+
+def _declare(unit: Unit, observing: Observing) -> None:
+    look = LOOK.format(
+        state=STATE, map=MAP, log=LOG, end=observing.end, last=SLOTS - 1, limit=LIMIT, entries=ENTRIES,
+        entry_bytes=ENTRY_BYTES,
+    )  # fmt: skip
+    unit.module.declare("@observed.look", look)
+
+
+# ---- the scan -------------------------------------------------------------------------------------------------
+
+
+def use(body: Body, marks: int, map: int) -> None:
+    """From here on these fields say where it is noted: of the program, or where nobody looks."""
+    if body.unit.observing is None:
+        return
+    for source, target in ((marks, MARKS), (map, MAP)):
+        pointer = body.text.op(f"load ptr, ptr {field(source)}, align 8")
+        body.text.do(f"store ptr {pointer}, ptr {field(target)}, align 8")
+
+
+def silent(body: Body) -> None:
+    """What runs next is not the user's program."""
+    use(body, SPARE_MARKS, SPARE_MAP)
+
+
+def heard(body: Body) -> None:
+    """What runs next is the user's program."""
+    use(body, OWN_MARKS, OWN_MAP)

@@ -1,0 +1,105 @@
+"""The device's own way to clear errors: what a tool or the program may take back, and what shows again at once.
+
+An error whose cause lasts comes back as soon as it is cleared. The error simulator is the cause of what it raised, so such
+an error stays until it is recovered there.
+"""
+
+from collections.abc import Callable, Mapping
+from dataclasses import dataclass
+from typing import Literal
+
+from scanbench.faults.details import Chosen
+from scanbench.faults.inject import ACTIVE, Active, Recover, describe, present_choices
+from scanbench.faults.reference import ErrorRef
+from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
+
+WILL_NOT_CLEAR = "error will not clear"
+"""How a refusal begins when the cause is still there."""
+
+
+@dataclass(frozen=True, slots=True)
+class ClearErrors(Command):
+    """As a tool does it: the most serious error, all of them, or that of a code. Journaled as the `Recover` it comes to."""
+
+    what: Literal["current", "all"] | int
+
+    def settled(self, view: View) -> Command:
+        """The Recover of what goes now; itself where nothing does."""
+        present = view.derived(ACTIVE)
+        return clear(view, present, self.author, self._wanted(view, present))[0] or self
+
+    def plan(self, view: View) -> Plan | Refusal:
+        """What the Recover plans, or why nothing goes."""
+        present = view.derived(ACTIVE)
+        recover, held = clear(view, present, self.author, self._wanted(view, present))
+        if recover is not None:
+            return recover.plan(view)
+        if held:
+            which = ", ".join(map(describe, held))
+            near = tuple(dict.fromkeys(one.error.id for one in held))
+            return Refusal(
+                f"{WILL_NOT_CLEAR}: the cause of {which} is still there; recover it in the error simulator", near
+            )
+        if isinstance(self.what, int):
+            code = view.model.show_code(self.what)
+            return Refusal(f"no error with code {code} is present", tuple(present))
+        return Plan((), "no error is present")
+
+    def _wanted(self, view: View, present: Mapping[str, Active]) -> Callable[[Chosen], bool]:
+        if self.what == "all":
+            return lambda one: True
+        if self.what == "current":
+            return most_serious(view, present, lambda one: True)
+        return lambda one: one.code == self.what
+
+
+@dataclass(frozen=True, slots=True)
+class ClearErrorLog(Command):
+    """As a tool does it: the model's own error log is empty."""
+
+    def plan(self, view: View) -> Plan | Refusal:
+        """The counter to 0; records stay in the memory, as on the device."""
+        log = view.model.log
+        if log is None:
+            return Refusal(f"{view.model.name} has no error log in its memory")
+        counter = view.program.layout.areas[log.counter.area.name] + log.counter.byte
+        return Plan((Patch.whole(counter, bytes(2)),), "error log cleared")
+
+
+def clear(
+    view: View, present: Mapping[str, Active], author: str, wanted: Callable[[Chosen], bool]
+) -> tuple[Recover | None, list[Chosen]]:
+    """The command that takes back what is wanted and can go, if anything can, and what cannot."""
+    ids: list[str] = []
+    numbers: list[ErrorRef] = []
+    held: list[Chosen] = []
+    for id, several in present_choices(view, present).items():
+        chosen = [one for one in several if wanted(one)]
+        if not chosen:
+            continue
+        if holds(present[id], chosen[0]):
+            held += chosen
+        elif len(chosen) == len(several):
+            ids.append(id)
+        else:
+            numbers += [ref for ref, one in zip(present[id].refs, several, strict=True) if wanted(one)]
+    return (Recover(author, tuple(ids), numbers=tuple(numbers)) if ids or numbers else None), held
+
+
+def holds(error: Active, chosen: Chosen) -> bool:
+    """Whether the cause is still there."""
+    return chosen.error.lasting and error.origin == "simulator"
+
+
+def most_serious(
+    view: View, present: Mapping[str, Active], among: Callable[[Chosen], bool]
+) -> Callable[[Chosen], bool]:
+    """Just the one that the code word shows, of those that `among` lets through."""
+    every = [one for several in present_choices(view, present).values() for one in several if among(one)]
+    first = min(every, key=lambda one: (one.error.priority, one.code), default=None)
+    return lambda one: first is not None and one.error is first.error and one.details == first.details
+
+
+def nonfatal(one: Chosen) -> bool:
+    """Whether the program goes on with it."""
+    return one.error.severity == "nonfatal"

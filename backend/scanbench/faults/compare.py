@@ -1,0 +1,63 @@
+"""Two sweeps side by side: of two versions of a program, or on two models."""
+
+from collections.abc import Iterable
+from dataclasses import dataclass
+from typing import Literal
+
+from scanbench.faults.reaction import Verdict
+
+Change = Literal["same", "better", "worse", "slower", "faster", "new", "gone"]
+_RANKS: dict[Verdict | None, int] = {"never_read": 0, None: 0, "no_effect": 1, "reacted": 2, "stopped": 2}
+
+
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """One cell of a sweep. Without a verdict it could not be tried."""
+
+    error: str
+    state: str
+    verdict: Verdict | None
+    scans: int | None
+    """Until the first effect, from 1."""
+
+
+@dataclass(frozen=True, slots=True)
+class SweepChange:
+    """One cell in both; None where a sweep has none, or no verdict."""
+
+    error: str
+    state: str
+    before: Verdict | None
+    after: Verdict | None
+    scans_before: int | None
+    scans_after: int | None
+    change: Change
+
+
+def compare(before: Iterable[Outcome], after: Iterable[Outcome]) -> tuple[SweepChange, ...]:
+    """Every cell that one of them has, in the order of the later one, then what is gone."""
+    old = {(cell.error, cell.state): cell for cell in before}
+    new = {(cell.error, cell.state): cell for cell in after}
+    return tuple(_change(pair, old.get(pair), new.get(pair)) for pair in {**new, **old})
+
+
+def _change(pair: tuple[str, str], old: Outcome | None, new: Outcome | None) -> SweepChange:
+    return SweepChange(
+        *pair,
+        None if old is None else old.verdict, None if new is None else new.verdict,
+        None if old is None else old.scans, None if new is None else new.scans,
+        _kind(old, new),
+    )  # fmt: skip
+
+
+def _kind(old: Outcome | None, new: Outcome | None) -> Change:
+    if old is None:
+        return "new"
+    if new is None:
+        return "gone"
+    if old.verdict != new.verdict:
+        gained = _RANKS[new.verdict] - _RANKS[old.verdict]
+        return "same" if gained == 0 else "better" if gained > 0 else "worse"
+    if old.scans is None or new.scans is None or old.scans == new.scans:
+        return "same"
+    return "slower" if new.scans > old.scans else "faster"

@@ -1,0 +1,97 @@
+"""What differs between two runs, by variable, and since when."""
+
+from collections.abc import Iterator
+
+import numpy as np
+
+from scanbench.check.holding import Holders
+from scanbench.check.program import Program
+from scanbench.check.symbols import Symbol
+from scanbench.check.values import format_value
+from scanbench.faults.error_memory import WORD, Words
+from scanbench.faults.reaction import Difference
+
+SHOWN = 200
+_NAMED = 5_000
+"""More variables are not named: somebody who cleared an area knows it by then."""
+
+
+class Names:
+    """How the variables of one program are called, and which are outputs of the PLC."""
+
+    def __init__(self, program: Program) -> None:
+        layout, model = program.layout, program.layout.model
+        self.holders = Holders(program)
+        self._outputs = [(layout.areas[each.area.name], each.first, each.last + 1) for each in model.fatal.outputs]
+        self._outputs += [
+            (layout.areas[each.area.name], each.first, each.first + each.words)
+            for each in model.iec_maps
+            if each.letter == "Q"
+        ]
+
+    def is_output(self, symbol: Symbol) -> bool:
+        """Whether it stands where outputs are."""
+        end = symbol.offset + symbol.type.size
+        return any(base + 2 * first < end and symbol.offset < base + 2 * last for base, first, last in self._outputs)
+
+
+class Effects:
+    """Collects what differs. States are compared in the bits of `kept` only."""
+
+    def __init__(self, names: Names, kept: Words) -> None:
+        self._names = names
+        self._fresh = kept.copy()
+        """Bits that never differed until now."""
+        self._buffer = np.empty_like(kept)
+        self._found: dict[tuple[str, int], Difference] = {}
+        self.first: int | None = None
+        """The first scan behind which something differed."""
+
+    def compare(self, scan: int, without: Words, value: Words) -> None:
+        """The states behind a scan."""
+        buffer = self._buffer
+        np.bitwise_xor(without, value, out=buffer)
+        np.bitwise_and(buffer, self._fresh, out=buffer)
+        if not buffer.any():
+            return
+        where = np.flatnonzero(buffer)
+        self._fresh[where] &= ~buffer[where]
+        for symbol in self._named(where.tolist(), buffer[where].tolist()):
+            key = (symbol.path, symbol.offset)
+            if key not in self._found and self.complete:
+                self._found[key] = self._difference(scan, symbol, without, value)
+                if self.first is None:
+                    self.first = scan
+
+    @property
+    def complete(self) -> bool:
+        """Whether all that differs was named."""
+        return len(self._found) < _NAMED
+
+    @property
+    def count(self) -> int:
+        """So many variables differed."""
+        return len(self._found)
+
+    def shown(self) -> tuple[Difference, ...]:
+        """The first of them, outputs first."""
+        ordered = sorted(self._found.values(), key=lambda each: (not each.output, each.scan))
+        return tuple(ordered[:SHOWN])
+
+    def _named(self, where: list[int], bits: list[int]) -> Iterator[Symbol]:
+        for index, word in zip(where, bits, strict=True):
+            if not self.complete:
+                return
+            for number, mask in enumerate(word.to_bytes(WORD, "little")):
+                if mask:
+                    yield from self._names.holders.at(index * WORD + number, mask)
+
+    def _difference(self, scan: int, symbol: Symbol, without: Words, value: Words) -> Difference:
+        return Difference(
+            symbol.path, _shown(symbol, without), _shown(symbol, value), self._names.is_output(symbol), scan
+        )
+
+
+def _shown(symbol: Symbol, state: Words) -> str:
+    data = state.view(np.uint8)[symbol.offset : symbol.offset + symbol.type.size].tobytes()
+    return format_value(symbol.type, data if symbol.bit is None else bytes((data[0] >> symbol.bit & 1,)))

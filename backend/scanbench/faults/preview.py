@@ -1,0 +1,146 @@
+"""What raising errors would write now, in the vendor's notation. Nothing is changed."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from typing import Literal
+
+from scanbench.check.layout import Layout
+from scanbench.faults.details import Bits, choose, field_bits
+from scanbench.faults.inject import ACTIVE, Generate, present_choices
+from scanbench.faults.reference import ErrorRef, find_error
+from scanbench.runtime.command import Patch, Refusal, View
+
+What = Literal["detail", "code", "flag", "log", "other"]
+_MOST_OTHERS = 40
+"""Words that are named of what changes besides: a fatal error may clear whole areas."""
+
+
+@dataclass(frozen=True, slots=True)
+class PreviewedWrite:
+    """A bit or a word, before and behind."""
+
+    address: str
+    before: str
+    after: str
+    what: What
+    error: str
+    """Which error writes it; empty for the code word, the log and what the PLC itself does."""
+
+
+@dataclass(frozen=True, slots=True)
+class Preview:
+    """What would happen, or why it would be refused."""
+
+    ok: bool
+    message: str
+    writes: tuple[PreviewedWrite, ...] = ()
+    """The errors' own first, then the code word, the log, and what the PLC does besides."""
+
+
+def preview(view: View, errors: Sequence[ErrorRef], again: bool) -> Preview:
+    """Plans it, and looks at the plan."""
+    plan = Generate("preview", tuple(errors), again=again).plan(view)
+    if isinstance(plan, Refusal):
+        return Preview(False, plan.message)
+    looked = _Looked(view, plan.patches)
+    looked.take(_own(view, errors))
+    looked.take(_replaced(view, errors), only_changed=True)
+    word = view.model.code_word
+    if word is not None:
+        looked.take([("code", "", field_bits(word, 0, word.bits, 0, view.program.layout))])
+    looked.take(_log(view), only_changed=True)
+    looked.take_others()
+    return Preview(True, plan.message, tuple(looked.writes))
+
+
+Part = tuple[What, str, Sequence[Bits]]
+"""Bits that belong together: what they are, and whose."""
+
+
+def _own(view: View, errors: Iterable[ErrorRef]) -> Iterator[Part]:
+    layout = view.program.layout
+    for ref in errors:
+        entry = find_error(view.model, ref.id)
+        assert not isinstance(entry, Refusal)  # it was planned
+        chosen = choose(entry, dict(ref.details), layout)
+        assert not isinstance(chosen, Refusal)
+        flag = field_bits(entry.flag, 0, 1, 1, layout)
+        yield "flag", entry.id, flag
+        yield "detail", entry.id, chosen.contents
+        yield "other", entry.id, [part for part in chosen.marks if part not in flag]
+
+
+def _replaced(view: View, errors: Iterable[ErrorRef]) -> Iterator[Part]:
+    """Details of errors that are raised anew: the old ones go."""
+    choices = present_choices(view, view.derived(ACTIVE))
+    for ref in errors:
+        for one in choices.get(ref.id, ()):
+            yield "detail", ref.id, one.contents
+
+
+def _log(view: View) -> Iterator[Part]:
+    log, areas = view.model.log, view.program.layout.areas
+    if log is not None:
+        first = areas[log.first.area.name] + log.first.byte
+        counter = areas[log.counter.area.name] + log.counter.byte
+        yield "log", "", [Bits(counter, 0xFF, 0)]
+        yield "log", "", [Bits(first + each, 0xFF, 0) for each in range(2 * log.words * log.records)]
+
+
+class _Looked:
+    """The memory before and behind the plan, and what was told of it."""
+
+    def __init__(self, view: View, patches: Iterable[Patch]) -> None:
+        self._layout, self._before = view.program.layout, view.memory
+        self._after = bytearray(view.memory)
+        self._told: set[tuple[int, int]] = set()
+        self.writes: list[PreviewedWrite] = []
+        self._patched: list[int] = []
+        for patch in patches:
+            for index, (mask, data) in enumerate(zip(patch.mask, patch.data, strict=True), patch.offset):
+                self._after[index] = self._after[index] & ~mask | data & mask
+                self._patched.append(index)
+
+    def take(self, parts: Iterable[Part], only_changed: bool = False) -> None:
+        """Tells of these bits, unless that was done."""
+        for what, error, bits in parts:
+            words: dict[int, int] = {}
+            for part in bits:
+                at, shift = self._word(part.offset)
+                words[at] = words.get(at, 0) | part.mask << shift
+            for at, mask in sorted(words.items()):
+                self._tell(at, mask, what, error, only_changed)
+
+    def take_others(self) -> None:
+        """What else changes: what the PLC does when it stops."""
+        known = {at for at, _ in self._told}
+        changed = [each for each in self._patched if each >= Layout.HEADER_SIZE and self._differs(each)]
+        words = sorted({self._word(each)[0] for each in changed} - known)
+        for at in words[:_MOST_OTHERS]:
+            self._tell(at, 0xFFFF, "other", "", True)
+        if len(words) > _MOST_OTHERS:
+            more = f"{len(words) - _MOST_OTHERS} more words"
+            self.writes.append(PreviewedWrite(more, "", "", "other", ""))
+
+    def _word(self, offset: int) -> tuple[int, int]:
+        """Where the word begins that holds a byte, and by how much the byte is shifted in it."""
+        return offset - offset % 2, 8 * (offset % 2)
+
+    def _differs(self, offset: int) -> bool:
+        return self._before[offset] != self._after[offset]
+
+    def _tell(self, at: int, mask: int, what: What, error: str, only_changed: bool) -> None:
+        found = self._layout.area_at(at)
+        before, after = (int.from_bytes(memory[at : at + 2], "little") for memory in (self._before, self._after))
+        if found is None or (at, mask) in self._told or (only_changed and not (before ^ after) & mask):
+            return
+        self._told.add((at, mask))
+        area, byte = found
+        bit = mask.bit_length() - 1
+        if mask == 1 << bit:
+            address = self._layout.model.format(area, byte + bit // 8, bit % 8, 1)
+            texts = [str(word >> bit & 1) for word in (before, after)]
+        else:
+            address = self._layout.model.format(area, byte, None, 16)
+            texts = [f"{word:04X}" for word in (before, after)]
+        self.writes.append(PreviewedWrite(address, *texts, what, error))

@@ -1,0 +1,315 @@
+"""How a program reacts to an error: the run with it beside the same run without it, scan by scan.
+
+Both begin in one state and get the same commands. Runs are deterministic, so whatever differs outside of error memory is
+the program's doing. What the PLC or the program entered by itself is not given to the run without the error: it finds
+out anew what there is to find.
+"""
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from typing import NamedTuple
+
+import numpy as np
+
+from scanbench.check.program import Program
+from scanbench.check.sites import StatementSite
+from scanbench.engines.observe import Observer, ReadAt
+from scanbench.faults.details import Chosen, choose
+from scanbench.faults.detect import Detection
+from scanbench.faults.effects import Effects, Names
+from scanbench.faults.error_memory import Watched, Words, code_bits, kept_bits, without_patches, words_of
+from scanbench.faults.inject import ACTIVE, Generate, Recover
+from scanbench.faults.observed import ObservedPrograms
+from scanbench.faults.reaction import Line, Reaction, Reader, Verdict, What
+from scanbench.faults.reference import ErrorRef, find_error
+from scanbench.faults.trace import Trace
+from scanbench.runtime.command import Command, Entry, Refusal, Restarted, Swapped
+from scanbench.runtime.header import Halt
+from scanbench.runtime.journal import Journal
+from scanbench.runtime.resource import Resource
+from scanbench.runtime.trap import TrapInfo
+
+TRACE_LIMIT = 128 << 20
+"""Bytes that the run without the error may take: what it changed, scan by scan."""
+
+
+@dataclass(frozen=True, slots=True)
+class Point:
+    """A PLC in front of a scan, where a comparison begins."""
+
+    version: int
+    state: bytes
+    journal: Journal
+
+
+class Given(NamedTuple):
+    """A command from outside that both runs get, and the scan in front of which it was entered."""
+
+    scan: int
+    entry: Entry
+
+
+def react(
+    point: Point, generate: Entry, following: Sequence[Entry], window: int, programs: ObservedPrograms, error: str
+) -> Reaction | Refusal:
+    """The reaction to `error`, one of those that the recorded `generate` raised at this point.
+
+    `following` is what the journal has behind it. The window ends early in front of a change of the program or a restart.
+    """
+    command = generate.command
+    ref = next((each for each in command.errors if each.id == error), None) if isinstance(command, Generate) else None
+    if ref is None:
+        return Refusal(f"{error} was not raised there: {generate.plan.message}")
+    rest = _following(point, generate, following, window, programs)
+    twin = run_twin(point, _without(generate, rest.given, error), rest.window, programs)
+    comparison = Comparison(point, programs, Prepared(programs.get(point.version).program))
+    found = comparison.of(twin, generate, ref, rest.given)
+    if not rest.note:
+        return found
+    if isinstance(found, Refusal):
+        return Refusal(f"{found.message} ({rest.note})")
+    return replace(found, note="; ".join(filter(None, (found.note, rest.note))))
+
+
+@dataclass(frozen=True, slots=True)
+class Twin:
+    """The run without the error."""
+
+    trace: Trace
+    reached: frozenset[int]
+    trap: TrapInfo | None
+
+
+def run_twin(
+    point: Point, commands: Sequence[tuple[int, Command]], window: int, programs: ObservedPrograms,
+    limit: int = TRACE_LIMIT,
+) -> Twin:  # fmt: skip
+    """Runs from a point with these commands, each in front of a scan; what is refused now is left out."""
+    resource = _standing(point, programs)
+    observer = programs.observer(point.version)
+    observer.watch(())
+    observer.take()
+    trace = Trace(state_words(resource), limit)
+    waiting = list(commands)
+    while len(trace) < window and not trace.full and resource.trap is None:
+        while waiting and waiting[0][0] <= resource.header.scan:
+            resource.submit(waiting.pop(0)[1])
+        _advance(resource)
+        if resource.trap is None:
+            trace.add(state_words(resource))
+    return Twin(trace, observer.take().reached, resource.trap)
+
+
+class Prepared:
+    """What every comparison on one program needs."""
+
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        self.names = Names(program)
+        self.kept = kept_bits(program)
+
+
+class Comparison:
+    """Compares runs that begin at one point."""
+
+    def __init__(self, point: Point, programs: ObservedPrograms, prepared: Prepared) -> None:
+        self._point, self._programs, self._prepared = point, programs, prepared
+
+    def raised(self, twin: Twin, ref: ErrorRef, author: str) -> Reaction | Refusal:
+        """The reaction to an error that is raised alone, now."""
+        resource = _standing(self._point, self._programs)
+        entry = resource.submit(Generate(author, (ref,)))
+        if isinstance(entry, Refusal):
+            return entry
+        return self.of(twin, entry, ref, ())
+
+    def of(self, twin: Twin, generate: Entry, ref: ErrorRef, given: Sequence[Given]) -> Reaction | Refusal:
+        """The reaction to an error of an entry that is made at the point, with the commands that follow."""
+        program = self._prepared.program
+        known = find_error(program.layout.model, ref.id)
+        chosen = known if isinstance(known, Refusal) else choose(known, dict(ref.details), program.layout)
+        if isinstance(chosen, Refusal):
+            return chosen
+        resource = _standing(self._point, self._programs)
+        could_run = resource.runnable
+        resource.reenter(generate)
+        if resource.header.halt & Halt.FATAL_ERROR and chosen.error.severity == "fatal":
+            return Reaction("stopped", 0, note="" if could_run else "the program did not run before either")
+        own = [generate, *(each.entry for each in given if _is_about(each.entry.command, ref.id))]
+        kept = without_patches(self._prepared.kept, (patch for entry in own for patch in entry.plan.patches))
+        run = _Run(resource, twin, Effects(self._prepared.names, kept), chosen)
+        return run.through(self._programs.observer(self._point.version), given)
+
+
+class _Run:
+    """The run with the error, compared with its twin."""
+
+    def __init__(self, resource: Resource, twin: Twin, effects: Effects, chosen: Chosen) -> None:
+        self._resource, self._twin, self._effects, self._chosen = resource, twin, effects, chosen
+        self._watched = Watched.of(resource.program, chosen)
+        self._readers: dict[tuple[int, What], int] = {}
+        self._reached: set[int] = set()
+        self._ran = False
+
+    def through(self, observer: Observer, given: Sequence[Given]) -> Reaction | Refusal:
+        """Runs to the end of the window, or of what can be compared."""
+        resource, waiting, scan = self._resource, list(given), 0
+        observer.watch(self._watched.bits)
+        observer.take()
+        for without in self._twin.trace.states():
+            _enter(resource, waiting)
+            shown = self._kinds_shown()
+            self._ran = self._ran or resource.runnable
+            _advance(resource)
+            scan += 1
+            seen = observer.take()
+            self._reached |= seen.reached
+            self._read(seen.reads, scan, shown)
+            self._effects.compare(scan, without, state_words(resource))
+            if resource.trap is not None:
+                break
+        if not self._ran:
+            return Refusal("the program did not run, so nothing can be said about it: change to MONITOR or RUN first")
+        return self._reaction(scan, observer.sites.statements)
+
+    def _kinds_shown(self) -> frozenset[What]:
+        """What of the error can be read in this scan: nothing once it was recovered; its code unless another is more serious."""
+        if self._chosen.error.id not in self._resource.journal.derived(ACTIVE):
+            return frozenset()
+        code = sum(
+            self._resource.memory[part.offset] << 8 * index
+            for index, part in enumerate(code_bits(self._resource.program))
+        )
+        return frozenset(("flag", "detail", "code") if code == self._chosen.code else ("flag", "detail"))
+
+    def _read(self, reads: Iterable[ReadAt], scan: int, shown: frozenset[What]) -> None:
+        for read in reads:
+            for what in self._watched.kinds(read.offset, read.mask):
+                if what in shown:
+                    self._readers.setdefault((read.site, what), scan)
+
+    def _reaction(self, scans: int, sites: Sequence[StatementSite]) -> Reaction:
+        effects, trap = self._effects, self._resource.trap
+        readers: dict[tuple[str, int, str, What], int] = {}
+        for (number, what), scan in self._readers.items():
+            site = sites[number]
+            readers.setdefault((site.span.file, site.span.line, site.pou, what), scan)
+        reached = {(sites[each].span.file, sites[each].span.line) for each in self._reached - self._twin.reached}
+        first_effect = effects.first if effects.first is not None or trap is None else scans
+        verdict: Verdict = "no_effect" if readers else "never_read"
+        return Reaction(
+            "reacted" if first_effect is not None else verdict,
+            scans,
+            min(readers.values(), default=None),
+            first_effect,
+            tuple(Reader(*place, scan) for place, scan in sorted(readers.items(), key=lambda each: each[1])),
+            effects.shown(),
+            effects.count,
+            tuple(Line(*place) for place in sorted(reached)),
+            "; ".join(self._notes(trap)),
+        )
+
+    def _notes(self, trap: TrapInfo | None) -> Iterator[str]:
+        twin = self._twin
+        if trap is not None:
+            yield f"the program stopped with it: {trap}"
+        elif twin.trap is not None:
+            yield f"the program stops without it too: {twin.trap}"
+        elif twin.trace.full:
+            yield f"only {len(twin.trace)} scans were compared: the program changes too much memory for more"
+        if not self._effects.complete:
+            yield f"more than {self._effects.count} variables differ"
+
+
+# ---- steps of a run ------------------------------------------------------------------------------------------------
+
+
+def _standing(point: Point, programs: ObservedPrograms) -> Resource:
+    """A PLC at the point. There is only one at a time, as the memory of a program is one."""
+    loaded = programs.get(point.version)
+    resource = Resource(loaded, programs=programs, detect=Detection())
+    resource.restore(loaded, point.state, point.journal.prefix(len(point.journal)))
+    return resource
+
+
+def _enter(resource: Resource, waiting: list[Given]) -> None:
+    while waiting and waiting[0].scan <= resource.header.scan:
+        resource.reenter(waiting.pop(0).entry)
+
+
+def _advance(resource: Resource) -> None:
+    if resource.runnable:
+        resource.run(1)
+    else:
+        resource.pass_time(1)
+
+
+def state_words(resource: Resource) -> Words:
+    """The state as it is now; not a copy."""
+    return np.frombuffer(resource.memory, np.uint64, words_of(resource.program))
+
+
+# ---- the journal behind an error -----------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class _Following:
+    """What came behind an error from outside, and how long it can be compared."""
+
+    given: tuple[Given, ...]
+    window: int
+    note: str
+
+
+def _following(
+    point: Point, generate: Entry, following: Sequence[Entry], window: int, programs: ObservedPrograms
+) -> _Following:
+    """Runs it once more as it was: what is entered again by itself came from the PLC or its program, the rest from outside."""
+    resource = _standing(point, programs)
+    resource.reenter(generate)
+    begin = resource.header.scan
+    end, note = begin + window, ""
+    left: list[Entry] = []
+    for entry in following:
+        if entry.scan >= end:
+            break
+        if isinstance(entry.plan.effect, Swapped | Restarted):
+            end = entry.scan
+            note = "the program was changed" if isinstance(entry.plan.effect, Swapped) else "the program was restarted"
+            break
+        left.append(entry)
+    given: list[Given] = []
+    while resource.header.scan < end and resource.trap is None:
+        while left and left[0].scan <= resource.header.scan:
+            given.append(Given(left[0].scan, left.pop(0)))
+            resource.reenter(given[-1].entry)
+        entered = len(resource.journal)
+        _advance(resource)
+        for made in resource.journal[entered:]:
+            same = [each for each in left if each.scan <= resource.header.scan and each.command == made.command]
+            if same:
+                left.remove(same[0])
+    return _Following(tuple(given), end - begin, note)
+
+
+def _without(generate: Entry, given: Iterable[Given], error: str) -> list[tuple[int, Command]]:
+    """The commands that the run without the error gets."""
+    every = [(generate.scan, generate.command), *((each.scan, each.entry.command) for each in given)]
+    return [(scan, left) for scan, command in every if (left := _spared(command, error)) is not None]
+
+
+def _spared(command: Command, error: str) -> Command | None:
+    """What is left of a command when it is not to touch this error."""
+    if isinstance(command, Generate):
+        errors = tuple(each for each in command.errors if each.id != error)
+        return replace(command, errors=errors) if errors else None
+    if isinstance(command, Recover) and command.ids is not None:
+        ids = tuple(id for id in command.ids if id != error)
+        return replace(command, ids=ids) if ids else None
+    return command
+
+
+def _is_about(command: Command, error: str) -> bool:
+    if isinstance(command, Generate):
+        return any(each.id == error for each in command.errors)
+    return isinstance(command, Recover) and (command.ids is None or error in command.ids)

@@ -1,0 +1,65 @@
+"""How a program reacted to an error: a run with it beside the same run without it. Data only; `react.py` finds it out."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+Verdict = Literal["reacted", "no_effect", "never_read", "stopped"]
+"""stopped: a fatal error, the PLC stopped as the model says, so no program could react."""
+What = Literal["flag", "code", "detail"]
+WINDOW = 200
+"""Scans that a program gets to react."""
+
+
+@dataclass(frozen=True, slots=True)
+class Reader:
+    """A statement that read what the error writes."""
+
+    file: str
+    line: int
+    pou: str
+    what: What
+    scan: int
+    """Of the window in which it first did, from 1."""
+
+
+@dataclass(frozen=True, slots=True)
+class Difference:
+    """A variable or address that was another value than without the error, outside of error memory."""
+
+    path: str
+    without: str
+    """Its value without the error in the scan where it first differed, as the watch table shows it."""
+    value: str
+    """And with it."""
+    output: bool
+    """An output of the PLC."""
+    scan: int
+    """Of the window in which it first differed, from 1."""
+
+
+@dataclass(frozen=True, slots=True)
+class Line:
+    """A statement that was reached with the error only: the handler."""
+
+    file: str
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class Reaction:
+    """What became of one error, raised alone or in a run as it was."""
+
+    verdict: Verdict
+    window: int
+    """Scans that were compared; fewer where something ended them."""
+    first_read: int | None = None
+    """Scan of the window in which flag, code or detail was first read, from 1."""
+    first_effect: int | None = None
+    """Scan of the window in which something outside of error memory first differed, from 1."""
+    readers: tuple[Reader, ...] = ()
+    differences: tuple[Difference, ...] = ()
+    """The first 200, outputs first."""
+    difference_count: int = 0
+    lines: tuple[Line, ...] = ()
+    note: str = ""
+    """What ended the comparison early, or must be known: the program trapped with it, it was refused."""

@@ -1,0 +1,231 @@
+"""The test record: which errors a program was tested against, what it did, and who says so. Data, and how it is made."""
+
+from collections.abc import Iterable, Sequence
+from dataclasses import dataclass, field, replace
+from datetime import datetime
+from typing import Literal
+
+from scanbench.faults.history import ErrorRow, Status
+from scanbench.faults.inject import Origin
+from scanbench.faults.reaction import Reaction, Verdict
+from scanbench.plcmodel.model import ErrorGroup, Model, Severity, Wording
+
+Language = Literal["en", "ja"]
+SweepStatus = Literal["running", "done", "cancelled", "interrupted", "failed"]
+WORST_FIRST: tuple[Verdict, ...] = ("never_read", "no_effect", "stopped", "reacted")
+
+
+@dataclass(frozen=True, slots=True)
+class RecordHead:
+    """What was tested, and who wrote the record."""
+
+    project: str
+    model: str
+    instance: str
+    program_version: int
+    program_hash: str
+    """sha256 of the sources; empty where the build is not known any more."""
+    exported_at: datetime
+    exported_by: str
+    tool: str
+    """The program that wrote it, with its version."""
+
+
+@dataclass(frozen=True, slots=True)
+class RecordAccepted:
+    """Somebody accepted that the program does not react."""
+
+    state: str
+    reason: str
+    by: str
+    at: datetime
+
+
+@dataclass(frozen=True, slots=True)
+class RecordError:
+    """One error of the catalogue."""
+
+    id: str
+    name: str
+    group: str
+    """Names of its groups, from the top, with ` / ` between."""
+    code: str
+    flag: str
+    severity: Severity
+    status: Status
+    details: str = ""
+    generated_at: datetime | None = None
+    recovered_at: datetime | None = None
+    generated_scan: int | None = None
+    recovered_scan: int | None = None
+    by: str = ""
+    origin: Origin | None = None
+    count: int = 0
+    reaction: Reaction | None = None
+    """Of the last time that it was raised on this PLC; of its differences only the outputs."""
+    reaction_note: str = ""
+    """Why there is none, although it was raised."""
+    accepted: tuple[RecordAccepted, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class RecordCell:
+    """One error, raised alone from one state."""
+
+    error: str
+    state: str
+    verdict: Verdict | None
+    """None: it could not be raised, `note` says why."""
+    scans: int | None = None
+    """Until the first effect."""
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class RecordSweep:
+    """A sweep of this version of the program."""
+
+    at: datetime
+    by: str
+    instance: str
+    status: SweepStatus
+    window: int
+    states: tuple[str, ...]
+    cells: tuple[RecordCell, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class RecordLine:
+    """A line of the log about errors."""
+
+    at: datetime
+    scan: int
+    by: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Finding:
+    """What is known of one error at the end: from the PLC itself, else from sweeps (the worst of the newest one)."""
+
+    verdict: Verdict | None
+    scans: int | None
+    where: Literal["plc", "sweep", ""]
+    """Empty: it was not tested, or nothing is known of what the program did."""
+
+
+@dataclass(frozen=True, slots=True)
+class Summary:
+    """The record in numbers."""
+
+    errors: int
+    tested: int
+    """Raised on the PLC or in a sweep."""
+    generated: int
+    """Still present."""
+    verdicts: dict[Verdict, int]
+    unknown: int
+    """Tested, but without a verdict."""
+    accepted: int
+
+
+@dataclass(frozen=True, slots=True)
+class TestRecord:
+    """One PLC, one version of its program, every error of the catalogue."""
+
+    __test__ = False  # its name is no test of ours
+    head: RecordHead
+    errors: tuple[RecordError, ...]
+    sweeps: tuple[RecordSweep, ...] = ()
+    """The newest first."""
+    log: tuple[RecordLine, ...] = ()
+    _swept: dict[str, list[RecordCell]] = field(default_factory=dict, init=False, repr=False, compare=False)
+
+    def __post_init__(self) -> None:
+        for sweep in reversed(self.sweeps):
+            cells: dict[str, list[RecordCell]] = {}
+            for cell in sweep.cells:
+                cells.setdefault(cell.error, []).append(cell)
+            self._swept.update(cells)
+
+    def finding(self, error: RecordError) -> Finding:
+        """What is known of an error."""
+        if error.reaction is not None:
+            return Finding(error.reaction.verdict, error.reaction.first_effect, "plc")
+        cells = [cell for cell in self._swept.get(error.id, ()) if cell.verdict is not None]
+        if not cells:
+            return Finding(None, None, "")
+        worst = min(cells, key=lambda cell: WORST_FIRST.index(cell.verdict) if cell.verdict else 0)
+        return Finding(worst.verdict, worst.scans, "sweep")
+
+    def tested(self, error: RecordError) -> bool:
+        """Whether it was raised at all."""
+        return error.status != "never" or self.finding(error).where != ""
+
+    @property
+    def summary(self) -> Summary:
+        """The record in numbers."""
+        tested = [error for error in self.errors if self.tested(error)]
+        found = [self.finding(error).verdict for error in tested]
+        return Summary(
+            errors=len(self.errors),
+            tested=len(tested),
+            generated=sum(error.status == "generated" for error in self.errors),
+            verdicts={verdict: found.count(verdict) for verdict in WORST_FIRST},
+            unknown=found.count(None),
+            accepted=sum(bool(error.accepted) for error in self.errors),
+        )
+
+    @property
+    def title(self) -> str:
+        """In a line, for lists."""
+        head = self.head
+        return f"{head.project}, {head.instance}, version {head.program_version}, {head.exported_at:%Y-%m-%d %H:%M} UTC"
+
+
+def make_record(
+    head: RecordHead, model: Model, rows: Iterable[ErrorRow], *, sweeps: Sequence[RecordSweep] = (),
+    accepted: Iterable[tuple[str, RecordAccepted]] = (), log: Sequence[RecordLine] = (), language: Language = "en",
+) -> TestRecord:  # fmt: skip
+    """The record of these rows, in the order of the model's catalogue; `accepted` are pairs of error and acceptance."""
+    by_id = {row.id: row for row in rows}
+    reasons: dict[str, list[RecordAccepted]] = {}
+    for error, one in accepted:
+        reasons.setdefault(error, []).append(one)
+    errors: list[RecordError] = []
+    for group in model.catalogue:
+        errors += _errors(group, (), by_id, language)
+    kept = [replace(error, accepted=tuple(reasons.get(error.id, ()))) for error in errors]
+    return TestRecord(head, tuple(kept), tuple(sweeps), tuple(log))
+
+
+def _errors(
+    group: ErrorGroup, above: tuple[str, ...], rows: dict[str, ErrorRow], language: Language
+) -> list[RecordError]:
+    path = (*above, worded(group.name, group.wordings, language))
+    found = []
+    for error in group.errors:
+        row = rows.get(error.id) or ErrorRow(error.id, error.name, error.severity, code=error.code_text)
+        reaction = row.reaction
+        found.append(
+            RecordError(
+                id=error.id, name=worded(error.name, error.wordings, language), group=" / ".join(path), code=row.code,
+                flag=error.flag_text, severity=error.severity, status=row.status, details=row.details,
+                generated_at=row.generated_at, recovered_at=row.recovered_at, generated_scan=row.generated_scan,
+                recovered_scan=row.recovered_scan, by=row.by or "", origin=row.origin, count=row.count,
+                reaction=None if reaction is None or reaction.found is None else _outputs_only(reaction.found),
+                reaction_note="" if reaction is None else reaction.message,
+            )
+        )  # fmt: skip
+    for inner in group.groups:
+        found += _errors(inner, path, rows, language)
+    return found
+
+
+def worded(name: str, wordings: Iterable[Wording], language: Language) -> str:
+    """A name in a language, or as the model has it."""
+    return next((each.name for each in wordings if each.language == language and each.name), name)
+
+
+def _outputs_only(reaction: Reaction) -> Reaction:
+    return replace(reaction, differences=tuple(each for each in reaction.differences if each.output))

@@ -1,0 +1,66 @@
+"""A test record as CSV: one row for each error, for a spreadsheet."""
+
+import csv
+import io
+from datetime import datetime
+
+from scanbench.faults.reaction import Reaction
+from scanbench.faults.record import RecordError, TestRecord
+from scanbench.runtime.clock import iso
+
+COLUMNS = (
+    "group", "id", "error", "code", "flag", "severity", "status", "generated", "generated scan", "recovered",
+    "recovered scan", "details", "by", "origin", "count", "verdict", "verdict from", "scans until the first effect",
+    "readers", "outputs that differ", "variables that differ", "accepted", "note",
+)  # fmt: skip
+_BOM = "\ufeff"  # a spreadsheet takes the file for Latin-1 without it
+
+
+def to_csv(record: TestRecord) -> str:
+    """The rows, with a head line."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\r\n")
+    writer.writerow(COLUMNS)
+    for error in record.errors:
+        writer.writerow(map(_harmless, _row(record, error)))
+    return _BOM + text.getvalue()
+
+
+def _row(record: TestRecord, error: RecordError) -> list[str]:
+    finding, reaction = record.finding(error), error.reaction
+    return [
+        error.group, error.id, error.name, error.code, error.flag, error.severity, error.status,
+        _moment(error.generated_at), _number(error.generated_scan), _moment(error.recovered_at),
+        _number(error.recovered_scan), error.details, error.by, error.origin or "", str(error.count),
+        finding.verdict or "", finding.where, _number(finding.scans), readers(reaction), outputs(reaction),
+        "" if reaction is None else str(reaction.difference_count),
+        "; ".join(f"{one.state}: {one.reason} ({one.by})" for one in error.accepted),
+        error.reaction_note or ("" if reaction is None else reaction.note),
+    ]  # fmt: skip
+
+
+def readers(reaction: Reaction | None) -> str:
+    """The statements that read what the error writes, as file:line."""
+    if reaction is None:
+        return ""
+    return ", ".join(dict.fromkeys(f"{each.file}:{each.line}" for each in reaction.readers))
+
+
+def outputs(reaction: Reaction | None) -> str:
+    """The outputs that differ, with what they were without and with the error."""
+    if reaction is None:
+        return ""
+    return ", ".join(f"{each.path} {each.without} → {each.value}" for each in reaction.differences)
+
+
+def _moment(at: datetime | None) -> str:
+    return "" if at is None else iso(at)
+
+
+def _number(number: int | None) -> str:
+    return "" if number is None else str(number)
+
+
+def _harmless(text: str) -> str:
+    """A name that begins like a formula would be one in the spreadsheet of whoever opens the file."""
+    return f"'{text}" if text[:1] in ("=", "+", "-", "@", "\t", "\r") else text

@@ -1,0 +1,259 @@
+"""A test record as one HTML file that needs nothing else: to be read, printed and signed."""
+
+from collections.abc import Iterable, Sequence
+from datetime import UTC, datetime
+from html import escape
+from importlib.resources import files
+from itertools import groupby
+
+from scanbench.faults.reaction import Difference, Reaction, Verdict
+from scanbench.faults.record import (
+    WORST_FIRST,
+    Language,
+    RecordCell,
+    RecordError,
+    RecordSweep,
+    TestRecord,
+)
+from scanbench.faults.record_words import WORDS
+
+FINDINGS: tuple[Verdict, ...] = ("never_read", "no_effect")
+SHOWN = 8
+"""Readers, and outputs, of one error; the XML has them all."""
+
+
+def to_html(record: TestRecord, language: Language = "en") -> str:
+    """The whole document."""
+    return _Document(record, language).text()
+
+
+class _Document:
+    def __init__(self, record: TestRecord, language: Language) -> None:
+        self._record, self._language = record, language
+        self._words = WORDS[language]
+
+    def text(self) -> str:
+        style = files("scanbench.faults").joinpath("record.css").read_text("utf-8")
+        title = escape(f"{self._words['title']} – {self._record.title}")
+        parts = [
+            self._head(), self._summary(), self._findings(), self._untested(), self._table(), *self._sweeps(),
+            self._log(), self._sign(),
+        ]  # fmt: skip
+        return (
+            f'<!DOCTYPE html>\n<html lang="{self._language}">\n<head>\n<meta charset="utf-8">\n'
+            '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+            f"<title>{title}</title>\n<style>\n{style}</style>\n</head>\n<body>\n{''.join(parts)}</body>\n</html>\n"
+        )
+
+    def _word(self, name: str) -> str:
+        return escape(self._words[name])
+
+    # ---- head and summary -----------------------------------------------------------------------------------------
+
+    def _head(self) -> str:
+        head = self._record.head
+        pairs = [
+            ("project", head.project), ("instance", head.instance), ("model", head.model),
+            ("version", str(head.program_version)), ("exported", f"{_moment(head.exported_at)} UTC"),
+            ("by", head.exported_by), ("tool", head.tool),
+        ]  # fmt: skip
+        rows = "".join(f"<dt>{self._word(name)}</dt><dd>{escape(value)}</dd>" for name, value in pairs)
+        rows += "<dt></dt><dd></dd>"
+        hash_ = f'<dt>{self._word("hash")}</dt><dd class="wide mono">{escape(head.program_hash) or "–"}</dd>'
+        return f'<h1>{self._word("title")}</h1>\n<dl class="head">{rows}{hash_}</dl>\n'
+
+    def _summary(self) -> str:
+        told = self._record.summary
+        numbers = [
+            (self._word("errors"), "", told.errors), (self._word("tested"), "", told.tested),
+            (self._word("untested"), "", told.errors - told.tested), (self._word("generated_now"), "", told.generated),
+            *((self._word(verdict), f"verdict {verdict}", told.verdicts[verdict]) for verdict in reversed(WORST_FIRST)),
+            (self._word("unknown"), "verdict unknown", told.unknown), (self._word("accepted"), "", told.accepted),
+        ]  # fmt: skip
+        items = "".join(f'<li><b>{count}</b><span class="{mark}">{word}</span></li>' for word, mark, count in numbers)
+        meanings = "".join(
+            f'<dt class="verdict {verdict}">{self._word(verdict)}</dt><dd>{self._word(f"mean_{verdict}")}</dd>'
+            for verdict in reversed(WORST_FIRST)
+        )
+        return (
+            f'<h2>{self._word("summary")}</h2>\n<ul class="numbers">{items}</ul>\n'
+            f'<h3>{self._word("meaning")}</h3>\n<dl class="meaning">{meanings}</dl>\n'
+        )
+
+    # ---- findings -------------------------------------------------------------------------------------------------
+
+    def _findings(self) -> str:
+        found = [error for error in self._record.errors if self._record.finding(error).verdict in FINDINGS]
+        found.sort(key=lambda error: (bool(error.accepted), error.severity != "fatal"))
+        if not found:
+            tested = self._record.summary.tested
+            return f"<h2>{self._word('findings')}</h2>\n<p>{self._word('no_findings' if tested else 'nothing_tested')}</p>\n"
+        rows = [self._finding_row(error) for error in found]
+        heads = ("error", "code", "severity", "verdict", "status", "reason")
+        return f"<h2>{self._word('findings')}</h2>\n{self._whole_table(heads, rows)}"
+
+    def _finding_row(self, error: RecordError) -> str:
+        accepted = "<br>".join(
+            escape(f"{one.reason} ({one.by}, {_moment(one.at)}; {one.state})") for one in error.accepted
+        )
+        word = self._word("finding_accepted" if error.accepted else "finding_open")
+        return _row(
+            f'<th scope="row">{escape(error.name)}</th>', _mono(error.code), _cell(self._words[error.severity]),
+            f"<td>{self._verdict(self._record.finding(error).verdict)}</td>", f"<td>{word}</td>", f"<td>{accepted}</td>",
+        )  # fmt: skip
+
+    def _untested(self) -> str:
+        names = [error for error in self._record.errors if not self._record.tested(error)]
+        if not names:
+            return f"<h2>{self._word('not_tested')}</h2>\n<p>{self._word('all_tested')}</p>\n"
+        listed = ", ".join(
+            f'{escape(error.name)} <span class="mono faint">{escape(error.code)}</span>' for error in names
+        )
+        return f"<h2>{self._word('not_tested')} ({len(names)})</h2>\n<p>{listed}</p>\n"
+
+    # ---- every error ----------------------------------------------------------------------------------------------
+
+    def _table(self) -> str:
+        heads = (
+            "error",
+            "code",
+            "flag",
+            "severity",
+            "status",
+            "when",
+            "count",
+            "verdict",
+            "scans",
+            "read_by",
+            "outputs",
+        )
+        rows = []
+        for group, errors in groupby(self._record.errors, key=lambda error: error.group):
+            rows.append(f'<tr class="group"><th scope="colgroup" colspan="{len(heads)}">{escape(group)}</th></tr>\n')
+            rows += map(self._error_row, errors)
+        return (
+            f"<h2>{self._word('table')}</h2>\n{self._whole_table(heads, rows)}"
+            f'<p class="faint">{self._word("scans_hint")}</p>\n'
+        )
+
+    def _error_row(self, error: RecordError) -> str:
+        finding, reaction = self._record.finding(error), error.reaction
+        name = f'<th scope="row">{escape(error.name)}'
+        if error.details:
+            name += f'<br><span class="mono faint">{escape(error.details)}</span>'
+        verdict = self._verdict(finding.verdict) if self._record.tested(error) else ""
+        if finding.where == "sweep":
+            verdict += f'<br><span class="faint">{self._word("in_sweep")}</span>'
+        note = error.reaction_note or ("" if reaction is None else reaction.note)
+        if note:
+            verdict += f'<br><span class="faint">{escape(note)}</span>'
+        return _row(
+            f"{name}</th>", _mono(error.code), _mono(error.flag), _cell(self._words[error.severity]),
+            _cell(self._words[error.status]), f"<td>{self._when(error)}</td>", _number(error.count or None),
+            f"<td>{verdict}</td>", _number(finding.scans), f'<td class="mono">{self._readers(reaction)}</td>',
+            f'<td class="mono">{self._outputs(() if reaction is None else reaction.differences)}</td>',
+        )  # fmt: skip
+
+    def _when(self, error: RecordError) -> str:
+        lines = []
+        for at, scan in ((error.generated_at, error.generated_scan), (error.recovered_at, error.recovered_scan)):
+            if at is not None:
+                before = "" if scan is None else f' <span class="faint">{self._word("scan")} {scan}</span>'
+                lines.append(f"{_moment(at)}{before}")
+        if error.by:
+            origin = {"plc": "origin_plc", "program": "origin_program"}.get(error.origin or "")
+            lines.append(self._word(origin) if origin else escape(error.by))
+        return "<br>".join(lines)
+
+    def _readers(self, reaction: Reaction | None) -> str:
+        places = () if reaction is None else dict.fromkeys(f"{each.file}:{each.line}" for each in reaction.readers)
+        return self._shortened([escape(place) for place in places])
+
+    def _outputs(self, differences: Sequence[Difference]) -> str:
+        return self._shortened([escape(f"{each.path}: {each.without} → {each.value}") for each in differences])
+
+    def _shortened(self, items: Sequence[str]) -> str:
+        shown = list(items[:SHOWN])
+        if len(items) > SHOWN:
+            shown.append(escape(self._words["and_more"].format(count=len(items) - SHOWN)))
+        return "<br>".join(shown)
+
+    # ---- sweeps and log -------------------------------------------------------------------------------------------
+
+    def _sweeps(self) -> list[str]:
+        return [self._sweep(sweep) for sweep in self._record.sweeps]
+
+    def _sweep(self, sweep: RecordSweep) -> str:
+        names = {error.id: error.name for error in self._record.errors}
+        cells: dict[str, dict[str, RecordCell]] = {}
+        for cell in sweep.cells:
+            cells.setdefault(cell.error, {})[cell.state] = cell
+        text = self._words["sweep_text"].format(
+            window=sweep.window, status=self._words[sweep.status], by=sweep.by, at=_moment(sweep.at)
+        )
+        head = f'<th scope="col">{self._word("error")}</th>'
+        head += "".join(f'<th scope="col">{escape(state)}</th>' for state in sweep.states)
+        rows = [
+            _row(
+                f'<th scope="row">{escape(names.get(error, error))}</th>',
+                *(self._found(by.get(state)) for state in sweep.states),
+            )
+            for error, by in cells.items()
+        ]
+        return f"<h2>{self._word('sweep')}: {escape(sweep.instance)}</h2>\n<p>{escape(text)}</p>\n{_table(head, rows)}"
+
+    def _found(self, cell: RecordCell | None) -> str:
+        if cell is None:
+            return "<td></td>"
+        if cell.verdict is None:
+            return f'<td><span class="verdict unknown">{self._word("not_raised")}</span><br>{escape(cell.note)}</td>'
+        scans = "" if cell.scans is None else f' <span class="faint">{cell.scans}</span>'
+        return f"<td>{self._verdict(cell.verdict)}{scans}</td>"
+
+    def _log(self) -> str:
+        if not self._record.log:
+            return ""
+        rows = [
+            _row(_mono(_moment(line.at)), _number(line.scan), _cell(line.by), _cell(line.text))
+            for line in self._record.log
+        ]
+        return f"<h2>{self._word('log')}</h2>\n{self._whole_table(('time', 'scan', 'by', 'text'), rows)}"
+
+    def _sign(self) -> str:
+        boxes = "".join(
+            f"<div><b>{self._word(who)}</b><p><span>{self._word('signature')}</span><span>{self._word('date')}</span></p></div>"
+            for who in ("tested_by", "approved_by")
+        )
+        return f'<h2>{self._word("sign")}</h2>\n<div class="sign">{boxes}</div>\n'
+
+    # ---- parts ----------------------------------------------------------------------------------------------------
+
+    def _verdict(self, verdict: Verdict | None) -> str:
+        return f'<span class="verdict {verdict or "unknown"}">{self._word(verdict or "unknown")}</span>'
+
+    def _whole_table(self, heads: Iterable[str], rows: Iterable[str]) -> str:
+        return _table("".join(f'<th scope="col">{self._word(head)}</th>' for head in heads), rows)
+
+
+def _table(head: str, rows: Iterable[str]) -> str:
+    return f'<div class="scroll"><table>\n<thead><tr>{head}</tr></thead>\n<tbody>\n{"".join(rows)}</tbody>\n</table></div>\n'
+
+
+def _row(*cells: str) -> str:
+    return f"<tr>{''.join(cells)}</tr>\n"
+
+
+def _cell(text: str) -> str:
+    return f"<td>{escape(text)}</td>"
+
+
+def _mono(text: str) -> str:
+    return f'<td class="mono">{escape(text)}</td>'
+
+
+def _number(number: int | None) -> str:
+    return f'<td class="num">{"" if number is None else number}</td>'
+
+
+def _moment(at: datetime) -> str:
+    return f"{at.astimezone(UTC):%Y-%m-%d %H:%M:%S}"

@@ -1,0 +1,87 @@
+"""A test record as XML (`record.xsd`), for archives and other tools; `record_read.py` reads it again."""
+
+import re
+from datetime import UTC, datetime
+
+from lxml import etree
+
+from scanbench.faults.reaction import Reaction
+from scanbench.faults.record import RecordError, RecordSweep, TestRecord
+
+VERSION = "1"
+_UNWRITABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+Told = str | int | datetime | None
+
+
+def to_xml(record: TestRecord) -> str:
+    """The record, whole; characters that XML cannot hold become U+FFFD."""
+    head = record.head
+    root = etree.Element("TestRecord")
+    _set(
+        root, Version=VERSION, Project=head.project, Model=head.model, Instance=head.instance,
+        ProgramVersion=head.program_version, ProgramHash=head.program_hash, ExportedAt=head.exported_at,
+        ExportedBy=head.exported_by, Tool=head.tool,
+    )  # fmt: skip
+    for error in record.errors:
+        _error(root, error)
+    for sweep in record.sweeps:
+        _sweep(root, sweep)
+    for line in record.log:
+        _add(root, "Line", At=line.at, Scan=line.scan, By=line.by, Text=line.text)
+    etree.indent(root)
+    return etree.tostring(root, encoding="UTF-8", xml_declaration=True).decode() + "\n"
+
+
+def _error(root: etree._Element, error: RecordError) -> None:
+    node = _add(
+        root, "Error", Id=error.id, Name=error.name, Group=error.group, Code=error.code, Flag=error.flag,
+        Severity=error.severity, Status=error.status, Details=error.details or None, GeneratedAt=error.generated_at,
+        RecoveredAt=error.recovered_at, GeneratedScan=error.generated_scan, RecoveredScan=error.recovered_scan,
+        By=error.by or None, Origin=error.origin, Count=error.count or None,
+        ReactionNote=error.reaction_note or None,
+    )  # fmt: skip
+    if error.reaction is not None:
+        _reaction(node, error.reaction)
+    for one in error.accepted:
+        _add(node, "Accepted", State=one.state, Reason=one.reason, By=one.by, At=one.at)
+
+
+def _reaction(error: etree._Element, reaction: Reaction) -> None:
+    node = _add(
+        error, "Reaction", Verdict=reaction.verdict, Window=reaction.window, FirstRead=reaction.first_read,
+        FirstEffect=reaction.first_effect, Differences=reaction.difference_count, Note=reaction.note or None,
+    )  # fmt: skip
+    for reader in reaction.readers:
+        _add(
+            node, "Reader", File=reader.file, Line=reader.line, Pou=reader.pou, What=reader.what, Scan=reader.scan
+        )  # fmt: skip
+    for each in reaction.differences:
+        _add(node, "Output", Path=each.path, Without=each.without, Value=each.value, Scan=each.scan)
+    for line in reaction.lines:
+        _add(node, "Handler", File=line.file, Line=line.line)
+
+
+def _sweep(root: etree._Element, sweep: RecordSweep) -> None:
+    node = _add(
+        root, "Sweep", At=sweep.at, By=sweep.by, Instance=sweep.instance, Status=sweep.status, Window=sweep.window
+    )  # fmt: skip
+    for state in sweep.states:
+        _add(node, "State", Name=state)
+    for cell in sweep.cells:
+        _add(
+            node, "Cell", Error=cell.error, State=cell.state, Verdict=cell.verdict, Scans=cell.scans,
+            Note=cell.note or None,
+        )  # fmt: skip
+
+
+def _add(parent: etree._Element, tag: str, **told: Told) -> etree._Element:
+    node = etree.SubElement(parent, tag)
+    _set(node, **told)
+    return node
+
+
+def _set(node: etree._Element, **told: Told) -> None:
+    for name, value in told.items():
+        if value is not None:
+            text = value.astimezone(UTC).isoformat() if isinstance(value, datetime) else str(value)
+            node.set(name, _UNWRITABLE.sub("\ufffd", text))

@@ -1,0 +1,220 @@
+"""A sweep for people and machines: a table, JSON, JUnit. The HTML page is `sweep_page.py`'s."""
+
+from collections import Counter
+from collections.abc import Mapping, Sequence
+from dataclasses import asdict, dataclass
+from typing import cast, get_args
+from xml.etree import ElementTree
+
+from scanbench.faults.reaction import Reaction, Verdict
+from scanbench.faults.sweep import Cell, Outcome, SweepChange
+from scanbench.plcmodel.catalogue import ErrorEntry, Severity
+
+WORDS: Mapping[Verdict | None, str] = {
+    "reacted": "reacted",
+    "no_effect": "read, no effect",
+    "never_read": "never read",
+    "stopped": "PLC stopped",
+    None: "not raised",
+}
+UNHANDLED: tuple[Verdict, ...] = ("never_read", "no_effect")
+FORMAT = 1
+_SHOWN = 3
+
+
+@dataclass(frozen=True, slots=True)
+class SweepResult:
+    """A sweep that is over."""
+
+    project: str
+    model: str
+    window: int
+    states: tuple[tuple[str, int], ...]
+    """Name, and the scan in front of which errors were raised."""
+    errors: tuple[ErrorEntry, ...]
+    cells: tuple[Cell, ...]
+    """For each error all states, in these orders."""
+
+    def entry(self, cell: Cell) -> ErrorEntry:
+        """The error of a cell."""
+        return next(each for each in self.errors if each.id == cell.error)
+
+    def counts(self) -> dict[str, int]:
+        """How often there was which verdict, in words."""
+        counted = Counter(WORDS[verdict_of(cell)] for cell in self.cells)
+        return {word: counted[word] for word in WORDS.values() if counted[word]}
+
+    def unhandled(self, severities: Sequence[Severity]) -> tuple[Cell, ...]:
+        """Errors of these severities that the program forgot, or reads without any effect."""
+        return tuple(
+            cell for cell in self.cells if verdict_of(cell) in UNHANDLED and self.entry(cell).severity in severities
+        )
+
+
+def verdict_of(cell: Cell) -> Verdict | None:
+    """What became of it; None where it could not be raised."""
+    return cell.reaction.verdict if cell.reaction is not None else None
+
+
+def readers_of(reaction: Reaction) -> list[str]:
+    """`file:line`, each once, the first to read first."""
+    return list(dict.fromkeys(f"{each.file}:{each.line}" for each in reaction.readers))
+
+
+def reason(cell: Cell) -> str:
+    """A sentence about what was found."""
+    reaction = cell.reaction
+    if reaction is None:
+        return cell.note
+    read = f"read in {', '.join(_some(readers_of(reaction)))}"
+    changed = [f"{each.path} {each.without} -> {each.value}" for each in reaction.differences]
+    match reaction.verdict:
+        case "stopped":
+            text = "a fatal error: the PLC stopped, as the model says"
+        case "never_read":
+            text = f"no statement read its flag, code or details in {reaction.window} scans"
+        case "no_effect":
+            text = f"{read}, but nothing differed in {reaction.window} scans"
+        case "reacted":
+            text = "; ".join(filter(None, (read if reaction.readers else "", ", ".join(_some(changed)))))
+    return "; ".join(filter(None, (text, reaction.note)))
+
+
+def _some(texts: Sequence[str]) -> list[str]:
+    more = len(texts) - _SHOWN
+    return [*texts[:_SHOWN], f"{more} more"] if more > 0 else list(texts)
+
+
+# ---- text ----------------------------------------------------------------------------------------------------------
+
+
+def sweep_text(result: SweepResult) -> list[str]:
+    """A line for each error and state, and a summary."""
+    rows = [("ERROR", "CODE", "SEVERITY", "STATE", "VERDICT", "SCANS", "WHY")]
+    for cell in result.cells:
+        entry, reaction = result.entry(cell), cell.reaction
+        scans = "" if reaction is None or reaction.first_effect is None else str(reaction.first_effect)
+        verdict = WORDS[verdict_of(cell)]
+        rows.append((entry.id, entry.code_text, entry.severity, cell.point, verdict, scans, reason(cell)))
+    head = f"{result.project} on {result.model}: {count(len(result.errors), 'error')}, {count(len(result.states), 'state')}"
+    counts = ", ".join(f"{number} {word}" for word, number in result.counts().items())
+    return [f"{head}, {result.window} scans each", "", *table(rows), "", counts]
+
+
+def compare_text(changes: Sequence[SweepChange]) -> list[str]:
+    """A line for each that is not as before, and a summary."""
+    rows = [("ERROR", "STATE", "BEFORE", "AFTER", "CHANGE")]
+    for each in changes:
+        if each.change != "same":
+            before, after = _outcome(each.before, each.scans_before), _outcome(each.after, each.scans_after)
+            rows.append((each.error, each.state, before, after, each.change))
+    counted = Counter(each.change for each in changes)
+    summary = ", ".join(f"{number} {kind}" for kind, number in counted.most_common()) or "nothing to compare"
+    return [*(table(rows) if len(rows) > 1 else []), *([""] if len(rows) > 1 else []), summary]
+
+
+def _outcome(verdict: Verdict | None, scans: int | None) -> str:
+    return WORDS[verdict] + (f" after {count(scans, 'scan')}" if scans is not None else "")
+
+
+def count(number: int, what: str) -> str:
+    """`1 scan`, `2 scans`."""
+    return f"{number} {what}{'s' * (number != 1)}"
+
+
+def table(rows: Sequence[tuple[str, ...]]) -> list[str]:
+    """Columns as wide as what stands in them."""
+    widths = [max(len(row[column]) for row in rows) for column in range(len(rows[0]))]
+    return ["  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip() for row in rows]
+
+
+# ---- JSON ----------------------------------------------------------------------------------------------------------
+
+
+def sweep_json(result: SweepResult) -> dict[str, object]:
+    """One object; `outcomes_in` reads it again."""
+    return {
+        "format": FORMAT,
+        "project": result.project,
+        "model": result.model,
+        "window": result.window,
+        "states": [{"name": name, "scan": scan} for name, scan in result.states],
+        "counts": {
+            verdict: number
+            for verdict in get_args(Verdict)
+            if (number := sum(verdict_of(cell) == verdict for cell in result.cells))
+        },
+        "results": [_cell_json(result.entry(cell), cell) for cell in result.cells],
+    }
+
+
+def _cell_json(entry: ErrorEntry, cell: Cell) -> dict[str, object]:
+    reaction = cell.reaction
+    about: dict[str, object] = {
+        "id": entry.id, "name": entry.name, "code": entry.code_text, "severity": entry.severity, "state": cell.point,
+        "verdict": verdict_of(cell), "scans": None, "first_read": None, "window": 0, "readers": [], "reads": [],
+        "differences": [], "difference_count": 0, "handler_lines": [], "note": cell.note,
+    }  # fmt: skip
+    if reaction is not None:
+        about |= {
+            "scans": reaction.first_effect, "first_read": reaction.first_read, "window": reaction.window,
+            "readers": readers_of(reaction), "reads": [asdict(each) for each in reaction.readers],
+            "differences": [asdict(each) for each in reaction.differences],
+            "difference_count": reaction.difference_count,
+            "handler_lines": [f"{each.file}:{each.line}" for each in reaction.lines], "note": reaction.note,
+        }  # fmt: skip
+    return about
+
+
+def outcomes_in(told: object) -> list[Outcome]:
+    """What `sweep_json` wrote; ValueError says what is missing or wrong."""
+    if not isinstance(told, dict) or not isinstance(told.get("results"), list):
+        raise ValueError("this is no sweep: write one with `scanbench errors sweep PROJECT --json`")
+    if told.get("format") != FORMAT:
+        raise ValueError(f"a sweep of format {told.get('format')!r}; this scanbench reads format {FORMAT}")
+    return [_outcome_in(number, each) for number, each in enumerate(told["results"])]
+
+
+def _outcome_in(number: int, told: object) -> Outcome:
+    where = f"results[{number}]"
+    if not isinstance(told, dict):
+        raise ValueError(f"{where} is no object")
+    error, state, verdict, scans = (told.get(name) for name in ("id", "state", "verdict", "scans"))
+    if not isinstance(error, str) or not isinstance(state, str):
+        raise ValueError(f"{where} has no `id` and `state`")
+    if verdict is not None and verdict not in get_args(Verdict):
+        raise ValueError(f"{where} has the verdict {verdict!r}; there are {', '.join(get_args(Verdict))}")
+    if scans is not None and (not isinstance(scans, int) or isinstance(scans, bool)):
+        raise ValueError(f"{where} has the scans {scans!r}, which is no whole number")
+    return Outcome(error, state, cast("Verdict | None", verdict), scans)
+
+
+# ---- JUnit ---------------------------------------------------------------------------------------------------------
+
+
+def sweep_junit(result: SweepResult, severities: Sequence[Severity]) -> str:
+    """A test case for each error and state; it fails where an error of these severities is unhandled."""
+    failed = result.unhandled(severities)
+    skipped = [cell for cell in result.cells if cell.reaction is None]
+    numbers = {"tests": len(result.cells), "failures": len(failed), "skipped": len(skipped), "errors": 0}
+    totals = {name: str(number) for name, number in numbers.items()}
+    root = ElementTree.Element("testsuites", totals)
+    suite = ElementTree.SubElement(root, "testsuite", {"name": f"{result.project} on {result.model}", **totals})
+    for cell in result.cells:
+        entry = result.entry(cell)
+        name = f"{entry.id} ({entry.code_text})"
+        case = ElementTree.SubElement(suite, "testcase", {"classname": f"{result.model}.{cell.point}", "name": name})
+        if cell.reaction is None:
+            ElementTree.SubElement(case, "skipped", {"message": _printable(cell.note)})
+        elif cell in failed:
+            about = {"message": f"{entry.severity} error: {WORDS[verdict_of(cell)]}", "type": cell.reaction.verdict}
+            ElementTree.SubElement(case, "failure", about).text = _printable(reason(cell))
+        else:
+            ElementTree.SubElement(case, "system-out").text = _printable(f"{WORDS[verdict_of(cell)]}: {reason(cell)}")
+    ElementTree.indent(root)
+    return ElementTree.tostring(root, "unicode", xml_declaration=True) + "\n"
+
+
+def _printable(text: str) -> str:
+    """XML has no control characters, and values of strings may."""
+    return "".join(each if each.isprintable() or each in "\n\t" else "\ufffd" for each in text)

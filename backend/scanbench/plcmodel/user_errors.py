@@ -1,0 +1,135 @@
+"""A project's own errors: `errors.xml`, in the format of a model's catalogue, on the model of the project.
+
+They stand in the model like the device's own, under one group, marked `user`. They change neither the memory nor how programs
+are laid out in it: a program on the extended model is the same program.
+"""
+
+import posixpath
+import threading
+from collections import OrderedDict
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+from functools import cache
+
+from lxml import etree
+
+from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Wording
+from scanbench.plcmodel.document import Document, parse, schema_of
+from scanbench.plcmodel.load import model_directory
+from scanbench.plcmodel.model import Model
+from scanbench.plcmodel.read_catalogue import read_catalogue
+from scanbench.plcmodel.reading import Reader
+from scanbench.problems import Problem, Span
+
+USER_ERRORS = "errors.xml"
+"""The name of the file, at the top of a project."""
+ROOT = "UserErrors"
+GROUP = "User-defined"
+_WORDINGS = (Wording("ja", "ユーザー定義", ""),)
+_REMEMBERED = 32
+
+Extended = tuple[Model | None, list[Problem]]
+
+
+def is_user_errors(path: str) -> bool:
+    """Whether a file of this path has the errors of its project."""
+    return posixpath.basename(path.replace("\\", "/")) == USER_ERRORS
+
+
+def model_for(model: Model, files: Mapping[str, str]) -> Model:
+    """The model with the errors that these files of a project define; the device alone where they are broken."""
+    return extended(model, files)[0]
+
+
+def extended(model: Model, files: Mapping[str, str]) -> tuple[Model, list[Problem]]:
+    """The same, and what is wrong with them."""
+    names = [name for name in files if is_user_errors(name)]
+    if not names:
+        return model, []
+    made, problems = with_user_errors(model, files[names[0]], names[0])
+    for name in names[1:]:
+        message = f"a program has one {USER_ERRORS}, and {names[0]} is it already: put all errors in there"
+        problems = [*problems, Problem("M004", message, Span(name, 1, 1, 1, 2))]
+    return made or model, problems
+
+
+def with_user_errors(model: Model, text: str, file: str = USER_ERRORS) -> Extended:
+    """The model with the errors of this text, or everything that is wrong with it. Thread-safe."""
+    with _lock:
+        key = (file, text)
+        known, made = _known.get(key, (None, None))
+        if made is None or not (known is model or known == model):
+            made = _extend(model, text, file)
+        _known[key] = model, made
+        _known.move_to_end(key)
+        while len(_known) > _REMEMBERED:
+            _known.popitem(last=False)
+        return made[0], list(made[1])
+
+
+def device_of(model: Model) -> Model:
+    """The model without the errors of any project."""
+    own = tuple(group for group in model.catalogue if not any(error.user for error in group.walk()))
+    return model if len(own) == len(model.catalogue) else replace(model, catalogue=own)
+
+
+def document_of(text: str, file: str = USER_ERRORS) -> Document | list[Problem]:
+    """The text as a document that follows the schema, or everything that is wrong with it."""
+    return parse(text, file, _schema(), ROOT)
+
+
+_lock = threading.RLock()  # a schema tells of its last validation only
+_known: OrderedDict[tuple[str, str], tuple[Model | None, Extended | None]] = OrderedDict()
+
+
+@cache
+def _schema() -> etree.XMLSchema:
+    return schema_of(model_directory())
+
+
+def _extend(model: Model, text: str, file: str) -> Extended:
+    document = document_of(text, file)
+    if not isinstance(document, Document):
+        return None, document
+    device = device_of(model)
+    reader = Reader(document)
+    reader.areas, reader.iec_maps, reader.code_form = device.areas, device.iec_maps, device.code_form
+    reader.symbols = {entry.symbol.upper(): entry.location for entry in device.specials if entry.symbol}
+    groups = read_catalogue((reader,))
+    _compare(reader, device, groups)
+    if reader.problems:
+        return None, sorted(dict.fromkeys(reader.problems), key=lambda each: (each.span.line, each.span.column))
+    mine = ErrorGroup(GROUP, tuple(map(_mine, groups)), (), _WORDINGS)
+    return (replace(device, catalogue=(*device.catalogue, mine)) if groups else device), []
+
+
+def _compare(reader: Reader, device: Model, groups: Sequence[ErrorGroup]) -> None:
+    """What the device has is not defined a second time."""
+    pairs = {_pair(error): error for error in device.errors()}
+    nodes = {node.get("Id", ""): node for node in reader.root.iter("Error")}
+    for id, node in nodes.items():
+        if (own := device.error(id)) is not None:
+            message = f"{device.name} has an error {id!r} itself ({own.name}): give yours another Id"
+            reader.problem("M004", message, node, "Id")
+    for error in _all(groups):
+        twin = pairs.get(_pair(error))
+        if twin is not None:
+            message = f"code {error.code_text} with flag {error.flag_text} is {twin.id!r} of the {device.name} itself"
+            reader.problem("M005", message, nodes[error.id], "ErrorCode")
+
+
+def _pair(error: ErrorEntry) -> tuple[int, str, int, int | None]:
+    return error.code, error.flag.area.name, error.flag.byte, error.flag.bit
+
+
+def _all(groups: Sequence[ErrorGroup]) -> Iterator[ErrorEntry]:
+    for group in groups:
+        yield from group.walk()
+
+
+def _mine(group: ErrorGroup) -> ErrorGroup:
+    return replace(
+        group,
+        groups=tuple(map(_mine, group.groups)),
+        errors=tuple(replace(error, user=True) for error in group.errors),
+    )

@@ -1,0 +1,52 @@
+"""The contract of who enters commands by itself, when their time comes: faults with a shape.
+
+The resource asks in the seam of a run, and journals what is entered; a replay re-enters that and never asks.
+"""
+
+from dataclasses import dataclass
+from typing import Protocol
+
+from scanbench.check.condition import Condition
+from scanbench.engines.observe import Observed
+from scanbench.runtime.command import Command, Refusal, View
+from scanbench.runtime.programs import Loaded
+
+
+@dataclass(frozen=True, slots=True)
+class Waits:
+    """What the run has to come back for."""
+
+    scan: int | None = None
+    """Something is due in front of this one, which is to come."""
+    conditions: tuple[Condition, ...] = ()
+    sites: frozenset[int] = frozenset()
+    """Statements (`check.sites`): while there are any, the run comes back after every scan."""
+
+
+@dataclass(frozen=True, slots=True)
+class Met:
+    """What came true in the scan that just ended."""
+
+    conditions: frozenset[str] = frozenset()
+    """Their texts."""
+    sites: frozenset[int] = frozenset()
+
+
+NOTHING = Waits()
+NONE_MET = Met()
+
+
+class Agenda(Protocol):
+    """All that it knows is in the journal of the view."""
+
+    def due(self, view: View, met: Met) -> Command | None:
+        """What is to be entered in this seam; asked again behind each entry, until there is nothing more."""
+
+    def refused(self, command: Command, refusal: Refusal) -> Command:
+        """What is entered instead of a command that was refused: it must not be refused, nor the same be due again."""
+
+    def waits(self, view: View) -> Waits:
+        """What it waits for, when nothing is due."""
+
+    def observed(self, loaded: Loaded) -> Observed:
+        """Code of this program that notes the statements it reaches, on its memory: made while it waits for any."""

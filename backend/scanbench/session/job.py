@@ -1,0 +1,164 @@
+"""The job process: finds out reactions and runs sweeps, so that neither the server nor a PLC has to wait for them.
+
+`python -m scanbench.session.job CACHE`; see `job_protocol.py`. Whatever goes wrong with a request is told in its answer.
+"""
+
+import logging
+import os
+import signal
+import sys
+from collections.abc import Iterator
+from pathlib import Path
+from typing import BinaryIO
+
+from scanbench.check.build import check_sources
+from scanbench.check.program import Program
+from scanbench.engines.cache import BlobCache
+from scanbench.engines.lifeline import end_with_parent
+from scanbench.engines.observe import MakeObserved
+from scanbench.faults.observed import ObservedPrograms
+from scanbench.faults.react import Point
+from scanbench.faults.sweep import sweep
+from scanbench.problems import Severity
+from scanbench.runtime.clock import monotonic_ns
+from scanbench.runtime.header import Header
+from scanbench.session.codec import BadMessage, Splitter, pack
+from scanbench.session.host.build import BuildFailed, find_model
+from scanbench.session.job_protocol import CellFound, FindReaction, JobDone, Reacted, RunSweep, Trying
+from scanbench.session.known import key_of, recall
+from scanbench.session.protocol import Sources
+from scanbench.session.starting import NoStart, point_in, reaction_in
+
+log = logging.getLogger("scanbench")
+_NICENESS = 10
+_TELL_EVERY_NS = 250_000_000
+_PROGRAMS = 4
+"""Checked programs that stay in memory."""
+
+
+class Job:
+    """Answers requests, one after the other."""
+
+    def __init__(self, cache: Path | None, answers: BinaryIO) -> None:
+        self._cache = BlobCache(cache) if cache is not None else None
+        self._answers = answers
+        self._make = _engines(self._cache)
+        self._programs: dict[str, Program] = {}
+
+    def on_request(self, request: object) -> None:
+        """Answers a request. Nothing that is wrong with it ends the process."""
+        match request:
+            case FindReaction():
+                self._say(self._reacted(request))
+            case RunSweep():
+                self._say(self._swept(request))
+            case _:
+                raise BadMessage(f"{type(request).__name__} is no request to a job process")
+
+    def _reacted(self, ask: FindReaction) -> Reacted:
+        try:
+            found = reaction_in(Path(ask.run), ask.error, ask.scan, ask.end, ask.window, self._program, self._make)
+        except NoStart as why:
+            return Reacted(ask.ref, None, str(why))
+        except Exception as error:  # whatever it is, somebody waits for the answer
+            return Reacted(ask.ref, None, _unexpected(error))
+        return Reacted(ask.ref, found)
+
+    def _swept(self, ask: RunSweep) -> JobDone:
+        try:
+            for cell in self._cells(ask):
+                self._say(cell)
+        except (NoStart, LookupError) as why:
+            return JobDone(ask.ref, False, str(why.args[0]))
+        except Exception as error:  # as above
+            return JobDone(ask.ref, False, _unexpected(error))
+        return JobDone(ask.ref, True)
+
+    def _cells(self, ask: RunSweep) -> Iterator[CellFound]:
+        program = self._program(ask.sources)
+        points = {each.name: self._point(each.name, Path(each.run), ask.sources) for each in ask.points}
+        scans = {name: Header(point.state).scan for name, point in points.items()}
+        programs = ObservedPrograms({ask.sources.version: program}.__getitem__, self._make)
+        told = 0
+
+        def on_try(error: str, point: str) -> None:
+            nonlocal told
+            if monotonic_ns() - told > _TELL_EVERY_NS:
+                told = monotonic_ns()
+                self._say(Trying(ask.ref, error, point))
+
+        for cell in sweep(points, ask.errors, ask.window, programs, set(ask.done), on_try):
+            yield CellFound(ask.ref, cell.error, cell.point, scans[cell.point], cell.reaction, cell.note)
+
+    def _point(self, name: str, run: Path, sources: Sources) -> Point:
+        try:
+            return point_in(run, None, sources, self._program, self._make)
+        except NoStart as why:
+            raise NoStart(f"the state {name} cannot be used: {why}") from why
+
+    def _program(self, sources: Sources) -> Program:
+        """The checked program: from memory, from the disk, or checked now."""
+        try:
+            model = find_model(sources.model)
+        except BuildFailed as error:
+            raise LookupError(str(error)) from error
+        key = key_of(sources, model)
+        program = self._programs.pop(key, None)
+        if program is None and self._cache is not None:
+            program = recall(self._cache, key)
+        if program is None:
+            checked = check_sources(sources.files, model, sources.interval_ns)
+            program = checked.program
+            if program is None:
+                errors = [each for each in checked.problems if each.severity is Severity.ERROR]
+                raise LookupError(f"the program cannot be built: {errors[0] if errors else 'nothing to run'}")
+        self._programs[key] = program  # the last one used stands last
+        while len(self._programs) > _PROGRAMS:
+            del self._programs[next(iter(self._programs))]
+        return program
+
+    def _say(self, message: object) -> None:
+        self._answers.write(pack(message))
+        self._answers.flush()
+
+
+def _engines(cache: BlobCache | None) -> MakeObserved:
+    """Native where LLVM is there, else the reference engine."""
+    try:
+        from scanbench.engines.native.observed import ObservedBuilds
+    except ImportError:
+        from scanbench.engines.interpreter.observed import observed_engine
+
+        return observed_engine
+    return ObservedBuilds(cache).engine
+
+
+def _unexpected(error: Exception) -> str:
+    log.exception("a job failed")
+    text = str(error) or type(error).__name__
+    return f"out of memory ({text})" if isinstance(error, MemoryError) else f"it failed: {text}. See the log"
+
+
+def main() -> int:
+    """Serves until the input ends."""
+    end_with_parent()
+    signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's business
+    os.nice(_NICENESS)
+    answers = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
+    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # what anything prints is no answer
+    job = Job(Path(sys.argv[1]) if len(sys.argv) > 1 else None, answers)
+    splitter = Splitter()
+    try:
+        while data := os.read(sys.stdin.fileno(), 1 << 16):
+            for request in splitter.feed(data):
+                job.on_request(request)
+    except BadMessage as error:
+        log.error("a job process was asked what it does not understand: %s", error)
+        return 1
+    except BrokenPipeError:
+        return 0
+    return 0
+
+
+if __name__ == "__main__":
+    sys.exit(main())

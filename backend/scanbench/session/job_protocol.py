@@ -1,0 +1,94 @@
+"""What the parent asks a job process, and what it answers: reactions and sweeps. Packed by `codec.py`, length first.
+
+`python -m scanbench.session.job CACHE` reads requests from standard input, in order, and answers on standard output; it ends with its input, and
+with its parent. A sweep is cancelled by ending the process. Nothing here changes a PLC.
+"""
+
+from dataclasses import dataclass
+
+from scanbench.faults.reaction import Reaction
+from scanbench.session.protocol import Sources
+
+# ---- parent to job -------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class FindReaction:
+    """How the program reacted to `error`, which was raised in front of `scan` in the run of this file.
+
+    The file may be that of a PLC that runs: it is opened read-only. Entries up to `end` are known to be in it. Answered with `Reacted`.
+    """
+
+    ref: int
+    run: str
+    error: str
+    scan: int
+    end: int
+    window: int
+
+
+@dataclass(frozen=True, slots=True)
+class StartPoint:
+    """Where sweeps begin: the end of a run file (a copy, which nobody writes)."""
+
+    name: str
+    run: str
+
+
+@dataclass(frozen=True, slots=True)
+class RunSweep:
+    """Every error alone from every point, but for the pairs in `done`. Answered with `CellFound` for each, then `JobDone`.
+
+    Errors in the order given, for each all points. A point of another version of the program is carried over to `sources`.
+    """
+
+    ref: int
+    sources: Sources
+    points: tuple[StartPoint, ...]
+    errors: tuple[str, ...]
+    window: int
+    done: tuple[tuple[str, str], ...]
+    """(error, name of the point)."""
+
+
+# ---- job to parent -------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Reacted:
+    """Answer to `FindReaction`; without a reaction `message` says why there is none."""
+
+    ref: int
+    reaction: Reaction | None
+    message: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Trying:
+    """What is tried now, for the progress bar; told a few times a second at most."""
+
+    ref: int
+    error: str
+    point: str
+
+
+@dataclass(frozen=True, slots=True)
+class CellFound:
+    """One error from one point; without a reaction `note` says why it could not be raised or run."""
+
+    ref: int
+    error: str
+    point: str
+    scan: int
+    """In front of which it was raised."""
+    reaction: Reaction | None
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class JobDone:
+    """The sweep is over; `message` says why when it could not be done at all (no program, a point that cannot be used)."""
+
+    ref: int
+    ok: bool
+    message: str = ""

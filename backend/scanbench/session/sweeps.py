@@ -1,0 +1,354 @@
+"""Sweeps of a server: every error alone from named states, each sweep in a job process; what it finds is kept as it comes."""
+
+import asyncio
+import logging
+from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from pathlib import Path
+from typing import get_args
+
+from scanbench.faults.compare import Outcome, SweepChange, compare
+from scanbench.faults.inject import Generate
+from scanbench.faults.reaction import Reaction, Verdict
+from scanbench.faults.reaction_json import from_json, to_json
+from scanbench.faults.reference import ErrorRef, find_error
+from scanbench.plcmodel.model import ErrorEntry, ErrorGroup, Model
+from scanbench.runtime.clock import monotonic_ns
+from scanbench.runtime.command import Refusal
+from scanbench.session.events import SweepChanged
+from scanbench.session.job_protocol import CellFound, JobDone, RunSweep, StartPoint, Trying
+from scanbench.session.jobs import DIED, Job
+from scanbench.session.protocol import Sources
+from scanbench.session.refused import Refused
+from scanbench.session.runs import discard
+from scanbench.session.session import Session
+from scanbench.session.states import NOW, States
+from scanbench.store.records import AcceptedRow, CellRow, NotFound, SweepRow, SweepStatus, SweptError
+from scanbench.store.store import Store
+
+log = logging.getLogger("scanbench")
+STOPPED_SERVER = "the server was stopped"
+_TOLD_EVERY_NS = 250_000_000
+_FINDINGS = ("never_read", "no_effect")
+_VERDICTS: dict[str, Verdict] = {verdict: verdict for verdict in get_args(Verdict)}
+
+OpenState = Callable[[int, Path, str, str], Awaitable[Session]]
+"""(project, run file to copy, name, author): a new paused PLC that goes on with it."""
+
+
+@dataclass(frozen=True, slots=True)
+class Whole:
+    """A sweep with its cells, and what was accepted of them by (error, state)."""
+
+    row: SweepRow
+    cells: tuple[CellRow, ...]
+    accepted: Mapping[tuple[str, str], AcceptedRow]
+
+
+@dataclass(frozen=True, slots=True)
+class Comparison:
+    """Two sweeps, and what became of each cell."""
+
+    before: SweepRow
+    after: SweepRow
+    changes: tuple[SweepChange, ...]
+
+
+@dataclass(slots=True)
+class _Running:
+    """A sweep under way."""
+
+    row: SweepRow
+    job: Job
+    inbox: "asyncio.Queue[object]"
+    began: int
+    spent: float
+    """Seconds of earlier times."""
+    cancelled: str = ""
+    task: "asyncio.Task[None] | None" = None
+    now: str = ""
+    fresh: list[CellRow] = field(default_factory=list)
+
+    @property
+    def seconds(self) -> float:
+        """All the time that it took."""
+        return self.spent + (monotonic_ns() - self.began) / 1e9
+
+
+class Sweeps:
+    """Starts and ends with the server."""
+
+    def __init__(
+        self, store: Store, states: States, cache: Path, sessions_of: Callable[[int], list[Session]],
+        sources_of: Callable[[int, int], Awaitable[Sources | None]], open_state: OpenState,
+    ) -> None:  # fmt: skip
+        """`sources_of` gives an accepted build of (project, version)."""
+        self._store, self._states, self._cache = store, states, cache
+        self._sessions_of, self._sources_of, self._open_state = sessions_of, sources_of, open_state
+        self._running: dict[int, _Running] = {}
+        self._beginning: dict[int, asyncio.Lock] = {}
+
+    async def start(self) -> None:
+        """Sweeps that ran when the server went are interrupted: they can be resumed."""
+        await asyncio.to_thread(self._store.interrupt_sweeps, STOPPED_SERVER)
+
+    async def close(self) -> None:
+        """Ends what runs; it can be resumed."""
+        for running in list(self._running.values()):
+            await self._stop(running, STOPPED_SERVER)
+
+    # ---- what there is --------------------------------------------------------------------------------------------
+
+    async def of_project(self, project: int) -> list[SweepRow]:
+        """The sweeps of a project, the newest first."""
+        return list(map(self._live, await asyncio.to_thread(self._store.sweeps, project)))
+
+    async def row(self, id: int) -> SweepRow:
+        """A sweep without its cells."""
+        return self._live(await asyncio.to_thread(self._store.sweep, id))
+
+    async def whole(self, id: int) -> Whole:
+        """A sweep with its cells."""
+        row = await self.row(id)
+        cells = await asyncio.to_thread(self._store.cells, id)
+        return Whole(row, tuple(cells), await self._accepted(row.project))
+
+    async def reaction(self, id: int, error: str, state: str) -> Reaction:
+        """All that was found out about a cell."""
+        told = await asyncio.to_thread(self._store.cell_reaction, id, error, state)
+        if told is None:
+            raise NotFound(f"this sweep knows no reaction to {error} from {state}")
+        return from_json(told)
+
+    async def compare(self, before: int, after: int) -> Comparison:
+        """What became of the cells from one sweep to the other."""
+        first, second = await self.whole(before), await self.whole(after)
+        return Comparison(first.row, second.row, compare(_outcomes(first), _outcomes(second)))
+
+    async def _accepted(self, project: int) -> dict[tuple[str, str], AcceptedRow]:
+        rows = await asyncio.to_thread(self._store.acceptances, project)
+        return {(row.error, row.state): row for row in rows}
+
+    def _live(self, row: SweepRow) -> SweepRow:
+        """With the time that it took until now."""
+        running = self._running.get(row.id)
+        return row if running is None else replace(row, seconds=running.seconds)
+
+    # ---- what can be done -----------------------------------------------------------------------------------------
+
+    async def begin(
+        self, session: Session, errors: Sequence[str] | None, states: Sequence[int], window: int, author: str
+    ) -> SweepRow:
+        """Begins a sweep of the program that runs; without states from where the PLC stands now."""
+        project, sources, model = session.project_id, session.sources, session.model
+        swept = _swept(model, errors)
+        async with self._beginning.setdefault(project, asyncio.Lock()):
+            self._one_at_a_time(project)
+            kept = {row.id: row for row in await self._states.of_project(project)}
+            for state in states:
+                if state not in kept:
+                    raise Refused(f"there is no state {state} in this project")
+            row = await asyncio.to_thread(
+                lambda: self._store.create_sweep(
+                    project, instance_id=session.id, instance=session.name, model=model.name,
+                    program_version=sources.version, by=author, window=window,
+                    states=tuple(kept[state].name for state in states) or (NOW,), errors=swept,
+                )
+            )  # fmt: skip
+            if not states:
+                try:
+                    await self._states.take(session, self._states.now_path(row.id), None, author)
+                except BaseException:
+                    await asyncio.to_thread(self._store.delete_sweep, row.id)
+                    raise
+            await self._run(row, sources, [])
+        names = ", ".join(row.states)
+        session.told(author, f"sweep begun: {len(swept)} error{'s' * (len(swept) != 1)} from {names}")
+        return row
+
+    async def resume(self, id: int) -> SweepRow:
+        """Goes on with the cells that are missing."""
+        row = await self.row(id)
+        async with self._beginning.setdefault(row.project, asyncio.Lock()):
+            self._one_at_a_time(row.project)
+            if row.done == row.total:
+                raise Refused("this sweep is done: nothing is missing")
+            sources = await self._sources_of(row.project, row.program_version)
+            if sources is None:
+                raise Refused(f"version {row.program_version} of the program is not kept any more: begin a new sweep")
+            cells = await asyncio.to_thread(self._store.cells, id)
+            await asyncio.to_thread(
+                lambda: self._store.change_sweep(id, status="running", message="", seconds=row.seconds)
+            )
+            await self._run(replace(row, status="running", message=""), sources, cells)
+        return await self.row(id)
+
+    async def cancel(self, id: int) -> SweepRow:
+        """Stops a sweep; one that does not run any more stays as it is."""
+        running = self._running.get(id)
+        if running is not None:
+            await self._stop(running, "")
+        return await self.row(id)
+
+    async def delete(self, id: int) -> None:
+        """Forgets a sweep."""
+        await self.cancel(id)
+        await asyncio.to_thread(self._store.delete_sweep, id)
+        await asyncio.to_thread(discard, self._states.now_path(id))
+
+    async def accept(self, id: int, error: str, state: str, reason: str, author: str) -> AcceptedRow:
+        """Accepts a finding of this project, for later sweeps too."""
+        whole = await self.whole(id)
+        cell = next((each for each in whole.cells if (each.error, each.state) == (error, state)), None)
+        if cell is None or cell.verdict not in _FINDINGS:
+            raise Refused(f"{error} from {state} is no finding of this sweep: there is nothing to accept")
+        made = await asyncio.to_thread(
+            lambda: self._store.accept(whole.row.project, error=error, state=state, reason=reason.strip(), by=author)
+        )
+        await self._tell(whole.row, "", [cell])
+        return made
+
+    async def withdraw(self, id: int, error: str, state: str) -> None:
+        """The finding counts again."""
+        whole = await self.whole(id)
+        await asyncio.to_thread(lambda: self._store.withdraw(whole.row.project, error=error, state=state))
+        await self._tell(whole.row, "", [each for each in whole.cells if (each.error, each.state) == (error, state)])
+
+    async def open(self, id: int, error: str, state: str, name: str, author: str) -> Session:
+        """A new PLC in this state with this error raised, paused."""
+        row = await self.row(id)
+        points = {point.name: point for point in await self._points(row)}
+        sources = await self._sources_of(row.project, row.program_version)
+        if state not in points or sources is None:
+            raise Refused(f"this sweep cannot be opened at {state}: it has no such state, or its program is gone")
+        session = await self._open_state(row.project, Path(points[state].run), name, author)
+        if session.sources.files != sources.files:
+            ack = await session.build(sources, author)
+            if not ack.ok:
+                raise Refused(f"{name} was made, but version {sources.version} does not run on it: {ack.message}")
+        ack = await session.submit(Generate(author, (ErrorRef(error, ()),)))
+        if not ack.ok:
+            raise Refused(f"{name} was made, but {error} could not be raised: {ack.message}", ack.near)
+        return session
+
+    # ---- running one ----------------------------------------------------------------------------------------------
+
+    def _one_at_a_time(self, project: int) -> None:
+        for running in self._running.values():
+            if running.row.project == project:
+                raise Refused(f"a sweep of this project runs, begun by {running.row.by}: wait for it, or cancel it")
+
+    async def _points(self, row: SweepRow) -> list[StartPoint]:
+        kept = {state.name: state for state in await self._states.of_project(row.project)}
+        points = []
+        for name in row.states:
+            path = self._states.path(kept[name].id) if name in kept else self._states.now_path(row.id)
+            if not await asyncio.to_thread(path.exists):
+                raise Refused(f"the state {name} is gone: begin a new sweep")
+            points.append(StartPoint(name, str(path)))
+        return points
+
+    async def _run(self, row: SweepRow, sources: Sources, done: Sequence[CellRow]) -> None:
+        points = await self._points(row)
+        inbox: asyncio.Queue[object] = asyncio.Queue()
+        job = Job(self._cache, inbox.put_nowait, lambda: inbox.put_nowait(None))
+        running = _Running(row, job, inbox, monotonic_ns(), row.seconds)
+        self._running[row.id] = running
+        pairs = tuple((cell.error, cell.state) for cell in done)
+        job.ask(RunSweep(row.id, sources, tuple(points), tuple(each.id for each in row.errors), row.window, pairs))
+        running.task = asyncio.get_running_loop().create_task(self._follow(running))
+
+    async def _stop(self, running: _Running, why: str) -> None:
+        running.cancelled = why or "cancelled"
+        await running.job.end()
+        if running.task is not None:
+            await asyncio.gather(running.task, return_exceptions=True)
+
+    async def _follow(self, running: _Running) -> None:
+        """Keeps and tells what comes, until it is over."""
+        row, told = running.row, 0
+        await self._tell(row, "", [])
+        status: SweepStatus = "interrupted"
+        message = DIED
+        while (heard := await running.inbox.get()) is not None:
+            match heard:
+                case Trying():
+                    running.now = f"{self._name(row, heard.error)}, {heard.point}"
+                case CellFound():
+                    running.fresh.append(_cell(heard))
+                case JobDone():
+                    status, message = ("done" if heard.ok else "failed"), heard.message
+                    break
+            if monotonic_ns() - told >= _TOLD_EVERY_NS and running.inbox.empty():
+                told = monotonic_ns()
+                await self._keep(running)
+        if running.cancelled:
+            status = "interrupted" if running.cancelled == STOPPED_SERVER else "cancelled"
+            message = STOPPED_SERVER if status == "interrupted" else ""
+        await self._keep(running)
+        await self._finish(running, status, message)
+
+    async def _keep(self, running: _Running) -> None:
+        fresh, running.fresh = running.fresh, []
+        if fresh:
+            await asyncio.to_thread(self._store.add_cells, running.row.id, fresh)
+        await self._tell(await self.row(running.row.id), running.now, fresh)
+
+    async def _finish(self, running: _Running, status: SweepStatus, message: str) -> None:
+        id = running.row.id
+        await asyncio.to_thread(
+            lambda: self._store.change_sweep(id, status=status, message=message, seconds=running.seconds)
+        )
+        self._running.pop(id, None)
+        await running.job.end()
+        await self._tell(await self.row(id), "", [])
+
+    async def _tell(self, row: SweepRow, now: str, cells: Sequence[CellRow]) -> None:
+        accepted = await self._accepted(row.project) if cells else {}
+        for session in self._sessions_of(row.project):
+            session.tell(SweepChanged(row, now, tuple(cells), accepted))
+
+    @staticmethod
+    def _name(row: SweepRow, error: str) -> str:
+        return next((each.name for each in row.errors if each.id == error), error)
+
+
+def _swept(model: Model, wanted: Sequence[str] | None) -> tuple[SweptError, ...]:
+    """The errors to be swept, in the order of the catalogue."""
+    for id in wanted or ():
+        known = find_error(model, id)
+        if isinstance(known, Refusal):
+            raise Refused(known.message, known.near)
+    found = [
+        SweptError(error.id, error.name, error.code_text, error.severity, group)
+        for group, error in _grouped(model.catalogue, "")
+        if wanted is None or error.id in wanted
+    ]
+    if not found:
+        raise Refused("no error is chosen: there is nothing to sweep")
+    return tuple(found)
+
+
+def _grouped(groups: Sequence[ErrorGroup], parent: str) -> Iterator[tuple[str, ErrorEntry]]:
+    """Each error with the path of its group."""
+    for group in groups:
+        name = f"{parent} / {group.name}" if parent else group.name
+        yield from _grouped(group.groups, name)
+        for error in group.errors:
+            yield name, error
+
+
+def _cell(found: CellFound) -> CellRow:
+    reaction = found.reaction
+    if reaction is None:
+        return CellRow(found.error, found.point, found.scan, None, note=found.note)
+    return CellRow(
+        found.error, found.point, found.scan, reaction.verdict, reaction.first_read, reaction.first_effect,
+        reaction.difference_count, reaction.note or found.note, to_json(reaction),
+    )  # fmt: skip
+
+
+def _outcomes(whole: Whole) -> list[Outcome]:
+    return [
+        Outcome(cell.error, cell.state, _VERDICTS.get(cell.verdict or ""), cell.first_effect) for cell in whole.cells
+    ]

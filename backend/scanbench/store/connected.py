@@ -1,0 +1,57 @@
+"""A database that is open, and what all parts of the store need."""
+
+from collections.abc import Iterator
+from contextlib import contextmanager
+
+from sqlalchemy.orm import Session
+
+from scanbench.store.database import WRITING, open_database
+from scanbench.store.records import NotFound, NotStorable
+from scanbench.store.tables import Instance, Project
+
+
+class Connected:
+    """Base of the parts of `Store`."""
+
+    def __init__(self, url: str) -> None:
+        """Opens it, and brings its tables up to date; `StoreError` says why it cannot."""
+        self._engine = open_database(url)
+        self._writer = self._engine.execution_options(**WRITING)
+
+    def close(self) -> None:
+        """Gives the connections back."""
+        self._engine.dispose()
+
+    @contextmanager
+    def _reading(self) -> Iterator[Session]:
+        with Session(self._engine) as session:
+            yield session
+
+    @contextmanager
+    def _writing(self) -> Iterator[Session]:
+        with Session(self._writer) as session, session.begin():
+            yield session
+
+
+def check(what: str, text: str, limit: int | None = None) -> None:
+    """The two databases differ in what they refuse; so it is refused here, with words."""
+    if "\x00" in text:
+        raise NotStorable(f"{what} contains a NUL character: remove it")
+    if limit is not None and not 0 < len(text) <= limit:
+        raise NotStorable(f"{what} has {len(text)} characters, 1 to {limit} are possible")
+
+
+def the_project(session: Session, id: int) -> Project:
+    """The project of this number, or `NotFound`."""
+    found = session.get(Project, id)
+    if found is None:
+        raise NotFound(f"there is no project {id}")
+    return found
+
+
+def the_instance(session: Session, id: int, lock: bool = False) -> Instance:
+    """`lock`: until the end of the transaction nobody else changes what hangs on this instance."""
+    found = session.get(Instance, id, with_for_update=True if lock else None)
+    if found is None:
+        raise NotFound(f"there is no instance {id}")
+    return found

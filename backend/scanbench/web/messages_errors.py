@@ -1,0 +1,403 @@
+"""Wire shapes of the error simulator: catalogue, history, reactions, faults with a shape, sweeps. See `messages.py`."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from scanbench.web.messages_base import Scan, Wire
+
+Severity = Literal["fatal", "nonfatal"]
+Verdict = Literal["reacted", "no_effect", "never_read", "stopped"]
+
+# ---- catalogue -------------------------------------------------------------------------------------------------
+
+
+class Wording(Wire):
+    """Name and description in another language than English; empty where the model has none."""
+
+    language: str = Field(description="as in xml:lang, e.g. ja")
+    name: str
+    description: str
+
+
+class ErrorDetail(Wire):
+    """One thing to choose or enter when an error is raised."""
+
+    name: str = Field(description="key in the command line's and the API's `details`, e.g. `rack`")
+    control: Literal["List", "Spin", "Edit"]
+    kind: Literal["Bit", "Word", "Byte", "BCD", "Nibble", "BitArray"] = Field(
+        description="of a List: of its first choice"
+    )
+    description: str
+    address: str
+    choices: list["ErrorChoiceInfo"] = Field(default_factory=list, description="List: what can be chosen")
+    minimum: int | None = None
+    maximum: int | None = None
+    default: str = ""
+    base: int = Field(default=10, description="10, 16; 0: a text of at most `maximum` characters")
+    adds: bool = Field(default=False, description="the number is added to the error code")
+    wordings: list[Wording] = Field(default_factory=list)
+
+
+class ErrorChoiceInfo(Wire):
+    id: str
+    description: str
+    address: str
+    adds: int | None = Field(default=None, description="what choosing it adds to the error code; null: nothing")
+    wordings: list[Wording] = Field(default_factory=list)
+
+
+class ErrorInfo(Wire):
+    id: str
+    name: str
+    description: str
+    code: str = Field(description="as the device shows it, without what details add")
+    flag: str
+    severity: Severity
+    priority: int = Field(description="1 is the most serious")
+    verified: bool
+    source: str
+    details: list[ErrorDetail]
+    user: bool = Field(default=False, description="one of the project's own (errors.xml)")
+    wordings: list[Wording] = Field(default_factory=list)
+
+
+class ErrorGroup(Wire):
+    name: str
+    groups: list["ErrorGroup"]
+    errors: list[ErrorInfo]
+    wordings: list[Wording] = Field(default_factory=list)
+
+
+# ---- reactions -------------------------------------------------------------------------------------------------
+
+
+class Reader(Wire):
+    """A statement that read what the error writes."""
+
+    file: str
+    line: int
+    pou: str
+    what: Literal["flag", "code", "detail"]
+    scan: int = Field(description="of the window, from 1")
+
+
+class Difference(Wire):
+    """A variable or address that had another value than in the same run without the error."""
+
+    path: str
+    without: str
+    value: str
+    output: bool
+    scan: int = Field(description="of the window, from 1")
+
+
+class HandlerLine(Wire):
+    """A statement that was reached only with the error."""
+
+    file: str
+    line: int
+
+
+class Reaction(Wire):
+    """What the program did about an error, beside the same run without it."""
+
+    verdict: Verdict
+    window: int = Field(description="scans that were compared")
+    first_read: int | None
+    first_effect: int | None
+    readers: list[Reader]
+    differences: list[Difference] = Field(description="at most 200, outputs first")
+    difference_count: int
+    lines: list[HandlerLine]
+    note: str
+
+
+class ReactionState(Wire):
+    """In short, for the tables. `recording`: the window is not over; `failed`: `message` says why there is none."""
+
+    state: Literal["recording", "done", "failed"]
+    verdict: Verdict | None
+    scans: int | None = Field(description="scans until the first effect, from 1")
+    message: str
+
+
+# ---- history ---------------------------------------------------------------------------------------------------
+
+
+class ErrorHistoryRow(Wire):
+    """One row per catalogue error: has this version of the program been tested against it?"""
+
+    id: str
+    name: str
+    severity: Severity
+    status: Literal["never", "generated", "cleared"]
+    code: str
+    details: str
+    generated_at: str | None = Field(description="ISO 8601, UTC")
+    recovered_at: str | None
+    generated_scan: int | None
+    recovered_scan: int | None
+    by: str | None
+    origin: Literal["simulator", "plc", "program"] | None
+    count: int
+    reaction: ReactionState | None = Field(description="of the last time; null when nobody compared")
+
+
+# ---- raise and recover -----------------------------------------------------------------------------------------
+
+
+class GenerateOne(Wire):
+    id: str
+    details: dict[str, str] = Field(default_factory=dict, description="detail name to chosen entry or number")
+
+
+class Generate(Wire):
+    """All of them in one seam, or none. `again`: errors that are present change to these details."""
+
+    type: Literal["generate"] = "generate"
+    ref: int
+    errors: list[GenerateOne] = Field(min_length=1)
+    again: bool = False
+
+
+class Recover(Wire):
+    type: Literal["recover"] = "recover"
+    ref: int
+    ids: list[str] | None = Field(description="null recovers every error that is generated")
+
+
+class FaultStart(Wire):
+    """When a fault begins: now, in front of `scan`, when `condition` holds, when the statement at `file`:`line` is reached."""
+
+    kind: Literal["now", "scan", "condition", "line"] = "now"
+    scan: Scan | None = None
+    condition: str = Field(default="", max_length=2000)
+    file: str = ""
+    line: int = 0
+
+
+class FaultShape(Wire):
+    """How a fault goes on. stay: until it is recovered. for: `scans`. intermittent: present for `scans` of each `period`,
+    `times` times (null: until it is taken back), varied by chance when there is a `seed`. chatter: on and off in turn, scan by scan,
+    `times` times. unacknowledged: recovered after `scans`, before `acknowledge` (a condition) holds."""
+
+    kind: Literal["stay", "for", "intermittent", "chatter", "unacknowledged"] = "stay"
+    scans: Annotated[int, Field(ge=1, le=1_000_000_000)] = 1
+    period: Annotated[int, Field(ge=2, le=1_000_000_000)] = 2
+    times: Annotated[int, Field(ge=1, le=1_000_000)] | None = None
+    seed: Annotated[int, Field(ge=0, lt=1 << 32)] | None = None
+    acknowledge: str = Field(default="", max_length=2000)
+
+
+class Arm(Wire):
+    """Errors with a beginning and a shape; `gap` scans from one to the next (0: all in one seam)."""
+
+    type: Literal["arm"] = "arm"
+    ref: int
+    errors: list[GenerateOne] = Field(min_length=1)
+    start: FaultStart = FaultStart()
+    shape: FaultShape = FaultShape()
+    gap: Annotated[int, Field(ge=0, le=1_000_000_000)] = 0
+
+
+class Disarm(Wire):
+    """Takes faults back: nothing more is raised, and what they raised and is still present is recovered."""
+
+    type: Literal["disarm"] = "disarm"
+    ref: int
+    ids: list[int] | None = Field(description="null is all of them")
+
+
+class ArmedFault(Wire):
+    """A fault that was armed and is not over."""
+
+    id: int
+    errors: list[str]
+    text: str = Field(description="start and shape in a sentence")
+    by: str
+    state: Literal["waiting", "running"]
+    raised: int = Field(description="how often until now")
+    next_scan: int | None = Field(description="of its next step, when that is known")
+
+
+class Armed(Wire):
+    """All faults that are armed, whenever they change."""
+
+    type: Literal["armed"] = "armed"
+    faults: list[ArmedFault]
+
+
+class PreviewErrors(Wire):
+    """What raising these would write now. Nothing is changed."""
+
+    errors: list[GenerateOne] = Field(min_length=1)
+    again: bool = False
+
+
+class PreviewedWrite(Wire):
+    address: str = Field(description="in the vendor's notation")
+    before: str
+    after: str
+    what: Literal["detail", "code", "flag", "log", "other"]
+    error: str = Field(description="which error writes it; empty for the code word and the log")
+
+
+class PreviewedErrors(Wire):
+    ok: bool
+    message: str = Field(description="what would happen, or why it would be refused")
+    scan: int
+    writes: list[PreviewedWrite]
+
+
+class CommandResult(Wire):
+    """What became of a command that came by REST."""
+
+    ok: bool
+    message: str
+    scan: int
+    near: list[str] = Field(default_factory=list)
+
+
+class WriteValue(Wire):
+    """Write a variable or an address, with the rights of a tool."""
+
+    path: str
+    value: str
+
+
+class GenerateErrors(Wire):
+    errors: list[GenerateOne] = Field(min_length=1)
+    again: bool = False
+
+
+class RecoverErrors(Wire):
+    ids: list[str] | None = None
+
+
+# ---- states and sweeps -----------------------------------------------------------------------------------------
+
+
+class NewProgramState(Wire):
+    """Keeps the PLC as it was before `scan`, or is now, as a point to begin sweeps from."""
+
+    name: str = Field(min_length=1, max_length=100)
+    scan: Scan | None = None
+
+
+class ProgramState(Wire):
+    id: int
+    project: int
+    name: str
+    instance: str = Field(description="name of the PLC that it was taken from")
+    scan: int
+    program_version: int
+    by: str
+    at: str
+
+
+class NewSweep(Wire):
+    """Every error alone, from every state. `states`: numbers of kept states; none: from the PLC as it is now."""
+
+    errors: list[str] | None = Field(default=None, description="ids; null is the whole catalogue")
+    states: list[int] = Field(default_factory=list)
+    window: Annotated[int, Field(ge=1, le=100_000)] = 200
+
+
+SweepStatus = Literal["running", "done", "cancelled", "interrupted", "failed"]
+
+
+class SweepSummary(Wire):
+    id: int
+    project: int
+    instance: str
+    model: str
+    program_version: int
+    by: str
+    at: str
+    status: SweepStatus
+    message: str
+    done: int
+    total: int
+    window: int
+    states: list[str]
+    counts: dict[Verdict, int]
+    seconds: float = Field(description="spent so far")
+
+
+class Accepted(Wire):
+    """Somebody accepted a finding: it stands in the record with this reason."""
+
+    reason: str
+    by: str
+    at: str
+
+
+class SweepError(Wire):
+    """A row of the matrix: an error as the catalogue knew it then."""
+
+    id: str
+    name: str
+    code: str
+    severity: Severity
+    group: str
+
+
+class SweepCell(Wire):
+    error: str
+    state: str
+    verdict: Verdict | None = Field(description="null: it could not be raised, `note` says why")
+    first_read: int | None
+    first_effect: int | None
+    raised_scan: int
+    difference_count: int
+    note: str
+    accepted: Accepted | None = None
+
+
+class Sweep(SweepSummary):
+    errors: list[SweepError]
+    cells: list[SweepCell]
+
+
+class AcceptFinding(Wire):
+    error: str
+    state: str
+    reason: str = Field(min_length=1, max_length=500)
+
+
+class CellRef(Wire):
+    error: str
+    state: str
+
+
+class OpenCell(CellRef):
+    name: str = Field(min_length=1, max_length=100, description="of the new PLC")
+
+
+class SweepChange(Wire):
+    """One cell in two sweeps; null where a sweep has none."""
+
+    error: str
+    name: str
+    state: str
+    before: Verdict | None
+    after: Verdict | None
+    scans_before: int | None
+    scans_after: int | None
+    change: Literal["same", "better", "worse", "slower", "faster", "new", "gone"]
+
+
+class SweepComparison(Wire):
+    before: SweepSummary
+    after: SweepSummary
+    changes: list[SweepChange]
+
+
+class SweepProgress(Wire):
+    """A sweep of this project began, went on or ended; `cells` are those that are new since the last message."""
+
+    type: Literal["sweep"] = "sweep"
+    sweep: SweepSummary
+    now: str = Field(description="what is tried now, for people")
+    cells: list[SweepCell]

@@ -1,0 +1,70 @@
+"""REST: what can be done to one PLC from a script: raise and recover errors, write; and how its program reacted."""
+
+from fastapi import APIRouter, Request
+
+from scanbench.faults.inject import Generate, Recover
+from scanbench.runtime.write import Write
+from scanbench.session.protocol import Ack
+from scanbench.session.refused import Refused
+from scanbench.web import messages as wire
+from scanbench.web import messages_errors, translate, translate_errors
+from scanbench.web.auth import user_of
+from scanbench.web.reach import Bench
+
+router = APIRouter(prefix="/api/instances/{instance}", tags=["errors"])
+
+
+@router.get("/model")
+async def on_model(bench: Bench, instance: int) -> wire.ModelInfo:
+    """The model with the errors that the project added, as the program that runs knows it."""
+    return translate.model_info(bench.session(instance).model)
+
+
+@router.post("/errors/generate")
+async def on_generate(
+    bench: Bench, request: Request, instance: int, wanted: messages_errors.GenerateErrors
+) -> messages_errors.CommandResult:
+    """Raises errors, all in one seam, or none of them."""
+    refs = translate_errors.refs(wanted.errors)
+    return _result(await bench.session(instance).submit(Generate(user_of(request).name, refs, again=wanted.again)))
+
+
+@router.post("/errors/recover")
+async def on_recover(
+    bench: Bench, request: Request, instance: int, wanted: messages_errors.RecoverErrors
+) -> messages_errors.CommandResult:
+    """Recovers these errors, or all that are generated."""
+    ids = None if wanted.ids is None else tuple(wanted.ids)
+    return _result(await bench.session(instance).submit(Recover(user_of(request).name, ids)))
+
+
+@router.post("/errors/preview")
+async def on_preview(
+    bench: Bench, instance: int, wanted: messages_errors.PreviewErrors
+) -> messages_errors.PreviewedErrors:
+    """What raising these would write now; nothing is changed."""
+    refs = translate_errors.refs(wanted.errors)
+    return translate_errors.previewed(await bench.session(instance).preview_errors(refs, wanted.again))
+
+
+@router.post("/write")
+async def on_write(
+    bench: Bench, request: Request, instance: int, wanted: messages_errors.WriteValue
+) -> messages_errors.CommandResult:
+    """Writes a variable or an address, with the rights of a tool: error memory is read-only here."""
+    return _result(await bench.session(instance).submit(Write(user_of(request).name, wanted.path, wanted.value)))
+
+
+@router.get("/errors/{error}/reaction")
+async def on_reaction(bench: Bench, instance: int, error: str) -> messages_errors.Reaction:
+    """How the program reacted to an error the last time it was raised here."""
+    found = bench.session(instance).reaction(error)
+    if found is None:
+        raise Refused(f"nobody has compared yet how the program reacts to {error}: raise it, and wait for the window")
+    return translate_errors.reaction(found)
+
+
+def _result(ack: Ack) -> messages_errors.CommandResult:
+    if not ack.ok:
+        raise Refused(ack.message, ack.near)
+    return messages_errors.CommandResult(ok=True, message=ack.message, scan=ack.scan, near=list(ack.near))

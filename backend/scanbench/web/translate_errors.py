@@ -1,0 +1,124 @@
+"""The error simulator's dataclasses -> wire shapes, and back. Nothing is decided here."""
+
+from collections.abc import Iterable, Sequence
+
+from scanbench.faults import reaction as found
+from scanbench.faults.arm import ArmedInfo
+from scanbench.faults.history import RowReaction
+from scanbench.faults.reference import ErrorRef
+from scanbench.faults.shapes import Shape, Start, Wanted
+from scanbench.plcmodel import model as plc
+from scanbench.session.protocol import PreviewedErrors
+from scanbench.web import messages_errors as wire
+
+
+def refs(errors: Sequence[wire.GenerateOne]) -> tuple[ErrorRef, ...]:
+    """What is to be raised."""
+    return tuple(ErrorRef(one.id, tuple(one.details.items())) for one in errors)
+
+
+def wanted(arm: wire.Arm) -> Wanted:
+    """Errors with a beginning and a shape."""
+    start, shape = arm.start, arm.shape
+    return Wanted(
+        refs(arm.errors),
+        Start(start.kind, start.scan, start.condition, start.file, start.line),
+        Shape(shape.kind, shape.scans, shape.period, shape.times, shape.seed, shape.acknowledge),
+        arm.gap,
+    )
+
+
+def armed(fault: ArmedInfo) -> wire.ArmedFault:
+    """A fault that is armed."""
+    return wire.ArmedFault(
+        id=fault.id, errors=list(fault.errors), text=fault.text, by=fault.by, state=fault.state, raised=fault.raised,
+        next_scan=fault.next_scan,
+    )  # fmt: skip
+
+
+def previewed(found: PreviewedErrors) -> wire.PreviewedErrors:
+    """What raising errors would write."""
+    return wire.PreviewedErrors(
+        ok=found.ok, message=found.message, scan=found.scan,
+        writes=[
+            wire.PreviewedWrite(
+                address=each.address, before=each.before, after=each.after, what=each.what, error=each.error
+            )
+            for each in found.writes
+        ],
+    )  # fmt: skip
+
+
+def in_short(of: RowReaction | None) -> wire.ReactionState | None:
+    """A reaction in a row of the history."""
+    if of is None:
+        return None
+    return wire.ReactionState(state=of.state, verdict=of.verdict, scans=of.scans, message=of.message)
+
+
+def groups(of: Iterable[plc.ErrorGroup]) -> list[wire.ErrorGroup]:
+    """The catalogue."""
+    return [
+        wire.ErrorGroup(
+            name=group.name, groups=groups(group.groups), errors=list(map(_error, group.errors)),
+            wordings=_wordings(group.wordings),
+        )
+        for group in of
+    ]  # fmt: skip
+
+
+def reaction(seen: found.Reaction) -> wire.Reaction:
+    """How a program reacted."""
+    return wire.Reaction(
+        verdict=seen.verdict, window=seen.window, first_read=seen.first_read, first_effect=seen.first_effect,
+        readers=[
+            wire.Reader(file=each.file, line=each.line, pou=each.pou, what=each.what, scan=each.scan)
+            for each in seen.readers
+        ],
+        differences=[
+            wire.Difference(
+                path=each.path, without=each.without, value=each.value, output=each.output, scan=each.scan
+            )
+            for each in seen.differences
+        ],
+        difference_count=seen.difference_count,
+        lines=[wire.HandlerLine(file=each.file, line=each.line) for each in seen.lines],
+        note=seen.note,
+    )  # fmt: skip
+
+
+def _error(error: plc.ErrorEntry) -> wire.ErrorInfo:
+    return wire.ErrorInfo(
+        id=error.id, name=error.name, description=error.description, code=error.code_text, flag=error.flag_text,
+        severity=error.severity, priority=error.priority, verified=error.verified, source=error.source,
+        details=list(map(_detail, error.details)), user=error.user, wordings=_wordings(error.wordings),
+    )  # fmt: skip
+
+
+def _detail(detail: plc.ErrorDetail) -> wire.ErrorDetail:
+    first = detail.addresses[0]
+    is_list = detail.control == "List"
+    return wire.ErrorDetail(
+        name=detail.name, control=detail.control, kind=first.kind,
+        description=detail.description or first.description,
+        address="" if is_list else first.text, choices=list(map(_choice, detail.addresses)) if is_list else [],
+        minimum=None if is_list else first.minimum, maximum=None if is_list else first.maximum,
+        default=(detail.default or "") if is_list else _default(first), base=first.base,
+        adds=not is_list and first.add_to_code, wordings=_wordings(detail.wordings or first.wordings),
+    )  # fmt: skip
+
+
+def _choice(address: plc.ErrorAddress) -> wire.ErrorChoiceInfo:
+    return wire.ErrorChoiceInfo(
+        id=address.id, description=address.description, address=address.text,
+        adds=address.value if address.add_to_code else None, wordings=_wordings(address.wordings),
+    )  # fmt: skip
+
+
+def _default(address: plc.ErrorAddress) -> str:
+    number = address.default if address.default is not None else address.minimum or 0
+    return f"{number:X}" if address.base == 16 else str(number)
+
+
+def _wordings(of: Iterable[plc.Wording]) -> list[wire.Wording]:
+    return [wire.Wording(language=each.language, name=each.name, description=each.description) for each in of]

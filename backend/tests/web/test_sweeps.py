@@ -1,0 +1,136 @@
+"""Sweeps on a server: states, progress, findings, cancel and resume, comparison, an opened cell."""
+
+from tests.web.server import Browser, Message, Server
+from tests.web.test_simulator import MODEL, PROGRAM
+
+MENDED = PROGRAM.replace("    ;\n", "    lamp := TRUE;\n")
+
+
+def finished(browser: Browser, sweep: int) -> Message:
+    """The end of a sweep, as everybody is told."""
+    found: list[Message] = []
+
+    def here() -> bool:
+        told = [message["sweep"] for message in browser.messages if message["type"] == "sweep"]
+        found[:] = [each for each in told if each["id"] == sweep and each["status"] != "running"]
+        return bool(found)
+
+    browser.wait(here, 120)
+    return found[-1]
+
+
+def verdicts(server: Server, sweep: int, state: str) -> dict[str, str | None]:
+    whole = server.http.get(f"/api/sweeps/{sweep}").json()
+    return {cell["error"]: cell["verdict"] for cell in whole["cells"] if cell["state"] == state}
+
+
+def test_a_sweep_from_two_states_names_what_is_forgotten(server: Server) -> None:
+    instance = server.instance("swept", MODEL, main=PROGRAM)
+    project = server.http.get(f"/api/instances/{instance}").json()["project"]["id"]
+    with server.browser(instance) as browser, server.browser(instance, "Bob Noyce") as bob:
+        browser.watch("Main.ready")
+        kept = server.http.post(f"/api/instances/{instance}/states", json={"name": "Idle"})
+        assert kept.status_code == 201, kept.text
+        assert browser.ask(type="write", path="Main.ready", value="TRUE")["ok"]
+        kept_too = server.http.post(f"/api/instances/{instance}/states", json={"name": "Ready"})
+        assert server.http.post(f"/api/instances/{instance}/states", json={"name": "Idle"}).status_code == 409
+        states = [kept.json()["id"], kept_too.json()["id"]]
+        assert [each["name"] for each in server.http.get(f"/api/projects/{project}/states").json()] == ["Idle", "Ready"]
+
+        begun = server.http.post(f"/api/instances/{instance}/sweeps", json={"states": states, "window": 50})
+        assert begun.status_code == 201, begun.text
+        sweep = begun.json()["id"]
+        end = finished(bob, sweep)
+        assert (end["status"], end["done"]) == ("done", end["total"]), end
+        assert end["total"] == 2 * server.http.get(f"/api/models/{MODEL}").json()["error_count"]
+        for state in ("Idle", "Ready"):
+            found = verdicts(server, sweep, state)
+            assert found["basic-io-error"] == "reacted"
+            assert found["battery-error"] == "no_effect"
+            assert found["plc-setup-error"] == "never_read"
+            assert found["io-bus-error"] == "stopped"
+
+        cell = {"error": "plc-setup-error", "state": "Idle"}
+        told = server.http.post(f"/api/sweeps/{sweep}/reaction", json=cell).json()
+        assert (told["verdict"], told["readers"], told["difference_count"]) == ("never_read", [], 0)
+        accepted = server.http.post(f"/api/sweeps/{sweep}/accept", json={**cell, "reason": "no such unit is used"})
+        assert accepted.status_code == 200, accepted.text
+        reacted = {"error": "basic-io-error", "state": "Idle", "reason": "why not"}
+        assert server.http.post(f"/api/sweeps/{sweep}/accept", json=reacted).status_code == 422
+        whole = server.http.get(f"/api/sweeps/{sweep}").json()
+        (mine,) = [each for each in whole["cells"] if each["accepted"]]
+        assert mine["accepted"]["by"]
+
+        opened = server.http.post(
+            f"/api/sweeps/{sweep}/open", json={"error": "battery-error", "state": "Ready", "name": "looked at"}
+        )
+        assert opened.status_code == 201, opened.text
+        look = server.http.get(f"/api/instances/{opened.json()['id']}/errors").json()
+        assert {row["id"] for row in look if row["status"] == "generated"} == {"battery-error"}
+        assert server.state(opened.json()["id"])["state"] == "paused"
+
+        # A mended program is better, and the states are carried over to it.
+        text = server.http.get(f"/api/projects/{project}/files/main.st").json()
+        saved = {"text": MENDED, "version": text["version"]}
+        assert server.http.put(f"/api/projects/{project}/files/main.st", json=saved).status_code == 200
+        built = server.http.post(f"/api/projects/{project}/build", json={"agreed": True}).json()
+        assert built["ok"], built
+        again = server.http.post(f"/api/instances/{instance}/sweeps", json={"states": states, "window": 50}).json()[
+            "id"
+        ]
+        assert finished(browser, again)["status"] == "done"
+        compared = server.http.get(f"/api/sweeps/{sweep}/compare/{again}").json()
+        changed = {
+            (each["error"], each["state"]): each["change"] for each in compared["changes"] if each["change"] != "same"
+        }
+        assert changed == {("battery-error", "Idle"): "better", ("battery-error", "Ready"): "better"}
+        whole = server.http.get(f"/api/sweeps/{again}").json()
+        assert [each["error"] for each in whole["cells"] if each["accepted"]] == ["plc-setup-error"]
+        assert len(server.http.get(f"/api/projects/{project}/sweeps").json()) == 2
+        assert server.http.delete(f"/api/sweeps/{sweep}").status_code == 204
+        assert server.http.get(f"/api/sweeps/{sweep}").status_code == 404
+
+
+def test_a_sweep_is_cancelled_and_resumed(server: Server) -> None:
+    instance = server.instance("cancelled", MODEL, main=PROGRAM)
+    with server.browser(instance) as browser:
+        begun = server.http.post(f"/api/instances/{instance}/sweeps", json={"window": 100_000})
+        sweep = begun.json()["id"]
+        second = server.http.post(f"/api/instances/{instance}/sweeps", json={})
+        assert second.status_code == 422
+        assert "runs" in second.json()["message"]
+        browser.wait(lambda: _done(browser, sweep) >= 1, 60)
+        stopped = server.http.post(f"/api/sweeps/{sweep}/cancel").json()
+        assert stopped["status"] == "cancelled"
+        assert 0 < stopped["done"] < stopped["total"]
+        first = {cell["error"] for cell in server.http.get(f"/api/sweeps/{sweep}").json()["cells"]}
+        assert finished(browser, sweep)["status"] == "cancelled"
+        browser.messages.clear()
+        assert server.http.post(f"/api/sweeps/{sweep}/resume").status_code == 200
+        end = finished(browser, sweep)
+        assert (end["status"], end["done"]) == ("done", end["total"]), end
+        told = [
+            cell["error"] for message in browser.messages if message["type"] == "sweep" for cell in message["cells"]
+        ]
+        assert first.isdisjoint(told)
+        assert server.http.post(f"/api/sweeps/{sweep}/resume").status_code == 422
+
+
+def test_what_cannot_be_swept_says_why(server: Server) -> None:
+    instance = server.instance("unswept", MODEL, main=PROGRAM)
+    base = f"/api/instances/{instance}"
+    unknown = server.http.post(f"{base}/sweeps", json={"errors": ["batery-error"]})
+    assert unknown.status_code == 422
+    assert "battery-error" in unknown.text
+    assert server.http.post(f"{base}/sweeps", json={"errors": []}).status_code == 422
+    assert server.http.post(f"{base}/sweeps", json={"states": [4711]}).status_code == 422
+    assert server.http.post(f"{base}/sweeps", json={"window": 0}).status_code == 422
+    assert server.http.post(f"{base}/states", json={"name": " "}).status_code == 422
+    assert server.http.post(f"{base}/states", json={"name": "later", "scan": 1 << 40}).status_code == 422
+    assert server.http.get("/api/sweeps/4711").status_code == 404
+    assert server.http.delete("/api/states/4711").status_code == 404
+
+
+def _done(browser: Browser, sweep: int) -> int:
+    told = [message["sweep"] for message in browser.messages if message["type"] == "sweep"]
+    return max((int(each["done"]) for each in told if each["id"] == sweep), default=0)

@@ -1,0 +1,154 @@
+import { useState } from "react";
+import { inNames } from "../../logic/catalogue";
+import { type Entry, kindred, needsDetails, takenOver, troubles } from "../../logic/details";
+import { isPlain, readShape } from "../../logic/shapes";
+import { t } from "../../logic/text";
+import { useCatalogue } from "../../store/catalogue";
+import { readClock } from "../../store/clock";
+import { useForbidden } from "../../store/plc";
+import { changeDetails, closeDialog, entriesOf, raise, setEntries, useSimulator } from "../../store/simulator";
+import { Dialog } from "../../ui/Dialog";
+import { Icon } from "../../ui/Icon";
+import type { ErrorInfo } from "../../wire/types";
+import { DetailsPage } from "./DetailsPage";
+import { Gap, type GapForm, gapOf } from "./Gap";
+import { PageList, type PageState } from "./PageList";
+import { Preview } from "./Preview";
+import { ShapeFields } from "./ShapeFields";
+
+/** Details of several errors, a page for each that needs some; then all in one seam, or one by one. */
+export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
+  const state = useSimulator();
+  const forbidden = useForbidden("errors");
+  const needing = errors.filter(needsDetails);
+  // Asked for although nothing has to be: every error has its page, to be looked at.
+  const pages = needing.length > 0 ? needing : errors;
+  const [page, setPage] = useState(0);
+  const [seen, setSeen] = useState<ReadonlySet<string>>(new Set());
+  const [same, setSame] = useState<ReadonlySet<string>>(new Set());
+  const [gap, setGap] = useState<GapForm>({ sequence: false, text: "1", unit: "scans" });
+  const error = pages[Math.min(page, pages.length - 1)];
+  if (!error) return null;
+
+  const bad = (of: ErrorInfo) => troubles(of, entriesOf(state, of)).size > 0;
+  const shape = readShape(state.shape, readClock().scan);
+  const scans = gapOf(gap);
+  const ready =
+    forbidden === null && !errors.some(bad) && Object.keys(shape.troubles).length === 0 && scans !== null;
+  const plain = isPlain(state.shape);
+
+  function goTo(next: number): void {
+    if (error) setSeen(new Set([...seen, error.id]));
+    setPage(Math.max(0, Math.min(pages.length - 1, next)));
+  }
+
+  function change(name: string, entry: Entry): void {
+    if (!error) return;
+    const entries = { ...entriesOf(state, error), [name]: entry };
+    setEntries(error, entries);
+    if (same.has(error.id)) spread(error, entries);
+  }
+
+  function spread(from: ErrorInfo, entries = entriesOf(state, from)): void {
+    for (const other of kindred(from, errors)) setEntries(other, takenOver(from, entries, other, entriesOf(state, other)));
+  }
+
+  function toggleSame(): void {
+    if (!error) return;
+    const next = new Set(same);
+    if (!next.delete(error.id)) {
+      next.add(error.id);
+      spread(error);
+    }
+    setSame(next);
+  }
+
+  async function submit(): Promise<void> {
+    if (ready && (await raise(errors, { gap: scans ?? 0 }))) closeDialog();
+  }
+
+  const stateOf = (of: ErrorInfo): PageState => {
+    if (bad(of)) return "bad";
+    if (of.id === error.id) return "now";
+    return seen.has(of.id) ? "done" : "open";
+  };
+  return (
+    <Dialog
+      title={t("errors.details")}
+      about={about(needing.length, errors.length)}
+      width={800}
+      onClose={closeDialog}
+      onSubmit={() => void submit()}
+      footer={
+        <>
+          <Gap form={gap} several={errors.length > 1} onForm={setGap} />
+          <span className="grow" />
+          <button type="button" className="btn quiet" onClick={closeDialog}>
+            {t("cancel")}
+          </button>
+          {pages.length > 1 && (
+            <>
+              <button type="button" className="btn" disabled={page === 0} onClick={() => goTo(page - 1)}>
+                {t("dialog.back")}
+              </button>
+              <button type="button" className="btn" disabled={page >= pages.length - 1} onClick={() => goTo(page + 1)}>
+                {t("dialog.next")}
+              </button>
+            </>
+          )}
+          <button type="submit" className="btn primary" disabled={!ready} title={forbidden ?? undefined}>
+            {plain ? t("errors.generate.many", { count: errors.length }) : t("errors.arm.many", { count: errors.length })}
+          </button>
+        </>
+      }
+    >
+      <div className="pagesof">
+        <PageList pages={pages} stateOf={stateOf} now={error.id} onPage={(index) => goTo(index)} />
+        <div className="pagebody" role="group" aria-label={t("dialog.page", { name: error.name })}>
+          <DetailsPage
+            key={error.id}
+            error={error}
+            entries={entriesOf(state, error)}
+            alike={kindred(error, errors)}
+            same={same.has(error.id)}
+            onEntry={change}
+            onSame={toggleSame}
+          />
+          <Preview errors={errors} of={error.id} valid={!errors.some(bad)} now={plain} />
+        </div>
+      </div>
+      <ShapeFields />
+      <DialogRefusal errors={errors} />
+    </Dialog>
+  );
+}
+
+function about(needing: number, total: number): string {
+  if (needing === 0) return t("dialog.about.none");
+  return total === 1 ? t("dialog.about.one") : t("dialog.about", { count: needing, total });
+}
+
+/** What the PLC refused stays here, with the entries as they are. */
+function DialogRefusal({ errors }: { errors: readonly ErrorInfo[] }) {
+  const outcome = useSimulator((state) => state.outcome);
+  const { errors: known } = useCatalogue();
+  if (!outcome || outcome.ok) return null;
+  return (
+    <p className="trouble st fatal" role="alert">
+      <Icon name="error" small />
+      <span>
+        {inNames(known, outcome.message) || t("notsent.about")}{" "}
+        {outcome.present.length > 0 && (
+          <button
+            type="button"
+            className="link"
+            title={t("errors.again.hint")}
+            onClick={() => void changeDetails(errors, outcome).then(closeDialog)}
+          >
+            {t("errors.again")}
+          </button>
+        )}
+      </span>
+    </p>
+  );
+}

@@ -1,0 +1,83 @@
+import { useState } from "react";
+import { inNames } from "../../logic/catalogue";
+import { grouped } from "../../logic/numbers";
+import { t } from "../../logic/text";
+import { useCatalogue } from "../../store/catalogue";
+import { usePreview } from "../../store/preview";
+import { asWanted, useSimulator } from "../../store/simulator";
+import { Icon } from "../../ui/Icon";
+import type { ErrorInfo, PreviewedWrite } from "../../wire/types";
+
+interface Props {
+  errors: readonly ErrorInfo[];
+  /** Of several, the one whose page it is: what it writes stands first. */
+  of?: string;
+  /** False while an entry is refused: nothing is asked. */
+  valid: boolean;
+  again?: boolean;
+  /** False when it is raised later: what it would write now may be another then. */
+  now?: boolean;
+}
+
+/** What raising these errors would write, address by address. */
+export function Preview({ errors, of, valid, again = false, now = true }: Props) {
+  // Another detail is another question.
+  useSimulator((state) => state.details);
+  const { preview, refused } = usePreview(valid ? asWanted(errors) : null, again);
+  const { errors: known } = useCatalogue();
+  const [all, setAll] = useState(false);
+  const several = of !== undefined && errors.length > 1;
+  const writes = preview?.writes ?? [];
+  const shown = several && !all ? writes.filter((write) => write.error === of || write.error === "") : writes;
+  const title = again ? "preview.change" : now ? "preview.title" : "preview.title.now";
+  return (
+    <section className="preview" aria-label={t("preview.title")} aria-busy={valid && !preview && !refused}>
+      <div className="ph">
+        <span className="cut">{t(title)}</span>
+        {several && (
+          <span className="seg sm" role="group" aria-label={t("preview.which")}>
+            <button type="button" className={all ? "" : "on"} aria-pressed={!all} onClick={() => setAll(false)}>
+              {t("preview.one")}
+            </button>
+            <button type="button" className={all ? "on" : ""} aria-pressed={all} onClick={() => setAll(true)}>
+              {t("preview.all", { count: errors.length })}
+            </button>
+          </span>
+        )}
+        {preview?.ok && !several && <span>{t("preview.scan", { scan: grouped(preview.scan) })}</span>}
+      </div>
+      {refused !== null && (
+        <p className="hint bad">
+          <Icon name="error" small />
+          <span>{inNames(known, refused)}</span>
+        </p>
+      )}
+      {preview?.ok && shown.length === 0 && <p className="faint">{t("preview.none")}</p>}
+      {shown.length > 0 && (
+        <div className="writes">
+          {shown.map((write) => (
+            <Write key={`${write.address} ${write.error} ${write.what}`} write={write} named={several && all} />
+          ))}
+        </div>
+      )}
+    </section>
+  );
+}
+
+function Write({ write, named }: { write: PreviewedWrite; named: boolean }) {
+  const { byId } = useCatalogue();
+  const { address, before, after, what, error } = write;
+  const name = named && error ? ` · ${byId.get(error)?.name ?? error}` : "";
+  return (
+    <div className="w">
+      <span className="mono">{address}</span>
+      <span className="mono">
+        {before === after ? t("preview.stays", { value: after }) : `${before} → ${after}`}
+      </span>
+      <span className="cut">
+        {t(`preview.${what}`)}
+        {name}
+      </span>
+    </div>
+  );
+}

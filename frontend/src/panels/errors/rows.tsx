@@ -1,0 +1,128 @@
+import type { ReactNode } from "react";
+import type { GroupRow, LeafRow } from "../../logic/catalogue";
+import { inNames } from "../../logic/catalogue";
+import { t } from "../../logic/text";
+import { useCatalogue } from "../../store/catalogue";
+import { changeDetails, selectError, toggleChecked, toggleGroup, useSimulator } from "../../store/simulator";
+import { Checkbox } from "../../ui/Checkbox";
+import { Icon } from "../../ui/Icon";
+import { StateWord } from "../../ui/StateWord";
+import { STATUS_ICONS } from "../../ui/statuses";
+import type { ErrorInfo } from "../../wire/types";
+import { ReactionWord } from "./ReactionWord";
+
+export function Group({ row, index, selected }: { row: GroupRow; index: number; selected: boolean }) {
+  return (
+    <div
+      id={`error-${index}`}
+      className={`gr grp${selected ? " on" : ""}`}
+      role="row"
+      style={{ "--lv": row.level }}
+      aria-level={row.level + 1}
+      aria-expanded={row.open}
+      aria-selected={selected}
+      data-key={row.key}
+      onClick={() => toggleGroup(row.key)}
+    >
+      <span className="name" role="gridcell">
+        <Icon name={row.open ? "chev-d" : "chev-r"} className="tw" />
+        <Checkbox label={row.name} check={row.check} onToggle={() => toggleChecked(row.ids)} />
+        <span className="cut">{row.name}</span>
+      </span>
+      <span className="tested" role="gridcell">
+        {t("errors.tested", { tested: row.tested, total: row.ids.length })}
+      </span>
+    </div>
+  );
+}
+
+interface LeafProps {
+  row: LeafRow;
+  index: number;
+  selected: boolean;
+  /** What stands below it. */
+  children: ReactNode;
+}
+
+export function Leaf({ row, index, selected, children }: LeafProps) {
+  const { error } = row;
+  const fatal = error.severity === "fatal";
+  return (
+    <>
+      <div
+        id={`error-${index}`}
+        className={`gr${selected ? " on" : ""}`}
+        role="row"
+        style={{ "--lv": row.level + 1 }}
+        aria-level={row.level + 1}
+        aria-selected={selected}
+        data-key={row.key}
+        title={error.description}
+        onClick={() => selectError(error.id)}
+      >
+        <span className="name" role="gridcell">
+          <Checkbox
+            label={error.name}
+            check={row.checked ? "all" : "none"}
+            onToggle={() => {
+              toggleChecked([error.id]);
+              selectError(error.id);
+            }}
+          />
+          <span className="cut">{error.name}</span>
+        </span>
+        <span className="mono muted c-code" role="gridcell">
+          {row.code}
+        </span>
+        <span className="mono muted c-flag" role="gridcell">
+          {error.flag}
+        </span>
+        <span role="gridcell" className="c-severity">
+          <StateWord
+            tone={fatal ? "fatal" : "warning"}
+            icon={fatal ? "fatal" : "warning"}
+            word={t(fatal ? "errors.fatal" : "errors.nonfatal")}
+          />
+        </span>
+        <span role="gridcell">
+          <StateWord tone={row.status} icon={STATUS_ICONS[row.status]} word={t(`errors.status.${row.status}`)} />
+        </span>
+        <span role="gridcell" className="c-reaction">
+          {row.reaction && <ReactionWord reaction={row.reaction} />}
+        </span>
+      </div>
+      {children}
+    </>
+  );
+}
+
+/** Why this error was not generated, and the way on. */
+export function RefusalRow({ error }: { error: ErrorInfo }) {
+  const outcome = useSimulator((state) => state.outcome);
+  const { errors } = useCatalogue();
+  if (!outcome) return null;
+  // The name stands in the row above.
+  const plain = outcome.message.startsWith(`${error.id}: `) ? outcome.message.slice(error.id.length + 2) : outcome.message;
+  return (
+    <div className="refusalrow" role="row">
+      <span role="gridcell">
+        <span role="alert">
+          <Icon name="error" small />
+          <span>
+            <b>{t("errors.notgenerated")}</b> {inNames(errors, plain) || t("notsent.about")}{" "}
+            {outcome.present.length > 0 && (
+              <button
+                type="button"
+                className="link"
+                title={t("errors.again.hint")}
+                onClick={() => void changeDetails(errors, outcome)}
+              >
+                {t("errors.again")}
+              </button>
+            )}
+          </span>
+        </span>
+      </span>
+    </div>
+  );
+}

@@ -1,0 +1,125 @@
+import { useEffect, useState } from "react";
+import { allErrors } from "../../logic/catalogue";
+import { grouped } from "../../logic/numbers";
+import { isFinding } from "../../logic/sweep";
+import { t } from "../../logic/text";
+import { useBench } from "../../store/bench";
+import { messageOf } from "../../store/documents";
+import { openCell, reactionOf, withdrawFinding } from "../../store/sweeps";
+import { Icon } from "../../ui/Icon";
+import { StateWord } from "../../ui/StateWord";
+import { VERDICT_ICONS } from "../../ui/statuses";
+import type { CellRef, Reaction, Sweep, SweepCell, SweepError } from "../../wire/types";
+import { Accept } from "./Accept";
+import { Found } from "./Found";
+import { nextHint, sentence } from "./sentences";
+
+interface Props {
+  sweep: Sweep;
+  error: SweepError;
+  state: string;
+  /** Null while there is no result. */
+  cell: SweepCell | null;
+}
+
+/** What is behind a cell: in a sentence, in numbers, in lines of the program; and what can be done about it. */
+export function Details({ sweep, error, state, cell }: Props) {
+  return (
+    <>
+      <div>
+        <span className="hint">{t("sweep.while", { error: error.name, state })}</span>
+        <h3>
+          {cell?.verdict ? (
+            <StateWord tone={cell.verdict} icon={VERDICT_ICONS[cell.verdict]} word={t(`verdict.${cell.verdict}`)} />
+          ) : (
+            <StateWord tone="never" icon={cell ? "never" : "wait"} word={t(cell ? "sweep.none" : "sweep.noresult")} />
+          )}
+        </h3>
+      </div>
+      {cell ? <Result sweep={sweep} error={error} cell={cell} /> : <p className="muted">{t("sweep.noresult.about")}</p>}
+    </>
+  );
+}
+
+function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell: SweepCell }) {
+  const [reaction, refused] = useReaction(sweep.id, cell);
+  const model = useBench((bench) => bench.model);
+  const flag = allErrors(model?.catalogue ?? []).find(({ id }) => id === error.id)?.flag ?? "";
+  const codeWord = model?.code_word ?? "";
+  if (cell.verdict === null) return <p className="muted">{cell.note || t("sweep.none.about")}</p>;
+  return (
+    <>
+      <p className="muted">{sentence(cell, sweep.window)}</p>
+      {cell.note && <p className="muted">{cell.note}</p>}
+      {reaction ? (
+        <Found reaction={reaction} raised={cell.raised_scan} flag={flag} codeWord={codeWord} code={error.code} />
+      ) : (
+        <p className="hint">{refused ?? t("sweep.loading")}</p>
+      )}
+      <Deeds sweep={sweep} error={error} cell={cell} />
+      {isFinding(cell) && !cell.accepted && <p className="hint">{nextHint(cell, flag)}</p>}
+    </>
+  );
+}
+
+function Deeds({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell: SweepCell }) {
+  const [accepting, setAccepting] = useState(false);
+  const [opening, setOpening] = useState(false);
+  const { accepted } = cell;
+  return (
+    <>
+      {accepted && (
+        <p className="swaccepted">
+          <Icon name="check" small />
+          <span>
+            {t("sweep.acceptedby", accepted)}{" "}
+            <button type="button" className="link" onClick={() => void withdrawFinding(sweep.id, cell)}>
+              {t("sweep.withdraw")}
+            </button>
+          </span>
+        </p>
+      )}
+      <div className="row wrap">
+        <button
+          type="button"
+          className="btn primary sm"
+          disabled={opening}
+          title={t("sweep.open.hint", { scan: grouped(cell.raised_scan) })}
+          onClick={() => {
+            setOpening(true);
+            void openCell(sweep.id, cell).finally(() => setOpening(false));
+          }}
+        >
+          {t("sweep.open")}
+        </button>
+        {isFinding(cell) && !accepted && (
+          <button type="button" className="btn sm" onClick={() => setAccepting(true)}>
+            {t("sweep.accept")}
+          </button>
+        )}
+      </div>
+      {accepting && <Accept sweep={sweep.id} cell={cell} name={error.name} onClose={() => setAccepting(false)} />}
+    </>
+  );
+}
+
+/** Asked for when a cell is looked at; the second is why there is none. */
+function useReaction(sweep: number, { error, state, verdict }: SweepCell): [Reaction | null, string | null] {
+  const [reaction, setReaction] = useState<Reaction | null>(null);
+  const [refused, setRefused] = useState<string | null>(null);
+  useEffect(() => {
+    let over = false;
+    setReaction(null);
+    setRefused(null);
+    if (verdict === null) return;
+    const cell: CellRef = { error, state };
+    reactionOf(sweep, cell).then(
+      (found) => over || setReaction(found),
+      (why: unknown) => over || setRefused(messageOf(why)),
+    );
+    return () => {
+      over = true;
+    };
+  }, [sweep, error, state, verdict]);
+  return [reaction, refused];
+}

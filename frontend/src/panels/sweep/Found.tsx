@@ -1,0 +1,110 @@
+import type { ReactNode } from "react";
+import { grouped } from "../../logic/numbers";
+import { baseName } from "../../logic/paths";
+import { readersOf } from "../../logic/sweep";
+import { t } from "../../logic/text";
+import { openFile } from "../../store/navigate";
+import type { Reaction } from "../../wire/types";
+
+/** So many of a kind are listed; the rest is a number. */
+const MOST = 20;
+
+interface Props {
+  reaction: Reaction;
+  raised: number;
+  flag: string;
+  codeWord: string;
+  code: string;
+}
+
+/** The facts of a reaction: who read what, what changed, which lines ran only with the error. */
+export function Found({ reaction, raised, flag, codeWord, code }: Props) {
+  const { readers, differences, lines, difference_count: count } = reaction;
+  const outputs = differences.filter(({ output }) => output);
+  const variables = differences.filter(({ output }) => !output);
+  const hidden = count - outputs.length;
+  return (
+    <>
+      <dl className="facts">
+        <Fact name={t("sweep.fact.raised")} value={<span className="mono">{grouped(raised)}</span>} />
+        <Fact name={flag ? t("sweep.fact.flag", { flag }) : t("errors.flag")} value={reads(readersOf(reaction, "flag"))} />
+        <Fact name={t("sweep.fact.code", { word: codeWord, code })} value={reads(readersOf(reaction, "code"))} />
+        <Fact name={t("sweep.fact.detail")} value={reads(readersOf(reaction, "detail"))} />
+        <Fact name={t("sweep.fact.outputs")} value={outputs.length === 0 ? t("sweep.fact.none") : outputs.length} />
+        <Fact name={t("sweep.fact.variables")} value={hidden === 0 ? t("sweep.fact.none") : hidden} />
+      </dl>
+      <List title={t("sweep.list.readers")} items={readers} total={readers.length}>
+        {({ file, line, pou, what, scan }) => (
+          <>
+            <Place file={file} line={line} />
+            <span className="faint cut">{t("sweep.reader", { pou, what: t(`sweep.what.${what}`) })}</span>
+            <span className="faint end">{t("sweep.inscan", { scan })}</span>
+          </>
+        )}
+      </List>
+      <List title={t("sweep.fact.outputs")} items={outputs} total={outputs.length}>
+        {Changed}
+      </List>
+      <List title={t("sweep.fact.variables")} items={variables} total={hidden}>
+        {Changed}
+      </List>
+      <List title={t("sweep.list.lines")} items={lines} total={lines.length}>
+        {({ file, line }) => <Place file={file} line={line} />}
+      </List>
+    </>
+  );
+}
+
+const reads = (count: number) => (count === 1 ? t("sweep.reads.one") : t("sweep.reads", { count }));
+
+function Fact({ name, value }: { name: string; value: ReactNode }) {
+  return (
+    <div>
+      <dt>{name}</dt>
+      <dd>{value}</dd>
+    </div>
+  );
+}
+
+function Place({ file, line }: { file: string; line: number }) {
+  return (
+    <button type="button" className="link mono" title={t("sweep.goto", { file, line })} onClick={() => openFile(file, line)}>
+      {`${baseName(file)}:${line}`}
+    </button>
+  );
+}
+
+function Changed({ path, without, value, scan }: Reaction["differences"][number]): ReactNode {
+  return (
+    <>
+      <span className="mono cut" title={path}>
+        {path}
+      </span>
+      <span className="mono end" title={t("sweep.changed.hint", { without, value, scan })}>
+        <span className="faint">{without}</span> → {value}
+      </span>
+    </>
+  );
+}
+
+interface ListProps<T> {
+  title: string;
+  items: readonly T[];
+  total: number;
+  children: (item: T) => ReactNode;
+}
+
+function List<T extends object>({ title, items, total, children }: ListProps<T>) {
+  if (items.length === 0) return null;
+  return (
+    <section className="foundlist">
+      <h4>{title}</h4>
+      <ul>
+        {items.slice(0, MOST).map((item) => (
+          <li key={JSON.stringify(item)}>{children(item)}</li>
+        ))}
+      </ul>
+      {total > MOST && <p className="hint">{t("sweep.more", { count: total - Math.min(MOST, items.length) })}</p>}
+    </section>
+  );
+}

@@ -1,0 +1,49 @@
+import { useMemo, useRef, useState } from "react";
+import { firstFinding, isCell, type MatrixView, matrixRows } from "../../logic/sweep";
+import { t } from "../../logic/text";
+import type { CellRef, Sweep } from "../../wire/types";
+import { Counts } from "./Counts";
+import { Details } from "./Details";
+import { Matrix } from "./Matrix";
+import { Progress } from "./Progress";
+
+/** One sweep: how far it is, what it found, and what is behind each cell. */
+export function SweepView({ sweep }: { sweep: Sweep }) {
+  const [view, setView] = useState<MatrixView>({ findings: false, verdict: null });
+  const [chosen, setChosen] = useState<CellRef | null>(null);
+  const aside = useRef<HTMLElement>(null);
+  const rows = useMemo(() => matrixRows(sweep, view), [sweep, view]);
+  const ref = chosen ?? firstFinding(rows);
+  const row = rows.find((known) => known.kind === "error" && known.error.id === ref?.error);
+  const slot = row?.kind === "error" && ref ? row.slots[sweep.states.indexOf(ref.state)] : undefined;
+
+  return (
+    <>
+      <Progress sweep={sweep} />
+      <Counts sweep={sweep} view={view} onView={setView} />
+      {sweep.message && <p className="swnote muted">{sweep.message}</p>}
+      <div className="swbody">
+        <Matrix
+          sweep={sweep}
+          rows={rows}
+          selected={ref}
+          onSelect={setChosen}
+          onEnter={() => aside.current?.querySelector<HTMLElement>("button, a")?.focus()}
+        />
+        <aside className="swside scroll" aria-label={t("sweep.details")} ref={aside}>
+          {ref && row?.kind === "error" ? (
+            <Details
+              key={`${ref.error} ${ref.state}`}
+              sweep={sweep}
+              error={row.error}
+              state={ref.state}
+              cell={isCell(slot) ? slot : null}
+            />
+          ) : (
+            <p className="hint">{t("sweep.choose")}</p>
+          )}
+        </aside>
+      </div>
+    </>
+  );
+}
