@@ -4,16 +4,68 @@ import { expect, type Locator, type Page } from '@playwright/test';
 export class Simulator {
   constructor(private readonly page: Page) {}
 
+  private get pane(): Locator {
+    return this.page.locator('[data-pane=errors]');
+  }
+
   get tree(): Locator {
     return this.page.getByRole('treegrid', { name: /^Errors of / });
   }
 
+  /** The row of an error. */
   error(name: string): Locator {
     return this.tree.getByRole('row').filter({ has: this.page.getByRole('checkbox', { name, exact: true }) });
   }
 
+  /** The row of a group is found in the same way. */
+  group(name: string): Locator {
+    return this.error(name);
+  }
+
+  /** The box of an error or a group. */
+  box(name: string): Locator {
+    return this.tree.getByRole('checkbox', { name, exact: true });
+  }
+
   get details(): Locator {
     return this.page.getByRole('region', { name: 'Error details' });
+  }
+
+  get preview(): Locator {
+    return this.details.getByRole('region', { name: 'What will be written' });
+  }
+
+  get reaction(): Locator {
+    return this.details.getByRole('region', { name: 'Reaction of the program' });
+  }
+
+  /** Faults that come later or come back. */
+  get armed(): Locator {
+    return this.pane.getByRole('region', { name: 'Armed faults' });
+  }
+
+  /** Details of several errors. */
+  get dialog(): Locator {
+    return this.page.getByRole('dialog', { name: 'Error details' });
+  }
+
+  /** The page of an error in the dialog. */
+  dialogPage(name: string): Locator {
+    return this.dialog.getByRole('group', { name: `Details of ${name}` });
+  }
+
+  /** The error in the list of the dialog. */
+  step(name: string): Locator {
+    return this.dialog.getByRole('list', { name: 'Errors that need details' }).getByRole('button', { name });
+  }
+
+  get generateButton(): Locator {
+    return this.pane.getByRole('button', { name: /^(Generate|Arm)( \d+…?)?$/ });
+  }
+
+  /** Why the last command was not taken. */
+  get refusal(): Locator {
+    return this.pane.getByRole('alert');
   }
 
   /** A word of the error memory, as it stands below the tree. */
@@ -23,7 +75,7 @@ export class Simulator {
 
   /** What the last Generate or Recover did, in names. */
   get outcome(): Locator {
-    return this.page.locator('[data-pane=errors]').getByRole('status');
+    return this.pane.getByRole('status');
   }
 
   async select(name: string): Promise<void> {
@@ -38,6 +90,11 @@ export class Simulator {
     await box.selectOption({ label: label ?? '' });
   }
 
+  /** When it begins, how it goes on. */
+  async shape(what: 'When' | 'How', option: string): Promise<void> {
+    await this.details.getByRole('combobox', { name: what, exact: true }).selectOption({ label: option });
+  }
+
   async generate(name: string): Promise<void> {
     await this.select(name);
     await this.page.getByRole('button', { name: 'Generate', exact: true }).click();
@@ -49,5 +106,10 @@ export class Simulator {
     await this.select(name);
     await this.page.getByRole('button', { name: 'Recover', exact: true }).click();
     await expect(this.error(name)).toContainText('Cleared');
+  }
+
+  async filterBy(option: string): Promise<void> {
+    await this.pane.getByRole('button', { name: /^Filter: / }).click();
+    await this.page.getByRole('menuitemradio', { name: option, exact: true }).click();
   }
 }

@@ -18,7 +18,7 @@ from scanbench.bench.run import INTERVAL_NS, MODEL
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
 from scanbench.engines.native.engine import NativeEngine
-from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.plcmodel.load import model_named
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.timeline import Timeline
@@ -74,7 +74,7 @@ class _One:
 def run_goto(scans: int = SCANS, words: int = IMAGE_WORDS) -> Result:
     """Measures it in a directory of its own."""
     text = SOURCE.format(last=words - 1, count=words)
-    model = next(each for each in load_all(model_directory())[0] if each.name == MODEL)
+    model = model_named(MODEL)
     checked = check_sources({"main.st": text}, model, INTERVAL_NS)
     if checked.program is None:
         raise RuntimeError(f"the program of the bench does not build: {checked.problems[0]}")

@@ -6,7 +6,7 @@ from time import thread_time_ns
 from scanbench.check.build import check_sources
 from scanbench.engines.engine import Reason
 from scanbench.engines.interpreter.engine import ReferenceEngine
-from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.plcmodel.load import model_named
 
 ROUNDS = 500
 STATEMENTS = (
@@ -36,8 +36,7 @@ SCANS = 10
 
 def statements_per_second() -> float:
     """The median of five samples."""
-    models = {model.name: model for model in load_all(model_directory())[0]}
-    checked = check_sources({"bench.st": SOURCE}, models["GENERIC-IEC"])
+    checked = check_sources({"bench.st": SOURCE}, model_named("GENERIC-IEC"))
     assert checked.program is not None, "\n".join(map(str, checked.problems))
     engine = ReferenceEngine(checked.program, bytearray(checked.program.initial_image))
     samples = []

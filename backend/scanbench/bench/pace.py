@@ -17,7 +17,7 @@ from scanbench.check.condition import Condition, compile_condition
 from scanbench.check.program import Program
 from scanbench.engines.engine import Engine, Pace, Reason
 from scanbench.engines.native.engine import NativeEngine
-from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.plcmodel.load import model_named
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
@@ -92,9 +92,8 @@ def run_pace_bench(seconds: float = 5) -> PaceFigures:
 
 
 def _program() -> Program:
-    models = {model.name: model for model in load_all(model_directory())[0]}
     sample = next(each for each in samples() if each.name == SAMPLE)
-    checked = check_sources(sample.files, models[sample.model])
+    checked = check_sources(sample.files, model_named(sample.model))
     assert checked.program is not None, "\n".join(map(str, checked.problems))
     return checked.program
 

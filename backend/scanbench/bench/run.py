@@ -20,9 +20,10 @@ from scanbench.bench.peers import peer_ratios
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
 from scanbench.check.symbols import resolve
-from scanbench.engines.engine import Reason
+from scanbench.engines.engine import Engine, Reason
 from scanbench.engines.native.engine import NativeEngine
-from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.engines.native.observed import ObservedBuilds
+from scanbench.plcmodel.load import model_named
 
 HERE = Path(__file__).parent
 PROGRAMS = ("noop", "bool", "arith", "array", "mavg", "state", "string", "string_unrolled", "big10k", "big10kflat")
@@ -53,7 +54,7 @@ class BenchError(Exception):
 class _Native:
     """A program under measurement on the native engine."""
 
-    engine: NativeEngine
+    engine: Engine
     chk: int
     scans: int
     """In one sample."""
@@ -81,9 +82,10 @@ def run_bench(programs: list[str] | None = None) -> Result:
         for name in names:
             program, check_ms = _check(name)
             native, compile_ms = _build(program)
+            observed, observed_ms = _build_observed(program)
             twin = _compile_c(name, Path(directory))
-            result["compile"][name] = {"check": check_ms, **compile_ms}
-            result["programs"][name] = _measure(name, native, twin)
+            result["compile"][name] = {"check": check_ms, **compile_ms, "observed": observed_ms}
+            result["programs"][name] = _measure(name, native, observed, twin)
             if ratios := peer_ratios(name):
                 result["peers"][name] = ratios
             if name in LARGE:
@@ -94,10 +96,9 @@ def run_bench(programs: list[str] | None = None) -> Result:
 
 
 def _check(name: str) -> tuple[Program, float]:
-    models = {model.name: model for model in load_all(model_directory())[0]}
     source = (HERE / "st" / f"{name}.st").read_text("utf-8")
     start = perf_counter_ns()
-    checked = check_sources({f"{name}.st": source}, models[MODEL], INTERVAL_NS)
+    checked = check_sources({f"{name}.st": source}, model_named(MODEL), INTERVAL_NS)
     spent = (perf_counter_ns() - start) / 1e6
     if checked.program is None:
         raise BenchError("\n".join(map(str, checked.problems)))
@@ -109,6 +110,20 @@ def _build(program: Program) -> tuple[_Native, Row]:
     engine = NativeEngine(program, memory)
     steps = ("emit", "parse", "optimise", "codegen", "link")
     compile_ms: Row = {step: round(getattr(engine.timings, step), 1) for step in steps}
+    return _warmed_up(program, engine, memory), compile_ms
+
+
+def _build_observed(program: Program) -> tuple[_Native, float]:
+    """Observed code while nothing is watched, and ms from the checked program to its engine."""
+    memory = bytearray(program.initial_image)
+    start = perf_counter_ns()
+    engine, _ = ObservedBuilds().engine(program, memory)
+    spent = (perf_counter_ns() - start) / 1e6
+    return _warmed_up(program, engine, memory), round(spent, 1)
+
+
+def _warmed_up(program: Program, engine: Engine, memory: bytearray) -> _Native:
+    """What it computed by then, and how many scans take as long as a sample."""
     engine.run(WARM_UP)
     place = resolve(program, "bench.chk").locate(memory)
     assert place is not None
@@ -117,7 +132,7 @@ def _build(program: Program) -> tuple[_Native, Row]:
     while (spent := native.sample() * native.scans) < SAMPLE_S * 0.2e9:
         native.scans *= 2
     native.scans = max(1, int(native.scans * SAMPLE_S * 1e9 / spent))
-    return native, compile_ms
+    return native
 
 
 def _compile_c(name: str, directory: Path) -> Path | None:
@@ -135,15 +150,23 @@ def _compile_c(name: str, directory: Path) -> Path | None:
     return target
 
 
-def _measure(name: str, native: _Native, twin: Path | None) -> Row:
-    ours, theirs = [], []
+def _measure(name: str, native: _Native, observed: _Native, twin: Path | None) -> Row:
+    if observed.chk != native.chk:
+        raise BenchError(f"{name}: chk is {native.chk}, but {observed.chk} in observed code")
+    ours, watched, theirs = [], [], []
     for _ in range(SAMPLES):
         ours.append(native.sample())
+        watched.append(observed.sample())
         if twin is not None:
             theirs.append(_sample_c(name, native.chk, twin))
     ns = median(ours)
     c_ns = median(theirs) if theirs else None
-    return {"ns": round(ns, 2), "c_ns": c_ns, "ratio": round(ns / c_ns, 3) if c_ns else None}
+    return {
+        "ns": round(ns, 2),
+        "c_ns": c_ns,
+        "ratio": round(ns / c_ns, 3) if c_ns else None,
+        "observed_ratio": round(median(watched) / ns, 3),
+    }
 
 
 def _sample_c(name: str, chk: int, twin: Path) -> float:

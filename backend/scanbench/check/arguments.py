@@ -154,7 +154,8 @@ class ArgumentChecker(StandardCallChecker):
         if member.section is Section.IN_OUT:
             bound.places[key] = self.in_out(member, value, span, bound.before)
         elif member.section is Section.INPUT:
-            if value is None and member.initial is None and is_system(member.span):
+            needed = is_system(member.span) and not any(member.initial)  # what may be left out has a default
+            if value is None and needed:
                 raise self.report.reject("T004", f"`{callee}` needs a number: `{callee}({member.name} := 1)`.", span)
             bound.inputs[key] = self._input(member, value, span)
         elif key == STOP and in_library(member.span):

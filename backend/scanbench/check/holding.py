@@ -1,7 +1,7 @@
 """Which variables hold a byte of the image: the way back from offsets to names, down to single values."""
 
 from bisect import bisect_right
-from collections.abc import Iterable, Iterator
+from collections.abc import Generator, Iterable, Iterator
 
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
@@ -29,37 +29,43 @@ class Holders:
                 self._located.setdefault(byte, []).append(symbol)
 
     def at(self, offset: int, mask: int) -> Iterator[Symbol]:
-        """The variables that have any of these bits of the byte; addresses of the model where no variable is."""
-        area = self._layout.area_at(offset)
-        if area is not None:
-            yield from self._in_area(*area, offset, mask)
-            return
-        index = bisect_right(self._starts, offset) - 1
-        if index >= 0:
-            yield from _down(self._roots[index], offset, mask)
+        """The variables that have any of these bits of the two bytes from an even offset on, in the order of the bytes.
 
-    def _in_area(self, area: Area, byte: int, offset: int, mask: int) -> Iterator[Symbol]:
-        """Variables of one bit come first: a word around them says less."""
+        Addresses of the model where no variable is: of the bit when it is one, else of the word.
+        """
+        area = self._layout.area_at(offset)
+        left = 0
+        for index in range(2):
+            part = mask >> 8 * index & 0xFF
+            if area is not None:
+                left |= (yield from self._in_area(offset + index, part)) << 8 * index
+            elif part and (root := bisect_right(self._starts, offset + index) - 1) >= 0:
+                yield from _down(self._roots[root], offset + index, part)
+        if left and area is not None:
+            yield self._raw(*area, offset, left)
+
+    def _in_area(self, offset: int, mask: int) -> Generator[Symbol, None, int]:
+        """Variables of one bit come first: a word around them says less. Returns the bits that no variable has."""
         known = self._located.get(offset, [])
         for symbol in known:
             if symbol.bit is not None and mask >> symbol.bit & 1:
                 yield symbol
+        left = mask
         for symbol in known:
-            mask &= ~(1 << symbol.bit) if symbol.bit is not None else 0xFF
+            left &= ~(1 << symbol.bit) if symbol.bit is not None else 0xFF
         for symbol in known:
-            if symbol.bit is None and mask:
+            if symbol.bit is None and left:
                 yield from _down(symbol, offset, mask)
-                mask = 0
-        if mask:
-            yield self._raw(area, byte, offset, mask)
+                left = 0
+        return left
 
     def _raw(self, area: Area, byte: int, offset: int, mask: int) -> Symbol:
         if mask & (mask - 1) == 0:
-            bit = mask.bit_length() - 1
-            name = self._layout.model.format(area, byte, bit, 1)
-            return Symbol(name, name, RAW_TYPES[1], "address", offset, bit, (), name)
-        name = self._layout.model.format(area, byte - byte % 2, None, 16)
-        return Symbol(name, name, RAW_TYPES[16], "address", offset - byte % 2, None, (), name)
+            index, bit = divmod(mask.bit_length() - 1, 8)
+            name = self._layout.model.format(area, byte + index, bit, 1)
+            return Symbol(name, name, RAW_TYPES[1], "address", offset + index, bit, (), name)
+        name = self._layout.model.format(area, byte, None, 16)
+        return Symbol(name, name, RAW_TYPES[16], "address", offset, None, (), name)
 
 
 def located(symbols: Iterable[Symbol]) -> Iterator[Symbol]:

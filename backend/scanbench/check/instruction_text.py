@@ -6,7 +6,7 @@ A number outside of what an instruction takes gives FALSE, and does nothing.
 
 from scanbench.check.layout import Layout
 from scanbench.check.system_text import CODE, STOP, Form, ask, flag, number_name, reset_flags, stand_in
-from scanbench.plcmodel.model import ErrorAddress, ErrorEntry, Instruction, Model, ResetInstruction
+from scanbench.plcmodel.model import ErrorAddress, ErrorEntry, Instruction, Model, ResetInstruction, Severity
 
 _LAST = Layout.ASKED_LIMIT - 1
 
@@ -70,11 +70,7 @@ END_FUNCTION
 def _system_error(model: Model, made: Instruction, entry: ErrorEntry) -> str:
     """In place of its own error, one of the device, if that has such a code and stops the program, or does not, likewise."""
     severity = entry.severity
-    codes = [code for error in model.errors() if error.severity == severity for code in error.codes]
-    codes += [range(error.code, error.code + 1) for error in model.errors() if error.severity == severity]
-    known = ", ".join(
-        sorted({f"{code.start}..{code.stop - 1}" if len(code) > 1 else str(code.start) for code in codes})
-    )
+    known = ", ".join(f"{code.start}..{code.stop - 1}" for code in _codes(model, severity))
     stops = f"{STOP} := TRUE; " if severity == "fatal" else ""
     shown = "TRUE" if severity == "fatal" or model.code_word is None else f"{CODE} <> LINT_TO_UINT({made.selector})"
     return f"""\
@@ -84,6 +80,19 @@ IF {stand_in(made)} <> 0 AND {made.parameter} = {stand_in(made)} THEN
       asks := {shown}; {stops}{made.name} := TRUE; form := {Form.SYSTEM * 256};
       asked := {made.selector} * 16#1_0000 + MAX({made.information}, 0) MOD 16#1_0000;
   END_CASE;"""
+
+
+def _codes(model: Model, severity: Severity) -> list[range]:
+    """Every code that such an error of the device can have, as stretches that do not touch."""
+    errors = [error for error in model.errors() if error.severity == severity and not error.user]
+    codes = [code for error in errors for code in (range(error.code, error.code + 1), *error.codes)]
+    found: list[range] = []
+    for code in sorted(codes, key=lambda each: each.start):
+        if found and code.start <= found[-1].stop:
+            found[-1] = range(found[-1].start, max(code.stop, found[-1].stop))
+        else:
+            found.append(code)
+    return found
 
 
 def _clear(model: Model, made: Instruction) -> str:
@@ -117,8 +126,11 @@ END_FUNCTION
 def _shown(model: Model, made: Instruction, number: str) -> str:
     """Whether the error memory shows this number."""
     place = number_place(model, made)
+    entry = model.error(made.error)
     if place is None:
-        return "FALSE"
+        if model.code_word is None or entry is None:
+            return "FALSE"
+        return f"{'UDINT' if model.code_word.bits == 32 else 'UINT'}_TO_LINT({CODE}) = {number} + {entry.code}"
     if place.kind == "Word":
         return f"UINT_TO_LINT({number_name(made)}) = {number}"
     bit = f"SHL(WORD#1, LINT_TO_UINT({number} MOD 16))"

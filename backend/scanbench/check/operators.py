@@ -211,7 +211,7 @@ class OperatorChecker(LiteralChecker):
         if isinstance(left, Const) or _is_harmless(right):
             if isinstance(left, Const) and bool(left.value) == (op == "or_else"):
                 return left
-            return fold.binary(plain, BOOL, left, right) if not isinstance(left, Const) else right
+            return Binary(plain, BOOL, left, right, short=True) if not isinstance(left, Const) else right
         held = self.temporary(BOOL, span)
         goes_on: Expr = Load(held) if op == "and_then" else fold.unary("not", BOOL, Load(held))
         decide = If(((goes_on, (Assign(held, right, span),)),), (), span)

@@ -169,6 +169,8 @@ class Binary:
     left: "Expr"
     right: "Expr"
     trap: int = 0
+    short: bool = False
+    """AND_THEN or OR_ELSE, where evaluating the right side in any case makes no difference but to who observes reads."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,6 +11,7 @@ from scanbench.check.program import Blocks, Case, For, If, Pou, Program, Repeat,
 from scanbench.check.standard.library import in_library
 from scanbench.check.system_text import is_system
 from scanbench.check.types import Record
+from scanbench.garbage import without_collection
 from scanbench.problems import Span
 
 
@@ -41,7 +42,7 @@ class Sites:
         for pou, stmt, _ in found:
             bodies.setdefault(pou, []).append(self._numbers[id(stmt)])
         self.bodies: Mapping[Pou, tuple[int, ...]] = {pou: tuple(numbers) for pou, numbers in bodies.items()}
-        """The sites of each POU that has any, in the order of its tree: outer before inner."""
+        """The sites of each POU that has any, outer statements before inner ones."""
         self._lines: dict[tuple[str, int], list[int]] = {}
         for number, site in enumerate(self.statements):
             self._lines.setdefault((site.span.file, site.span.line), []).append(number)
@@ -56,8 +57,9 @@ class Sites:
 
 
 def sites_of(program: Program) -> Sites:
-    """The sites of a program."""
-    return Sites(program)
+    """The sites of a program, as its statements stand now: the next incremental check may move and change them."""
+    with without_collection():
+        return Sites(program)
 
 
 def _of_pou(pou: Pou) -> Iterator[tuple[Stmt, Span]]:

@@ -88,7 +88,8 @@ def _system_of(same: _Same, areas: tuple[tuple[str, int], ...]) -> System:
         numbers = ELEMENTARY[_NUMBERS[model.code_word.bits]]
         _add(words, system_text.CODE, numbers, model.code_word, offsets, "")
     if model.error_reset is not None:
-        _add(words, system_text.RESET_BIT, ELEMENTARY["BOOL"], model.error_reset.bit, offsets, "")
+        bit = model.error_reset.bit
+        _add(words, system_text.RESET_BIT, ELEMENTARY["BOOL"], bit, offsets, model.format(*bit))
         _add(words, system_text.RESET_CODE, ELEMENTARY["UINT"], model.error_reset.code, offsets, "")
     for reset in model.resets:
         _add(words, system_text.reset_flags(reset), ELEMENTARY["UINT"], reset.flags, offsets, "")

@@ -5,6 +5,7 @@ import typer
 from scanbench import __version__
 from scanbench.cli.bench import bench
 from scanbench.cli.check import check
+from scanbench.cli.errors import errors
 from scanbench.cli.model import model
 from scanbench.cli.replay import replay
 from scanbench.cli.run import run
@@ -22,6 +23,7 @@ for command in (serve, check, run, replay):
 # its subjects have options of their own
 app.command(context_settings={"allow_extra_args": True, "ignore_unknown_options": True})(bench)
 app.add_typer(model, name="model")
+app.add_typer(errors, name="errors")
 
 
 @app.callback(invoke_without_command=True)

@@ -3,13 +3,12 @@
 import json
 from collections.abc import Mapping
 from dataclasses import dataclass
-from difflib import get_close_matches
 from pathlib import Path
 from typing import NoReturn
 
 import typer
 
-from scanbench.plcmodel.load import NoModels, load_all, model_directory
+from scanbench.plcmodel.load import NoModels, NoSuchModel, load_all, model_directory, model_named
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import USER_ERRORS
 from scanbench.problems import Problem
@@ -95,12 +94,10 @@ def find_model_named(wanted: str) -> Model:
         usage(str(error))
     for problem in problems:
         typer.echo(str(problem), err=True)
-    by_name = {model.name.upper(): model for model in models}
-    if wanted.upper() in by_name:
-        return by_name[wanted.upper()]
-    near = get_close_matches(wanted.upper(), by_name, n=1)
-    hint = f"did you mean {by_name[near[0]].name}?" if near else f"there are {', '.join(m.name for m in models)}"
-    usage(f"there is no model {wanted}; {hint}")
+    try:
+        return model_named(wanted, models)
+    except NoSuchModel as error:
+        usage(str(error))
 
 
 def problem_json(problem: Problem) -> dict[str, str | int]:

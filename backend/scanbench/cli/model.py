@@ -9,7 +9,7 @@ import typer
 from scanbench.cli.inputs import usage
 from scanbench.plcmodel.document import SCHEMA
 from scanbench.plcmodel.load import NoModels, load_all, load_file, model_directory
-from scanbench.plcmodel.model import Model, WordRange
+from scanbench.plcmodel.model import Instruction, Model, ResetInstruction, WordRange
 
 model = typer.Typer(
     no_args_is_help=True, rich_markup_mode=None, help="PLC models: check a model file, list the models."
@@ -67,12 +67,13 @@ def summary(model: Model) -> list[str]:
     severities = Counter(error.severity for error in errors)
     details = sum(len(error.details) for error in errors)
     facts = [area.verified for area in model.areas] + [error.verified for error in errors]
-    facts += [special.verified for special in model.specials] + [each.verified for each in model.instructions]
+    made: list[Instruction | ResetInstruction] = [*model.instructions, *model.resets]
+    facts += [special.verified for special in model.specials] + [each.verified for each in made]
     return [
         f"{model.name} ({model.vendor}): {model.description}",
         *_table(rows),
         f"specials      {len(model.specials)}: {', '.join(f'{count} {role}' for role, count in roles.items()) or 'none'}",
-        f"instructions  {len(model.instructions)}: {', '.join(each.name for each in model.instructions) or 'none'}",
+        f"instructions  {len(made)}: {', '.join(each.name for each in made) or 'none'}",
         f"errors        {len(errors)}: {severities['fatal']} fatal, {severities['nonfatal']} nonfatal, {details} details",
         f"verified      {sum(facts)} of {len(facts)} facts ({100 * sum(facts) // len(facts)} %)",
     ]

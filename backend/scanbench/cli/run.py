@@ -14,10 +14,15 @@ from scanbench.cli.run_options import Options, find_symbol, read_commands, read_
 from scanbench.cli.run_report import Result, nothing_ran, report_json, report_text, values
 from scanbench.engines.engine import Engine
 from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.interpreter.observed import observed_engine
 from scanbench.engines.native.emit_body import TooLarge
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.engines.native.observed import ObservedBuilds
+from scanbench.engines.observe import MakeObserved
 from scanbench.engines.pair import Differs, PairEngine
+from scanbench.faults.arm import Arm
 from scanbench.faults.detect import Detection
+from scanbench.faults.schedule import Schedule
 from scanbench.runtime.headless import run_headless
 
 
@@ -36,6 +41,13 @@ ENGINES: dict[EngineChoice, Callable[[Program, bytearray], Engine]] = {
 }
 
 
+OBSERVED: dict[EngineChoice, MakeObserved] = {
+    EngineChoice.NATIVE: ObservedBuilds().engine,
+    EngineChoice.REFERENCE: observed_engine,
+    EngineChoice.BOTH: observed_engine,
+}
+
+
 def run(
     path: Path = typer.Argument(metavar="FILE|DIR", help="A program file (.st, .TcPOU, ...), or a folder with some."),
     scans: int = typer.Option(..., min=0, help="How many scans to run."),
@@ -43,7 +55,7 @@ def run(
     interval: str = typer.Option("10ms", help="Task interval where no CONFIGURATION says another."),
     set: list[str] = typer.Option([], "--set", metavar="PATH=VALUE[@SCAN]", help="Write before a scan (0 if none is named). Text with an @ in it: PATH='a@1'."),
     force: list[str] = typer.Option([], "--force", metavar="PATH=VALUE[@SCAN]", help="Force from a scan on."),
-    generate: list[str] = typer.Option([], "--raise", metavar="ERROR[@SCAN]", help="Raise an error of the model, e.g. io-bus-error:rack=1,slot=3@5"),
+    generate: list[str] = typer.Option([], "--raise", metavar="ERROR[@SCAN]", help="Raise an error of the model, e.g. io-bus-error:rack=1,slot=3@5; 'E for 5@100', 'E every 100 on 10 times 3 seed 7', 'E chatter times 4', 'E for 9 unless CONDITION', 'E when CONDITION', 'E when FILE:LINE', 'E + F gap 3'."),
     clear: list[str] = typer.Option([], "--clear", metavar="ERROR|all[@SCAN]", help="Recover an error."),
     show: list[str] = typer.Option([], "--print", metavar="PATH", help="Print this variable or address at the end."),
     mode: list[str] = typer.Option([], "--mode", metavar="MODE[@SCAN]", help="Change to PROGRAM, MONITOR or RUN."),
@@ -73,12 +85,15 @@ def run(
     program = checked.program
     commands = read_commands(program, Options(set, force, generate, clear, mode, restart))
     shown = [(each, find_symbol(program, each)) for each in show]
+    lines = any(isinstance(each, Arm) and each.wanted.start.kind == "line" for _, each in commands)
+    if lines and engine is EngineChoice.BOTH:
+        usage("--engine both cannot wait for a line: code that notes statements runs on one engine")
     condition = None if until is None else read_condition(program, until)
     try:
         with recorded(record, program, below(path, sources.texts), read_interval(interval)) as recording:
             result = run_headless(
                 program, scans, ENGINES[engine], commands, every, lambda plc: values(plc, shown),
-                detect=Detection(), recording=recording, until=condition,
+                detect=Detection(), agenda=Schedule(OBSERVED[engine]), recording=recording, until=condition,
             )  # fmt: skip
             if recording is not None:
                 check_whole(recording)

@@ -8,7 +8,8 @@ from scanbench.check.condition import Condition, compile_condition
 from scanbench.check.program import Program
 from scanbench.check.symbols import Symbol, UnknownPath, resolve
 from scanbench.cli.inputs import usage
-from scanbench.faults.inject import Generate, Recover
+from scanbench.cli.raising import read_raise
+from scanbench.faults.inject import Recover
 from scanbench.faults.reference import parse_reference
 from scanbench.runtime.command import Command, Refusal, RestartKind
 from scanbench.runtime.forces import Force
@@ -53,11 +54,7 @@ def read_commands(program: Program, options: Options) -> list[tuple[int, Command
         path, value, scan = _assignment(program, "--force", text)
         made.append((scan, Force(AUTHOR, path, value)))
     for text in options.generate:
-        reference, scan = _at(text)
-        error = parse_reference(program.layout.model, reference)
-        if isinstance(error, Refusal):
-            usage(f"--raise {text}: {error.message}")
-        made.append((scan, Generate(AUTHOR, (error,))))
+        made.append(read_raise(program, AUTHOR, text))
     for text in options.clear:
         reference, scan = _at(text)
         if reference.lower() == "all":

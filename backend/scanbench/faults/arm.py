@@ -14,7 +14,7 @@ from scanbench.faults.details import choose
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.lines import find_line
 from scanbench.faults.reference import ErrorRef, find_error
-from scanbench.faults.shapes import Shape, Wanted, describe_shape, flaw, lasts, step_count
+from scanbench.faults.shapes import Wanted, describe_shape, flaw, lasts, step_count
 from scanbench.runtime.command import Command, Entry, Numbered, Plan, Refusal, View
 from scanbench.runtime.journal import Fold
 
@@ -157,9 +157,6 @@ def _refused(author: str, wanted: Wanted, view: View) -> Refusal | None:
     """Why nothing is entered."""
     if not wanted.errors:
         return Refusal("no error is named: say which error is to come")
-    refusal = _bad_errors(wanted, view)
-    if refusal is not None:
-        return refusal
     text = flaw(wanted)
     if text is not None:
         return Refusal(text)
@@ -178,7 +175,11 @@ def _refused(author: str, wanted: Wanted, view: View) -> Refusal | None:
 
 
 def unmeant(wanted: Wanted, view: View, started: bool = False) -> Refusal | None:
-    """What of its conditions and lines has no meaning for this program; of one that has begun only what is still to come."""
+    """What of its errors, conditions and lines has no meaning for this program; of one that has begun only what is still
+    to come."""
+    refusal = _bad_errors(wanted, view)
+    if refusal is not None:
+        return refusal
     conditions = [wanted.start.condition] if wanted.start.kind == "condition" and not started else []
     if wanted.shape.kind == "unacknowledged" and wanted.shape.acknowledge:
         conditions.append(wanted.shape.acknowledge)

@@ -12,6 +12,7 @@ from scanbench.faults.details import Chosen
 from scanbench.faults.inject import ACTIVE, Active, Recover, describe, present_choices
 from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
+from scanbench.runtime.rights import Right, may
 
 WILL_NOT_CLEAR = "error will not clear"
 """How a refusal begins when the cause is still there."""
@@ -30,6 +31,8 @@ class ClearErrors(Command):
 
     def plan(self, view: View) -> Plan | Refusal:
         """What the Recover plans, or why nothing goes."""
+        if (refusal := may(view.header.mode, Right.CLEAR)) is not None:
+            return refusal
         present = view.derived(ACTIVE)
         recover, held = clear(view, present, self.author, self._wanted(view, present))
         if recover is not None:

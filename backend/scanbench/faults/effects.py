@@ -43,7 +43,9 @@ class Effects:
         self._fresh = kept.copy()
         """Bits that never differed until now."""
         self._buffer = np.empty_like(kept)
-        self._found: dict[tuple[str, int], Difference] = {}
+        self._found: dict[str, Difference] = {}
+        self._words: set[int] = set()
+        """Offsets of words of the model that were named as a whole."""
         self.first: int | None = None
         """The first scan behind which something differed."""
 
@@ -57,11 +59,14 @@ class Effects:
         where = np.flatnonzero(buffer)
         self._fresh[where] &= ~buffer[where]
         for symbol in self._named(where.tolist(), buffer[where].tolist()):
-            key = (symbol.path, symbol.offset)
-            if key not in self._found and self.complete:
-                self._found[key] = self._difference(scan, symbol, without, value)
-                if self.first is None:
-                    self.first = scan
+            raw = symbol.section == "address"
+            if symbol.path in self._found or (raw and symbol.offset & ~1 in self._words) or not self.complete:
+                continue
+            self._found[symbol.path] = self._difference(scan, symbol, without, value)
+            if raw and symbol.bit is None:
+                self._words.add(symbol.offset)
+            if self.first is None:
+                self.first = scan
 
     @property
     def complete(self) -> bool:
@@ -82,9 +87,10 @@ class Effects:
         for index, word in zip(where, bits, strict=True):
             if not self.complete:
                 return
-            for number, mask in enumerate(word.to_bytes(WORD, "little")):
+            for half in range(0, WORD, 2):
+                mask = word >> 8 * half & 0xFFFF
                 if mask:
-                    yield from self._names.holders.at(index * WORD + number, mask)
+                    yield from self._names.holders.at(index * WORD + half, mask)
 
     def _difference(self, scan: int, symbol: Symbol, without: Words, value: Words) -> Difference:
         return Difference(

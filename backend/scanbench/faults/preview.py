@@ -139,8 +139,8 @@ class _Looked:
         bit = mask.bit_length() - 1
         if mask == 1 << bit:
             address = self._layout.model.format(area, byte + bit // 8, bit % 8, 1)
-            texts = [str(word >> bit & 1) for word in (before, after)]
+            texts = str(before >> bit & 1), str(after >> bit & 1)
         else:
             address = self._layout.model.format(area, byte, None, 16)
-            texts = [f"{word:04X}" for word in (before, after)]
+            texts = f"{before:04X}", f"{after:04X}"
         self.writes.append(PreviewedWrite(address, *texts, what, error))

@@ -27,7 +27,7 @@ from scanbench.runtime.command import Command, Entry, Refusal, Restarted, Swappe
 from scanbench.runtime.header import Halt
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.resource import Resource
-from scanbench.runtime.trap import TrapInfo
+from scanbench.runtime.trap import TrapInfo, Trapped
 
 TRACE_LIMIT = 128 << 20
 """Bytes that the run without the error may take: what it changed, scan by scan."""
@@ -61,7 +61,7 @@ def react(
     if ref is None:
         return Refusal(f"{error} was not raised there: {generate.plan.message}")
     rest = _following(point, generate, following, window, programs)
-    twin = run_twin(point, _without(generate, rest.given, error), rest.window, programs)
+    twin = run_twin(point, _without(generate, rest.given, error), rest.window, programs, TRACE_LIMIT)
     comparison = Comparison(point, programs, Prepared(programs.get(point.version).program))
     found = comparison.of(twin, generate, ref, rest.given)
     if not rest.note:
@@ -82,7 +82,7 @@ class Twin:
 
 def run_twin(
     point: Point, commands: Sequence[tuple[int, Command]], window: int, programs: ObservedPrograms,
-    limit: int = TRACE_LIMIT,
+    limit: int,
 ) -> Twin:  # fmt: skip
     """Runs from a point with these commands, each in front of a scan; what is refused now is left out."""
     resource = _standing(point, programs)
@@ -271,7 +271,7 @@ def _following(
     end, note = begin + window, ""
     left: list[Entry] = []
     for entry in following:
-        if entry.scan >= end:
+        if entry.scan >= end or isinstance(entry.command, Trapped):  # behind a trap nothing is compared
             break
         if isinstance(entry.plan.effect, Swapped | Restarted):
             end = entry.scan

@@ -196,7 +196,9 @@ def make_record(
     for group in model.catalogue:
         errors += _errors(group, (), by_id, language)
     kept = [replace(error, accepted=tuple(reasons.get(error.id, ()))) for error in errors]
-    return TestRecord(head, tuple(kept), tuple(sweeps), tuple(log))
+    known = {error.id for error in kept}
+    ours = [replace(each, cells=tuple(cell for cell in each.cells if cell.error in known)) for each in sweeps]
+    return TestRecord(head, tuple(kept), tuple(ours), tuple(log))
 
 
 def _errors(

@@ -150,8 +150,8 @@ class _Document:
         return _row(
             f"{name}</th>", _mono(error.code), _mono(error.flag), _cell(self._words[error.severity]),
             _cell(self._words[error.status]), f"<td>{self._when(error)}</td>", _number(error.count or None),
-            f"<td>{verdict}</td>", _number(finding.scans), f'<td class="mono">{self._readers(reaction)}</td>',
-            f'<td class="mono">{self._outputs(() if reaction is None else reaction.differences)}</td>',
+            f"<td>{verdict}</td>", _number(finding.scans), f'<td class="mono places">{self._readers(reaction)}</td>',
+            f'<td class="mono places">{self._outputs(() if reaction is None else reaction.differences)}</td>',
         )  # fmt: skip
 
     def _when(self, error: RecordError) -> str:

@@ -7,6 +7,7 @@ from typing import cast
 
 from lxml import etree
 
+from scanbench.faults.history import Status
 from scanbench.faults.inject import Origin
 from scanbench.faults.reaction import Difference, Line, Reaction, Reader, Verdict, What
 from scanbench.faults.record import (
@@ -16,7 +17,6 @@ from scanbench.faults.record import (
     RecordHead,
     RecordLine,
     RecordSweep,
-    Status,
     SweepStatus,
     TestRecord,
 )

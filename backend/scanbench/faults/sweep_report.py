@@ -4,10 +4,12 @@ from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import asdict, dataclass
 from typing import cast, get_args
-from xml.etree import ElementTree
 
+from lxml import etree
+
+from scanbench.faults.compare import Outcome, SweepChange
 from scanbench.faults.reaction import Reaction, Verdict
-from scanbench.faults.sweep import Cell, Outcome, SweepChange
+from scanbench.faults.sweep import Cell
 from scanbench.plcmodel.catalogue import ErrorEntry, Severity
 
 WORDS: Mapping[Verdict | None, str] = {
@@ -75,7 +77,7 @@ def reason(cell: Cell) -> str:
             text = f"no statement read its flag, code or details in {reaction.window} scans"
         case "no_effect":
             text = f"{read}, but nothing differed in {reaction.window} scans"
-        case "reacted":
+        case _:
             text = "; ".join(filter(None, (read if reaction.readers else "", ", ".join(_some(changed)))))
     return "; ".join(filter(None, (text, reaction.note)))
 
@@ -198,21 +200,22 @@ def sweep_junit(result: SweepResult, severities: Sequence[Severity]) -> str:
     skipped = [cell for cell in result.cells if cell.reaction is None]
     numbers = {"tests": len(result.cells), "failures": len(failed), "skipped": len(skipped), "errors": 0}
     totals = {name: str(number) for name, number in numbers.items()}
-    root = ElementTree.Element("testsuites", totals)
-    suite = ElementTree.SubElement(root, "testsuite", {"name": f"{result.project} on {result.model}", **totals})
+    root = etree.Element("testsuites", totals)
+    suite = etree.SubElement(root, "testsuite", {"name": _printable(f"{result.project} on {result.model}"), **totals})
     for cell in result.cells:
         entry = result.entry(cell)
         name = f"{entry.id} ({entry.code_text})"
-        case = ElementTree.SubElement(suite, "testcase", {"classname": f"{result.model}.{cell.point}", "name": name})
+        case = etree.SubElement(
+            suite, "testcase", {"classname": _printable(f"{result.model}.{cell.point}"), "name": name}
+        )
         if cell.reaction is None:
-            ElementTree.SubElement(case, "skipped", {"message": _printable(cell.note)})
+            etree.SubElement(case, "skipped", {"message": _printable(cell.note)})
         elif cell in failed:
             about = {"message": f"{entry.severity} error: {WORDS[verdict_of(cell)]}", "type": cell.reaction.verdict}
-            ElementTree.SubElement(case, "failure", about).text = _printable(reason(cell))
+            etree.SubElement(case, "failure", about).text = _printable(reason(cell))
         else:
-            ElementTree.SubElement(case, "system-out").text = _printable(f"{WORDS[verdict_of(cell)]}: {reason(cell)}")
-    ElementTree.indent(root)
-    return ElementTree.tostring(root, "unicode", xml_declaration=True) + "\n"
+            etree.SubElement(case, "system-out").text = _printable(f"{WORDS[verdict_of(cell)]}: {reason(cell)}")
+    return str(etree.tostring(root, encoding="utf-8", xml_declaration=True, pretty_print=True), "utf-8")
 
 
 def _printable(text: str) -> str:

@@ -31,6 +31,13 @@ _SCHEMA = {
     "max": _NUMBER,
 }
 """What the schema says of a field that it does not take, in plain words."""
+_INCOMPLETE = {
+    "an ErrorAddress needs an Address": ("address", "give it an address, or let its number be added to the error code"),
+    "a choice of a List needs an Id": ("id", "give the choice an id"),
+    "writes or adds a number and needs a Value": ("value", "say which number it writes or adds"),
+    "needs Min and Max": ("min", "say from where to where, with Min and Max"),
+}
+"""What the reader says of a whole element: which field it is about, and the same for a form."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -46,8 +53,8 @@ def check_drafts(model: Model, drafts: Drafts) -> tuple[Written, list[DraftProbl
     written = write_catalogue(drafts)
     found = list(_missing(drafts, written))
     known = {each.path for each in found}
-    for problem in with_user_errors(model, written.text)[1]:
-        path = written.field_at(problem.span.line, problem.span.column)
+    for read in with_user_errors(model, written.text)[1]:
+        path, problem = _field(written.field_at(read.span.line, read.span.column), read)
         if path not in known and not _says_missing(problem, path, known):
             found.append(DraftProblem(path, _plain(problem, path, model)))
     order = {each.path: number for number, each in enumerate(found)}
@@ -76,6 +83,14 @@ def _lacks(error: DraftError) -> Iterator[tuple[str, str]]:
 def _says_missing(problem: Problem, path: str, known: set[str]) -> bool:
     """Whether the schema says once more that there is no name."""
     return problem.code == "M002" and "( Name" in problem.message and f"{path}.texts.0.name" in known
+
+
+def _field(path: str, problem: Problem) -> tuple[str, Problem]:
+    """The field that lacks something, where the reader names only its element."""
+    for told, (name, words) in _INCOMPLETE.items():
+        if problem.code == "M008" and told in problem.message:
+            return f"{path}.{name}", Problem(problem.code, words, problem.span)
+    return path, problem
 
 
 def _plain(problem: Problem, path: str, model: Model) -> Problem:

@@ -1,6 +1,8 @@
 """Model files to models. Whatever is wrong with one file is told with its place; the other files still load."""
 
 import os
+from collections.abc import Sequence
+from difflib import get_close_matches
 from pathlib import Path
 
 from scanbench.plcmodel.document import SCHEMA
@@ -11,6 +13,10 @@ from scanbench.problems import Problem
 
 class NoModels(Exception):
     """There is no directory of models to load; the message says where it was looked for."""
+
+
+class NoSuchModel(Exception):
+    """There is no model of this name; the message says which there are."""
 
 
 def model_directory() -> Path:
@@ -41,11 +47,24 @@ def load_all(directory: Path) -> tuple[list[Model], list[Problem]]:
     return list(models.values()), problems
 
 
-def load_named(directory: Path, name: str) -> tuple[Model | None, list[Problem]]:
-    """The model of this name; only its file and those it is based on are read, as a rule."""
-    library = Library(directory)
-    file = library.named(name)
-    return (None, []) if file is None else library.load(file)
+def model_named(name: str, models: Sequence[Model] | None = None) -> Model:
+    """The model of this name, in any case, of these or of all that there are; `NoSuchModel` says what there is instead.
+
+    Without `models` only its file and those it is based on are read, as a rule.
+    """
+    if models is None:
+        library = Library(model_directory())
+        file = library.named(name)
+        model = library.load(file)[0] if file is not None else None
+        if model is not None:
+            return model
+        models = load_all(library.directory)[0]
+    by_name = {model.name.upper(): model for model in models}
+    if (found := by_name.get(name.upper())) is not None:
+        return found
+    near = get_close_matches(name.upper(), by_name, n=1)
+    hint = f"did you mean {by_name[near[0]].name}?" if near else f"there are {', '.join(each.name for each in models)}"
+    raise NoSuchModel(f"there is no model {name}; {hint}")
 
 
 def load_file(path: Path, directory: Path) -> tuple[Model | None, list[Problem]]:

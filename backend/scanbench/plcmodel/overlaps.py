@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from typing import NamedTuple
 
+from scanbench.plcmodel.areas import Location
 from scanbench.plcmodel.catalogue import ErrorAddress, ErrorDetail
 
 
@@ -17,15 +18,25 @@ class _Stretch(NamedTuple):
         return self.area == other.area and self.first < other.end and other.first < self.end
 
 
-def overlaps(details: Sequence[ErrorDetail], also: Sequence[ErrorAddress]) -> Iterator[str]:
+def overlaps(
+    flag: Location | None, flag_text: str, details: Sequence[ErrorDetail], also: Sequence[ErrorAddress]
+) -> Iterator[str]:
     """What is wrong; choices of one List may share bits, as only one of them is written."""
-    parts = [(f"detail {each.name}", tuple(_stretches(each.addresses)), each.addresses[0].text) for each in details]
+    parts: list[tuple[str, tuple[_Stretch, ...], str]] = []
+    if flag is not None:
+        parts.append(("the flag", (_bit(flag),), flag_text))
+    parts += [(f"detail {each.name}", tuple(_stretches(each.addresses)), each.addresses[0].text) for each in details]
     parts += [(f"Also {each.text}", tuple(_stretches((each,))), each.text) for each in also]
     for number, (name, stretches, text) in enumerate(parts):
         for earlier, others, _ in parts[:number]:
             if any(one.meets(other) for one in stretches for other in others):
                 yield f"{name} writes bits of {text} that {earlier} writes too"
                 break
+
+
+def _bit(place: Location) -> _Stretch:
+    first = place.byte * 8 + (place.bit or 0)
+    return _Stretch(place.area.name, first, first + 1)
 
 
 def _stretches(addresses: Sequence[ErrorAddress]) -> Iterator[_Stretch]:
@@ -35,7 +46,7 @@ def _stretches(addresses: Sequence[ErrorAddress]) -> Iterator[_Stretch]:
             continue
         first = place.byte * 8 + (place.bit or 0)
         if each.kind == "Bit":
-            yield _Stretch(place.area.name, first, first + 1)
+            yield _bit(place)
         elif each.kind == "BitArray":
             low, high = (each.minimum or 0, each.maximum or 0) if each.value is None else (each.value, each.value)
             yield _Stretch(place.area.name, first + low, first + high + 1)

@@ -108,7 +108,7 @@ def _error(reader: Reader, node: etree._Element) -> ErrorEntry | None:
         reader.problem("M004", f"two details are named {name!r}", node)
     code = _code(reader, node, sum(_largest_addition(detail) for detail in details))
     also = tuple(_also(reader, child, details) for child in node.iterchildren("Also"))
-    for message in overlaps(details, also):
+    for message in overlaps(flag, node.get("ErrorFlag", ""), details, also):
         reader.problem("M007", message, node)
     if flag is None or not reader.engine_writes(node, "ErrorFlag", flag):
         return None

@@ -66,7 +66,9 @@ class _Trace:
         more = {self.ends[key] for key in found.keys() - self.state.keys() if key in self.ends}
         for key, value in self.state.items():
             if found.get(key) != value:
-                more.update(self.origins[key])
+                origin = self.origins[key]
+                # with where it came from and what came last most states are complete
+                more.update(origin[:1] if origin[0] not in kept else origin)
         firsts = {origin[0] for origin in self.origins.values()}  # what came first is first
         return more - kept or firsts - kept or set(self.all)
 

@@ -11,6 +11,7 @@ import msgpack  # type: ignore[import-untyped]
 
 from scanbench.check.violations import Violation, Violations
 from scanbench.faults.arm import ARMED, NUMBERED, Arm, ArmedInfo, Disarm, Missed
+from scanbench.faults.clear import ClearErrorLog, ClearErrors
 from scanbench.faults.inject import ACTIVE, Active, Generate, Recover
 from scanbench.faults.preview import PreviewedWrite
 from scanbench.faults.reaction import Difference, Line, Reaction, Reader
@@ -38,7 +39,7 @@ _OBJECT = 1
 _CLASSES: dict[str, type] = {
     cls.__name__: cls
     for cls in (
-        Active, ClearViolations, Entry, Force, Generate, Patch, Plan, ErrorRef, ProgramChange, Recover, Release, SetMode, Span, TrapInfo, Trapped,
+        Active, ClearErrorLog, ClearErrors, ClearViolations, Entry, Force, Generate, Patch, Plan, ErrorRef, ProgramChange, Recover, Release, SetMode, Span, TrapInfo, Trapped,
         Violation, Violations, Write,
         Lost, RecordingInfo, Restart, Restarted, SetClock, Swapped,
         protocol.Ack, protocol.Attend, protocol.Build, protocol.Copy, protocol.Diagnosed, protocol.Drive,

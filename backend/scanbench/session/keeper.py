@@ -46,10 +46,10 @@ class Keeper:
         for row in rows:
             self._jobs.put_nowait(_row_job(self._store, instance, row))
 
-    def keep_line(self, instance: int, line: LogEntry) -> None:
-        """A line of the log."""
+    def keep_line(self, instance: int, line: LogEntry, version: int) -> None:
+        """A line of the log, while this version of the program runs."""
         at, scan, author, kind, text = line.at, line.scan, line.author, line.kind, line.text
-        self._jobs.put_nowait(lambda: self._store.add_log(instance, at, scan, author, kind, text))
+        self._jobs.put_nowait(lambda: self._store.add_log(instance, at, scan, author, kind, text, version))
         self._lines[instance] = self._lines.get(instance, 0) + 1
         if self._lines[instance] % LOG_TRIMMED_EVERY == 0:
             self._jobs.put_nowait(lambda: self._store.trim_log(instance, LOG_KEPT))
@@ -67,9 +67,9 @@ class Keeper:
 def row_of(model: Model, kept: HistoryRow) -> ErrorRow:
     """A row as the store has it. An error of another version's catalogue keeps its id for a name."""
     error = model.error(kept.error)
-    name, severity = (kept.error, "nonfatal") if error is None else (error.name, error.severity)
+    name = kept.error if error is None else error.name
     return ErrorRow(
-        kept.error, name, severity, kept.status, kept.code, kept.details, kept.generated_at, kept.recovered_at,
+        kept.error, name, "nonfatal" if error is None else error.severity, kept.status, kept.code, kept.details, kept.generated_at, kept.recovered_at,
         kept.generated_scan, kept.recovered_scan, kept.by, kept.origin, kept.count, _reaction_of(kept),
         kept.program_version,
     )  # fmt: skip

@@ -126,6 +126,11 @@ class Session:
         return self._past_rows or self._history.rows
 
     @property
+    def history_version(self) -> int:
+        """The version whose rows are written now."""
+        return self._history.version
+
+    @property
     def history_versions(self) -> list[int]:
         """Versions of the program that have an error history, that of the one that runs included."""
         return self._history.versions
@@ -450,7 +455,7 @@ class Session:
     def _add_line(self, line: LogEntry) -> None:
         self._lines.append(line)
         del self._lines[:-LOG_LINES]
-        self._keeper.keep_line(self.id, line)
+        self._keeper.keep_line(self.id, line, self._history.version)
         self._publish(events.Logged((line,)))
 
     def _publish(self, event: Event) -> None:

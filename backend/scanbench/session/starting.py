@@ -8,6 +8,7 @@ from typing import TypeVar
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
 from scanbench.engines.observe import MakeObserved
+from scanbench.faults.carried import why_not_carried
 from scanbench.faults.inject import ACTIVE, Generate
 from scanbench.faults.observed import ObservedPrograms
 from scanbench.faults.react import Point, react
@@ -133,6 +134,9 @@ def _carried_over(resource: Resource, program: Program, version: int, make: Make
     programs = ObservedPrograms({resource.version: resource.program, version: program}.__getitem__, make)
     there = Resource(programs.get(resource.version), programs=programs)
     there.restore(there.loaded, resource.state, resource.journal)
+    why_not = why_not_carried(there.journal.derived(ACTIVE), resource.program, program)
+    if why_not:
+        raise NoStart(f"the program cannot take over there: {why_not}")
     view = there.view
     memory = bytearray(there.memory)
     memory[Layout.MODE] = Mode.MONITOR if there.header.mode is Mode.RUN else there.header.mode
@@ -148,6 +152,6 @@ def _must_run(resource: Resource) -> None:
     if resource.runnable:
         return
     if resource.header.halt & Halt.FATAL_ERROR:
-        present = ", ".join(resource.journal.derived(ACTIVE))
-        raise NoStart(f"the program is stopped there by a fatal error ({present}): begin where it runs")
+        present = resource.journal.derived(ACTIVE)
+        raise NoStart(f"the program is stopped there by a fatal error ({', '.join(present)}): begin where it runs")
     raise NoStart("the program does not run there: begin where the PLC is in MONITOR or RUN, and has not trapped")

@@ -9,6 +9,7 @@ from contextlib import suppress
 from functools import partial
 from pathlib import Path
 
+from scanbench import __version__
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.runtime.clock import monotonic_ns
@@ -20,6 +21,7 @@ from scanbench.session.load import Loads
 from scanbench.session.nursery import nursery
 from scanbench.session.projects import Projects
 from scanbench.session.reactions import Reactions
+from scanbench.session.records import Records
 from scanbench.session.refused import Refused
 from scanbench.session.runs import discard, discard_all, fresh_path, run_path, sources_of, sweep
 from scanbench.session.samples import samples
@@ -51,6 +53,7 @@ class Workbench:
         self._warming: asyncio.Task[None] | None = None
         self.projects = Projects(store, self.models, self._checker, self._sessions_of)
         self._reactions = Reactions(self._cache)
+        self.records = Records(store, self._keeper, f"Scanbench {__version__}")
         self.states = States(store, data / "states")
         self.sweeps = Sweeps(
             store, self.states, self._cache, self._sessions_of, self.projects.built, self._open_state

@@ -235,6 +235,8 @@ class LogRow:
     author: str
     kind: str
     text: str
+    program_version: int | None = None
+    """That ran then; None in lines of before this was kept."""
 
 
 class Conflict(Exception):

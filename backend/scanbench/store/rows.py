@@ -117,4 +117,4 @@ def record(row: TestRecord) -> RecordInfo:
 
 def log(row: Log) -> LogRow:
     """A line of the log."""
-    return LogRow(row.at, row.scan, row.author, row.kind, row.text)
+    return LogRow(row.at, row.scan, row.author, row.kind, row.text, row.program_version)

@@ -210,11 +210,21 @@ class Store(Errors, Sweeps, ImportedRecords):
             found = select(Log).where(Log.instance_id == instance).order_by(Log.id.desc()).limit(limit)
             return [rows.log(entry) for entry in reversed(session.scalars(found).all())]
 
-    def add_log(self, instance: int, at: datetime, scan: int, author: str, kind: str, text: str) -> None:
-        """One more line."""
+    def error_log(self, instance: int, version: int) -> list[LogRow]:
+        """What was raised and recovered while this version of the program ran, oldest first."""
+        with self._reading() as session:
+            the_instance(session, instance)
+            of = (Log.instance_id == instance) & (Log.program_version == version) & Log.kind.in_(("error", "recover"))
+            return [rows.log(entry) for entry in session.scalars(select(Log).where(of).order_by(Log.id))]
+
+    def add_log(
+        self, instance: int, at: datetime, scan: int, author: str, kind: str, text: str, version: int | None = None
+    ) -> None:
+        """One more line; `version` is that of the program that ran."""
+        line = {"at": at, "scan": scan, "author": author[:AUTHOR], "kind": kind, "text": text}
         with self._writing() as session:
             the_instance(session, instance)
-            session.add(Log(instance_id=instance, at=at, scan=scan, author=author[:AUTHOR], kind=kind, text=text))
+            session.add(Log(instance_id=instance, program_version=version, **line))
 
     def trim_log(self, instance: int, keep: int) -> None:
         """Deletes all but the last `keep` lines."""

@@ -232,3 +232,4 @@ class Log(Base):
     author: Mapped[str] = mapped_column(String(AUTHOR))
     kind: Mapped[str] = mapped_column(String(16))
     text: Mapped[str] = mapped_column(Text)
+    program_version: Mapped[int | None]

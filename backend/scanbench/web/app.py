@@ -22,6 +22,7 @@ from scanbench.web import (
     routes_instances,
     routes_models,
     routes_projects,
+    routes_records,
     routes_sweeps,
     routes_user_errors,
     translate,
@@ -66,7 +67,10 @@ def bare_app() -> FastAPI:
         title="Scanbench", version=__version__, docs_url=None, redoc_url=None, openapi_url="/api/openapi.json",
         responses={"4XX": {"model": wire.Refusal}},
     )  # fmt: skip
-    for routes in (routes_instances, routes_errors, routes_sweeps, routes_projects, routes_user_errors, routes_models):
+    for routes in (
+        routes_instances, routes_errors, routes_sweeps, routes_records, routes_projects, routes_user_errors,
+        routes_models,
+    ):  # fmt: skip
         app.include_router(routes.router)
     for error, status in _STATUS.items():
         app.add_exception_handler(error, _refusing(status))

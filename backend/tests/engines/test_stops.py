@@ -172,3 +172,22 @@ def test_a_forged_force_table_stays_in_the_image(make: Callable[[Program, bytear
     engine = make(program, memory)
     assert engine.run(3) == Stop(Reason.DONE)
     assert scan(memory) == 3
+
+
+@engines
+def test_of_several_conditions_each_ends_the_run_whatever_traps(make: Callable[[Program, bytearray], Engine]) -> None:
+    program = check(COUNT)
+    texts = ("10 / (Main.n - Main.n) > 0", "Main.n = 4", "Main.n = 9", "10 / (Main.n - 4) > 0 AND Main.n = 6")
+    memory = bytearray(program.initial_image)
+    engine = make(program, memory)
+    made = [condition(program, text) for text in texts]
+    engine.stop_when(made[0], *made[1:])
+    stops = []
+    while engine.run(20 - scan(memory)).reason is Reason.CONDITION:
+        stops.append((scan(memory), [engine.holds(each) for each in made]))
+    assert stops == [
+        (4, [False, True, False, False]), (6, [False, False, False, True]), (9, [False, False, True, False]),
+    ]  # fmt: skip
+    engine.stop_when(None, made[0], condition(program, "Main.n = 25"))
+    assert (engine.run(20), scan(memory)) == (Stop(Reason.CONDITION), 25)
+    assert engine.holds(condition(program, "Main.n = 25"))

@@ -2,6 +2,7 @@
 
 import pytest
 
+from scanbench.check.build import check_sources
 from scanbench.engines.engine import Reason
 from scanbench.faults.detect import Detection
 from scanbench.faults.history import ErrorRow, History
@@ -220,3 +221,9 @@ def test_every_instruction_of_every_model(name: str, instruction: str) -> None:
         else:
             go(resource, 2)
         assert bits(resource, error.flag) == 0
+
+
+def test_a_number_cannot_be_left_out() -> None:
+    for call in ("FAL()", "FAL(M := 1)", "FALS()"):
+        checked = check_sources({"main.st": f"PROGRAM Main\n  {call};\nEND_PROGRAM\n"}, model())
+        assert [problem.code for problem in checked.problems] == ["T004"], call

@@ -2,7 +2,7 @@
 
 import pytest
 
-from scanbench.plcmodel.load import load_all, load_named, model_directory
+from scanbench.plcmodel.load import NoSuchModel, load_all, model_directory, model_named
 from scanbench.plcmodel.model import Location, Model
 
 ALL = load_all(model_directory())[0]
@@ -96,7 +96,15 @@ def test_what_is_from_knowledge_is_not_called_verified(model: Model) -> None:
 @every_model
 def test_a_model_alone_is_the_same(model: Model) -> None:
     """Other files do not matter, but for those it is based on."""
-    assert load_named(model_directory(), model.name) == (model, [])
+    assert model_named(model.name) == model
+    assert model_named(model.name.lower(), ALL) is model
+
+
+def test_a_model_that_there_is_not() -> None:
+    with pytest.raises(NoSuchModel, match="did you mean CJ1M-CPU13"):
+        model_named("cj1m-cpu19x", [model for model in ALL if model.name in ("CJ1M-CPU13", "Q03UD")])
+    with pytest.raises(NoSuchModel, match=r"there are .*GENERIC-IEC"):
+        model_named("???")
 
 
 FATAL_CODES = "80F1 80C0 80CE 80CF 80E9 80EA 80E1 80E0 80F0 809F C100"
@@ -149,7 +157,7 @@ def test_other_vendors_show_their_codes_their_way(models: dict[str, Model]) -> N
     assert low.code_text == "000B0000"
     assert low.code_limit == 0xFFFF_FFFF
     assert melsec.code_word == at(melsec, "SD0")
-    assert nj.code_word is None
+    assert nj.code_word == at(nj, "SV20")._replace(bits=32)
     assert [place.text for place in battery.also] == ["SM0", "SM5", "SD4", "SM51", "SM52"]
     assert nj.error("program-error") is None
 

@@ -250,6 +250,12 @@ def problems_of(model: Model, *errors: DraftError) -> list[tuple[str, str]]:
          "errors.1.details.0.name", "small letters"),
         (replace(PUMP, details=(DraftDetail("pump", "List", "x", (DraftAddress("n", "W9.01"),)),)),
          "errors.1.details.0.default", "none of the choices"),
+        (replace(PUMP, details=(DraftDetail("pump", "List", "", (DraftAddress("n"),)),)),
+         "errors.1.details.0.addresses.0.address", "give it an address"),
+        (replace(PUMP, details=(DraftDetail("pump", "List", "", (DraftAddress("", "W9.01"),)),)),
+         "errors.1.details.0.addresses.0.id", "give the choice an id"),
+        (replace(PUMP, details=(DraftDetail("pump", "Spin", "", (DraftAddress("", "W1", "Byte"),)),)),
+         "errors.1.details.0.addresses.0.min", "from where to where"),
         (replace(PUMP, also=(DraftAlso("W999.01"),)), "errors.1.also.0.address", "the last word is W511"),
     ],
 )  # fmt: skip

@@ -8,7 +8,7 @@ from scanbench.check.symbols import resolve
 from scanbench.check.values import python_value
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
-from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.plcmodel.load import model_named
 from scanbench.plcmodel.model import Model
 from scanbench.runtime.command import Entry
 from scanbench.runtime.program_change import ProgramChange
@@ -20,8 +20,7 @@ ENGINES: tuple[EngineFactory, ...] = (ReferenceEngine, NativeEngine)
 
 @cache
 def model(name: str = "CJ1M-CPU63") -> Model:
-    models, _ = load_all(model_directory())
-    return next(each for each in models if each.name == name)
+    return model_named(name)
 
 
 @cache

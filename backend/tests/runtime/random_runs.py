@@ -7,9 +7,13 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from datetime import UTC, datetime
 
+from scanbench.engines.interpreter.observed import observed_engine
+from scanbench.faults.arm import Arm, Disarm
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef
+from scanbench.faults.schedule import Schedule
+from scanbench.faults.shapes import Shape, Start, Wanted
 from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import Force, Release
@@ -54,6 +58,18 @@ SOURCES = (
 Step = tuple[Command, int]
 """A command, and how many scans follow."""
 
+BATTERY, UNIT = (ErrorRef("battery-error"),), (ErrorRef("cpu-bus-unit-error", (("unit", "3"),)),)
+ARMS = tuple(
+    Arm("Eve", wanted) for wanted in (
+        Wanted(BATTERY, shape=Shape("for", 3)), Wanted((*BATTERY, *UNIT), shape=Shape("intermittent", 2, 5)),
+        Wanted((*UNIT, *BATTERY), Start("condition", condition="Main.n MOD 7 = 3"), Shape("intermittent", 2, 5, 4, seed=9), gap=2),
+        Wanted(UNIT, Start("scan", 20), Shape("chatter", times=3)), Wanted(BATTERY, Start("condition", condition="Main.list[Main.n] > 0")),
+        Wanted(UNIT, shape=Shape("unacknowledged", 4, acknowledge="Main.t.Q OR Main.n MOD 5 = 0")),
+        Wanted((ErrorRef("memory-error"),), Start("condition", condition="NOT motor AND Main.n > 60")),
+        Wanted(BATTERY, Start("line", file="main.st", line=17), Shape("for", 2)), Wanted(UNIT, Start("line", file="main.st", line=9), Shape("chatter")),
+    )
+)  # fmt: skip
+
 COMMANDS: tuple[Command, ...] = (
     *(Write("Ada", path, text) for path, text in (
         ("start", "TRUE"), ("start", "FALSE"), ("total", "-7"), ("Main.n", "100"), ("Main.d", "-3"), ("Main.d", "0"), ("Main.d", "1"),
@@ -66,7 +82,7 @@ COMMANDS: tuple[Command, ...] = (
     Restart("Ada", "cold"), Restart("Ada", "warm"), Restart("Ada", "power"),
     *(ProgramChange("Bob", version) for version in (1, 2, 3)),
     Generate("Ada", (ErrorRef("battery-error"),)), Generate("Ada", (ErrorRef("memory-error"),)),
-    Recover("Ada", None), Recover("Ada", None), ClearViolations("Ada"), SetClock("Ada", datetime(2024, 2, 28, 23, 59, tzinfo=UTC)),
+    Recover("Ada", None), Recover("Ada", None), *ARMS, Disarm("Ada", None), ClearViolations("Ada"), SetClock("Ada", datetime(2024, 2, 28, 23, 59, tzinfo=UTC)),
 )  # fmt: skip
 
 
@@ -86,7 +102,7 @@ def shelf(engine: EngineFactory) -> Shelf:
 
 def live(programs: Shelf, steps: Sequence[Step]) -> tuple[list[Point], list[Entry]]:
     """What happens."""
-    resource = Resource(programs.get(1), programs=programs, detect=Detection())
+    resource = Resource(programs.get(1), programs=programs, detect=Detection(), agenda=Schedule(observed_engine))
     points = [_point(resource)]
     for command, scans in steps:
         resource.submit(command)

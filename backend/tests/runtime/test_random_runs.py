@@ -67,10 +67,12 @@ def test_the_random_runs_meet_everything() -> None:
     kinds = {type(entry.command).__name__ for entry in entries}
     assert kinds == {
         "Write", "Force", "Release", "SetMode", "Restart", "ProgramChange", "Generate", "Recover", "ClearViolations", "SetClock", "Trapped",
+        "Arm", "Disarm", "Missed",
     }  # fmt: skip
     assert {entry.command.info.kind for entry in entries if isinstance(entry.command, Trapped)} == {"division", "fatal"}
     assert {entry.command.author for entry in entries if isinstance(entry.command, Generate)} == {
         "Ada",
+        "Eve",
         "PLC",
         "program",
     }

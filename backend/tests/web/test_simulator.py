@@ -22,6 +22,12 @@ END_VAR
   END_IF;
 END_PROGRAM
 """
+WRITES = """
+PROGRAM Main
+VAR flag AT A402.12 : BOOL; END_VAR
+  flag := TRUE;
+END_PROGRAM
+"""
 CHECKSUM = {"id": "memory-error", "details": {"location": "io-table-checksum"}}
 
 
@@ -100,7 +106,7 @@ def test_error_memory_is_read_only_but_for_the_simulator(server: Server) -> None
         assert not browser.ask(type="write", path="A402.12", value="FALSE")["ok"]
         assert server.http.post(f"{base}/errors/recover", json={}).status_code == 200
         browser.wait(lambda: words(browser)[:3] == (0, 0, 0))
-    project = server.project("readonly by program", MODEL, main="PROGRAM Main\n  A402.12 := TRUE;\nEND_PROGRAM\n")
+    project = server.project("readonly by program", MODEL, main=WRITES)
     built = server.http.post(f"/api/projects/{project}/build", json={})
     assert not built.json()["ok"]
     assert "read-only" in built.text or "only read" in built.text, built.text

@@ -6,6 +6,7 @@ import { OnlineChange } from "../panels/change/OnlineChange";
 import { Explorer } from "../panels/explorer/Explorer";
 import { Instances } from "../panels/instances/Instances";
 import { StatusBar } from "../panels/status/StatusBar";
+import { Sweeping } from "../panels/sweep/Sweeping";
 import { Timeline } from "../panels/timeline/Timeline";
 import { TopBar } from "../panels/topbar/TopBar";
 import { start, useBench } from "../store/bench";
@@ -70,6 +71,7 @@ function Window() {
       <StatusBar />
       <Instances />
       <OnlineChange />
+      <Sweeping />
     </div>
   );
 }

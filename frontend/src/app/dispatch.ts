@@ -6,7 +6,9 @@ import { onForces, onWritten } from "../store/forces";
 import { resetMembers } from "../store/members";
 import { onErrors, onHello, onLog, onState, usePlc } from "../store/plc";
 import { forgetRefusals } from "../store/run";
+import { onSweep, onSweepHello } from "../store/sweeps";
 import { onTimeline } from "../store/timeline";
+import { onFileSaved } from "../store/userErrors";
 import { apply } from "../store/values";
 import { onWatching, watchAgain } from "../store/watches";
 import { refreshMembers } from "../store/watchlist";
@@ -37,6 +39,7 @@ function dispatch(message: ServerMessage): void {
       onProject(message.instance.project);
       useBench.setState({ instance: message.instance });
       watchAgain();
+      onSweepHello();
       void catchUp();
       return;
     case "state":
@@ -67,6 +70,7 @@ function dispatch(message: ServerMessage): void {
       return;
     case "saved":
       void onSaved(message.file);
+      onFileSaved(message.file);
       return;
     case "deleted":
       void onDeleted(message.path, message.author);
@@ -82,6 +86,9 @@ function dispatch(message: ServerMessage): void {
       return;
     case "written":
       onWritten(message.path, message.author, message.scan);
+      return;
+    case "sweep":
+      onSweep(message);
       return;
     case "alive":
       return;

@@ -1,22 +1,22 @@
 import type { IDockviewHeaderActionsProps, IDockviewPanelHeaderProps, IDockviewPanelProps } from "dockview-react";
 import { type MouseEvent, type ReactNode, useEffect } from "react";
-import { allErrors } from "../logic/catalogue";
 import { baseName } from "../logic/paths";
 import { t } from "../logic/text";
 import { DiagnosticsPanel } from "../panels/diagnostics/DiagnosticsPanel";
 import { EditorPanel } from "../panels/editor/EditorPanel";
 import { ErrorsPanel } from "../panels/errors/ErrorsPanel";
+import { PanelEnd } from "../panels/errors/PanelEnd";
 import { HistoryPanel } from "../panels/history/HistoryPanel";
 import { LogPanel } from "../panels/log/LogPanel";
 import { ProblemsPanel } from "../panels/problems/ProblemsPanel";
 import { WatchPanel } from "../panels/watch/WatchPanel";
-import { useBench } from "../store/bench";
 import { isDirty, useDocuments } from "../store/documents";
 import { type PageName, pageOf } from "../store/navigate";
 import { usePlc } from "../store/plc";
 import { Icon, type IconName } from "../ui/Icon";
 import type { Pou } from "../wire/types";
 import { closeTab, fileOf } from "./layout";
+import { PageEnd } from "./PageEnd";
 import { PAGES, pageComponents } from "./pages";
 import { Start } from "./Start";
 
@@ -131,12 +131,7 @@ function ClosableTab({ panel, name, onClose, children }: ClosableProps) {
   );
 }
 
-/** At the end of the error simulator's tabs: how much of the catalogue was tested. */
-export function HeaderEnd({ panels }: IDockviewHeaderActionsProps) {
-  const model = useBench((bench) => bench.model);
-  const errors = usePlc((plc) => plc.errors);
-  if (!model || !panels.some((panel) => panel.id === "errors")) return null;
-  const all = allErrors(model.catalogue);
-  const tested = all.filter((error) => (errors.get(error.id)?.status ?? "never") !== "never").length;
-  return <span className="tested">{t("errors.tested", { tested, total: all.length })}</span>;
+/** At the end of the tabs: what belongs to the error simulator as a whole, or the room that a page takes. */
+export function HeaderEnd(props: IDockviewHeaderActionsProps) {
+  return props.panels.some((panel) => panel.id === "errors") ? <PanelEnd /> : <PageEnd {...props} />;
 }

@@ -1,8 +1,13 @@
 /** Pages: what stands among the files in the centre without being one. */
 import type { ReactNode } from "react";
+import { t } from "../logic/text";
+import { RecordPage } from "../panels/history/RecordPage";
 import { SweepPage } from "../panels/sweep/SweepPage";
+import { UserErrorsPage } from "../panels/usererrors/UserErrorsPage";
 import type { PageName } from "../store/navigate";
+import { useRecordTitle } from "../store/records";
 import { useSweepTitle } from "../store/sweeps";
+import { isEdited, useUserErrors } from "../store/userErrors";
 import type { IconName } from "../ui/Icon";
 
 interface Page {
@@ -14,6 +19,13 @@ interface Page {
 
 export const PAGES: Record<PageName, Page> = {
   sweep: { component: SweepPage, icon: "generated", useTitle: useSweepTitle },
+  record: { component: RecordPage, icon: "import", useTitle: useRecordTitle },
+  usererrors: { component: UserErrorsPage, icon: "list", useTitle: useUserErrorsTitle },
 };
+
+function useUserErrorsTitle(): string {
+  const edited = useUserErrors(isEdited);
+  return edited ? `${t("usererrors.title")}, ${t("unsaved")}` : t("usererrors.title");
+}
 
 export const pageComponents = Object.fromEntries(Object.entries(PAGES).map(([name, page]) => [name, page.component]));

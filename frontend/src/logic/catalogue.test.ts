@@ -1,14 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { ErrorGroup, ErrorHistoryRow, ErrorInfo } from "../wire/types";
-import {
-  type CatalogueView,
-  catalogueRows,
-  defaultDetails,
-  detailsInWords,
-  inNames,
-  outOfRange,
-  toggleAll,
-} from "./catalogue";
+import { type CatalogueView, catalogueRows, detailsInWords, inNames, rowFor, toggleAll } from "./catalogue";
 
 const error = (id: string, code: string, details: ErrorInfo["details"] = []): ErrorInfo => ({
   id,
@@ -16,24 +8,28 @@ const error = (id: string, code: string, details: ErrorInfo["details"] = []): Er
   description: "",
   code,
   flag: `A402.${code.slice(-1)}`,
-  severity: "nonfatal",
+  severity: code.startsWith("80") ? "fatal" : "nonfatal",
+  priority: 1,
   verified: true,
   source: "",
   details,
+  user: false,
 });
 
-const groups: ErrorGroup[] = [
+const groups = [
   { name: "Fatal", groups: [], errors: [error("memory-error", "80F1")] },
   {
     name: "Non-fatal",
     groups: [{ name: "Units", groups: [], errors: [error("unit-error", "0300")] }],
     errors: [error("battery-error", "00F7"), error("io-error", "009A")],
   },
-];
+] satisfies [ErrorGroup, ErrorGroup];
 
 const view = (over: Partial<CatalogueView> = {}): CatalogueView => ({
   filter: "",
   status: "all",
+  severity: "all",
+  reaction: "all",
   closed: new Set(),
   checked: new Set(),
   history: new Map(),
@@ -71,15 +67,59 @@ describe("catalogueRows", () => {
     expect(keys("nothing of the kind")).toEqual([]);
   });
 
-  it("filters by state, counts what was tested and shows the raised code", () => {
+  it("finds a name in the other language, too", () => {
+    const [plain] = groups;
+    const wordings = [{ language: "ja", name: "メモリ異常", description: "" }];
+    const found = (filter: string) =>
+      catalogueRows([{ ...plain, errors: plain.errors.map((one) => ({ ...one, wordings })) }], view({ filter }));
+    expect(found("メモリ").map((row) => row.key)).toEqual(["/Fatal", "memory-error"]);
+    expect(found("memory").map((row) => row.key)).toEqual(["/Fatal", "memory-error"]);
+  });
+
+  it("filters by state and shows the raised code", () => {
     const rows = catalogueRows(
       groups,
       view({ status: "generated", history: history("io-error", "generated", "009B") }),
     );
     expect(rows).toMatchObject([
-      { key: "/Non-fatal", tested: 1 },
+      { key: "/Non-fatal", tested: 0 },
       { key: "io-error", code: "009B" },
     ]);
+  });
+
+  it("filters by severity", () => {
+    const keys = catalogueRows(groups, view({ severity: "fatal" })).map((row) => row.key);
+    expect(keys).toEqual(["/Fatal", "memory-error"]);
+  });
+
+  it("counts as tested what a reaction is known of, and filters by it", () => {
+    const reacted = (id: string, verdict: string | null, state = "done") =>
+      [id, { id, status: "generated", code: "", reaction: { state, verdict, scans: 1, message: "" } }] as const;
+    const known = new Map([
+      reacted("unit-error", "reacted"),
+      reacted("battery-error", "never_read"),
+      reacted("io-error", null, "recording"),
+    ]) as unknown as CatalogueView["history"];
+    const keys = (reaction: CatalogueView["reaction"]) =>
+      catalogueRows(groups, view({ reaction, history: known }))
+        .filter((row) => row.kind === "error")
+        .map((row) => row.key);
+    expect(catalogueRows(groups, view({ history: known })).find((row) => row.key === "/Non-fatal")).toMatchObject({
+      tested: 2,
+      ids: ["unit-error", "battery-error", "io-error"],
+    });
+    expect(keys("findings")).toEqual(["battery-error"]);
+    expect(keys("reacted")).toEqual(["unit-error"]);
+    expect(keys("unknown")).toEqual(["memory-error", "io-error"]);
+  });
+
+  it("jumps to the next row that begins with what is typed, by name, code or flag", () => {
+    const rows = catalogueRows(groups, view());
+    expect(rowFor(rows, "n", 0)?.key).toBe("/Non-fatal");
+    expect(rowFor(rows, "ba", 0)?.key).toBe("battery-error");
+    expect(rowFor(rows, "009", 0)?.key).toBe("io-error");
+    expect(rowFor(rows, "m", 3)?.key).toBe("memory-error");
+    expect(rowFor(rows, "xyz", 0)).toBeUndefined();
   });
 
   it("folds", () => {
@@ -95,15 +135,6 @@ describe("toggleAll", () => {
 });
 
 describe("details", () => {
-  it("begin with the default, the first choice, or the least number", () => {
-    const details = [
-      { name: "what", control: "List", choices: [{ id: "table", description: "", address: "" }], default: "" },
-      { name: "rack", control: "Spin", minimum: 2, maximum: 3, default: "" },
-      { name: "slot", control: "Spin", minimum: 0, maximum: 9, default: "5" },
-    ] as unknown as ErrorInfo["details"];
-    expect(defaultDetails(error("x", "0001", details))).toEqual({ what: "table", rack: "2", slot: "5" });
-  });
-
   it("are told in words where the catalogue has some", () => {
     const details = [
       { name: "part", description: "Part", choices: [{ id: "table", description: "I/O table", address: "" }] },
@@ -124,12 +155,5 @@ describe("details", () => {
     expect(inNames(errors, "io-error: already generated by Mika")).toBe("Io error: already generated by Mika");
     expect(inNames(errors, "recovered basic-io-error (rack=2)")).toBe("Recovered basic-io-error (rack=2)");
     expect(inNames(errors, "")).toBe("");
-  });
-
-  it("know their range", () => {
-    expect(outOfRange("4", 0, 3, 10)).toBe(true);
-    expect(outOfRange("3", 0, 3, 10)).toBe(false);
-    expect(outOfRange("1A0G", 0, 1023, 16)).toBe(true);
-    expect(outOfRange("1A0", 0, 1023, 16)).toBe(false);
   });
 });

@@ -165,9 +165,7 @@ export function toggleAll(ids: readonly string[], checked: ReadonlySet<string>):
 export function rowFor(rows: readonly CatalogueRow[], typed: string, from: number): CatalogueRow | undefined {
   const wanted = typed.toLowerCase();
   const inTurn = [...rows.slice(from), ...rows.slice(0, from)];
-  return inTurn.find((row) =>
-    textsOf(row).some((text) => text.toLowerCase().startsWith(wanted)),
-  );
+  return inTurn.find((row) => textsOf(row).some((text) => text.toLowerCase().startsWith(wanted)));
 }
 
 function textsOf(row: CatalogueRow): string[] {

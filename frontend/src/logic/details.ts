@@ -32,7 +32,9 @@ const formatOf = (detail: ErrorDetail): Format => (detail.base === 16 ? "hex" : 
 
 /** The entries as first shown: the default of each control, or its first choice, or its least number. */
 export function defaultEntries(error: ErrorInfo): Entries {
-  return Object.fromEntries(error.details.map((detail) => [detail.name, { text: first(detail), format: formatOf(detail) }]));
+  return Object.fromEntries(
+    error.details.map((detail) => [detail.name, { text: first(detail), format: formatOf(detail) }]),
+  );
 }
 
 function first(detail: ErrorDetail): string {
@@ -101,7 +103,11 @@ function characters(value: number): string {
 export function reformat(detail: ErrorDetail, entry: Entry, format: Format): Entry {
   const read = entry.format === "text" ? fromCharacters(entry.text) : fromDigits(entry.text, entry.format);
   if (typeof read !== "number") return { text: entry.text, format };
-  const hex = () => read.toString(16).toUpperCase().padStart(width(detail.maximum ?? null), "0");
+  const hex = () =>
+    read
+      .toString(16)
+      .toUpperCase()
+      .padStart(width(detail.maximum ?? null), "0");
   const text = { hex, decimal: () => read.toString(), text: () => characters(read) }[format]();
   return { text, format };
 }

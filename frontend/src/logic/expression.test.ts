@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { withName } from "./expression";
+import { pathBefore, withName, withPath } from "./expression";
 
 describe("a near match", () => {
   it("takes the place of the name that is not known", () => {
@@ -17,5 +17,20 @@ describe("a near match", () => {
 
   it("is all that is left when nothing tells which name is meant", () => {
     expect(withName("a > b", "not known", "c")).toBe("c");
+  });
+});
+
+describe("completion in a condition", () => {
+  it("is about the path in front of the caret", () => {
+    expect(pathBefore("Main.count > Main.be", 20)).toBe("Main.be");
+    expect(pathBefore("Main.count > 3", 14)).toBe("");
+    expect(pathBefore("Main.co > 3", 7)).toBe("Main.co");
+    expect(pathBefore("belt[1].ru", 10)).toBe("belt[1].ru");
+    expect(pathBefore("start AND", 9)).toBe("");
+    expect(pathBefore("%IX0", 4)).toBe("%IX0");
+  });
+
+  it("replaces it and leaves the rest", () => {
+    expect(withPath("Main.co > 3", 7, "Main.count")).toEqual({ text: "Main.count > 3", caret: 10 });
   });
 });

@@ -87,8 +87,7 @@ function readHow(form: ShapeForm, troubles: ReadShape["troubles"]): FaultShape {
     if (!troubles.period && !troubles.scans && shape.period <= shape.scans) troubles.period = "shape.bad.period";
     if (form.chance) shape.seed = count("seed", 0, 0);
   }
-  if (how === "intermittent" || how === "chatter")
-    shape.times = form.times.trim() === "" ? null : count("times", 1, 1);
+  if (how === "intermittent" || how === "chatter") shape.times = form.times.trim() === "" ? null : count("times", 1, 1);
   if (how === "unacknowledged") {
     shape.acknowledge = form.acknowledge.trim();
     if (shape.acknowledge === "") troubles.acknowledge = "run.noexpression";

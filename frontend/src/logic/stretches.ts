@@ -59,6 +59,8 @@ function after(course: Course, { kind, text }: Mark, fatal: ReadonlySet<string>)
       // Where the old program had stopped by itself, the mended one begins anew, without the errors of before.
       return /^program version \d+: warm start/.test(text) ? RUNNING : course;
     case "error":
+      // Armed is not raised yet, and missed was not raised at all.
+      if (/^(armed|fault) \d+\b/.test(text)) return course;
       return { ...course, fatal: new Set([...course.fatal, ...named(text, fatal)]) };
     case "recover":
       return recovered(course, text, named(text, fatal));

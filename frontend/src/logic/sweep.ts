@@ -1,7 +1,22 @@
 /** An error sweep as a matrix: rows by the catalogue's groups, what stands in each cell, what is worth a look. */
-import type { Accepted, CellRef, Reaction, Sweep, SweepCell, SweepChange, SweepError, SweepSummary, Verdict } from "../wire/types";
+import type {
+  Accepted,
+  CellRef,
+  ErrorGroup,
+  Reaction,
+  Sweep,
+  SweepCell,
+  SweepChange,
+  SweepError,
+  SweepSummary,
+  Verdict,
+} from "../wire/types";
+import { duration } from "./numbers";
 
 export const VERDICTS = ["reacted", "stopped", "no_effect", "never_read"] as const satisfies readonly Verdict[];
+
+/** What a sweep calls the PLC as it was when it began. */
+export const NOW = "Now";
 
 /** What stands where no result is (yet): it is tried now, its turn comes, or the sweep ended before it. */
 export type Pending = "running" | "waiting" | "missing";
@@ -66,6 +81,20 @@ export function matrixRows(sweep: Sweep, view: MatrixView): MatrixRow[] {
   return [...groups].flatMap(([name, rows]): MatrixRow[] => (name === "" ? rows : [{ kind: "group", name }, ...rows]));
 }
 
+/** The sweep with the names of errors and groups as this catalogue has them. */
+export function inWordsOf(sweep: Sweep, catalogue: readonly ErrorGroup[]): Sweep {
+  const words = new Map<string, { name: string; group: string }>();
+  const collect = (groups: readonly ErrorGroup[], above: string) => {
+    for (const { name, groups: inner, errors } of groups) {
+      const path = above === "" ? name : `${above} / ${name}`;
+      for (const error of errors) words.set(error.id, { name: error.name, group: path });
+      collect(inner, path);
+    }
+  };
+  collect(catalogue, "");
+  return { ...sweep, errors: sweep.errors.map((error) => ({ ...error, ...words.get(error.id) })) };
+}
+
 function passes(slots: readonly Slot[], { findings, verdict }: MatrixView): boolean {
   const found = slots.filter(isCell);
   if (findings && !found.some(isOpen)) return false;
@@ -122,7 +151,13 @@ export interface Place {
 }
 
 /** Where a key leads from a cell: group rows are passed over, and a row that is one line has one place. Null: nowhere. */
-export function stepIn(rows: readonly MatrixRow[], states: number, from: Place | null, key: string, page: number): Place | null {
+export function stepIn(
+  rows: readonly MatrixRow[],
+  states: number,
+  from: Place | null,
+  key: string,
+  page: number,
+): Place | null {
   const errors = rows.flatMap((row, index) => (row.kind === "error" ? [index] : []));
   const [first] = errors;
   const last = errors.at(-1);
@@ -167,11 +202,48 @@ export function secondsLeft({ status, done, total, seconds }: SweepSummary): num
   return (seconds / done) * (total - done);
 }
 
+/** 7 s, 2 min 5 s: more than that nobody wants to know. */
+export function timeLeft(seconds: number): string {
+  const whole = Math.max(1, Math.ceil(seconds));
+  return whole < 60 ? `${whole} s` : duration(whole * 1e9);
+}
+
 /** A sweep with what was told of it since: the summary as it is now, and cells in the place of those of before. */
 export function merged(sweep: Sweep, summary: SweepSummary, cells: readonly SweepCell[]): Sweep {
-  const { id, project, instance, model, program_version, by, at, status, message, done, total, window, states, counts, seconds } =
-    summary;
-  const told = { id, project, instance, model, program_version, by, at, status, message, done, total, window, states, counts, seconds };
+  const {
+    id,
+    project,
+    instance,
+    model,
+    program_version,
+    by,
+    at,
+    status,
+    message,
+    done,
+    total,
+    window,
+    states,
+    counts,
+    seconds,
+  } = summary;
+  const told = {
+    id,
+    project,
+    instance,
+    model,
+    program_version,
+    by,
+    at,
+    status,
+    message,
+    done,
+    total,
+    window,
+    states,
+    counts,
+    seconds,
+  };
   if (cells.length === 0) return { ...sweep, ...told };
   const all = new Map(sweep.cells.map((cell) => [keyOf(cell), cell]));
   for (const cell of cells) all.set(keyOf(cell), cell);
@@ -189,12 +261,20 @@ export function olderFirst(list: readonly SweepSummary[], one: number, other: nu
   return at(one) < at(other) || (at(one) === at(other) && one < other) ? [one, other] : [other, one];
 }
 
-/** What the program did, in numbers: statements that read flag, code and details. */
-export function readersOf(reaction: Reaction, what: Reaction["readers"][number]["what"]): number {
+/** How many statements read the flag, the code, or a detail. */
+export function countReaders(reaction: Reaction, what: Reaction["readers"][number]["what"]): number {
   return reaction.readers.filter((reader) => reader.what === what).length;
 }
 
-export const CHANGES = ["worse", "better", "slower", "faster", "new", "gone", "same"] as const satisfies readonly SweepChange["change"][];
+export const CHANGES = [
+  "worse",
+  "better",
+  "slower",
+  "faster",
+  "new",
+  "gone",
+  "same",
+] as const satisfies readonly SweepChange["change"][];
 
 /** What is worse stands first, what stayed the same last; within one kind the order of the sweep. */
 export function sortedChanges(changes: readonly SweepChange[], onlyChanges: boolean): SweepChange[] {

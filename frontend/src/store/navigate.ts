@@ -3,7 +3,7 @@ import { create } from "zustand";
 
 export type PanelName = "watch" | "problems" | "log" | "errors" | "history";
 /** What stands among the files in the centre without being one: opened when asked for, closed like a file. */
-const PAGES = ["sweep"] as const;
+const PAGES = ["sweep", "usererrors", "record"] as const;
 export type PageName = (typeof PAGES)[number];
 
 export const pageOf = (panel: string): PageName | undefined => PAGES.find((name) => name === panel);

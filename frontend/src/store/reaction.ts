@@ -45,7 +45,8 @@ function follow(): void {
   if (useReaction.getState().id !== next.id) useReaction.setState({ ...nothing, id: next.id });
   rest.reaction(next.instance, next.id).then(
     (reaction) => shown === key && useReaction.setState({ id: next.id, reaction, refused: null }),
-    (error: unknown) => shown === key && useReaction.setState({ id: next.id, reaction: null, refused: messageOf(error) }),
+    (error: unknown) =>
+      shown === key && useReaction.setState({ id: next.id, reaction: null, refused: messageOf(error) }),
   );
 }
 

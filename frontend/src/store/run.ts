@@ -70,9 +70,22 @@ export async function chooseMode(mode: Mode): Promise<void> {
 export async function recoverAndGoOn(): Promise<void> {
   const present = [...usePlc.getState().errors.values()].some((row) => row.status === "generated");
   if (present && !report(await send({ type: "recover", ids: null })).ok) return;
-  const monitor = await send({ type: "mode", mode: "MONITOR" });
-  // A trap that no error stands for is ended by PROGRAM.
-  if (!monitor.ok && report(await send({ type: "mode", mode: "PROGRAM" })).ok) await chooseMode("MONITOR");
+  await backTo("MONITOR");
+}
+
+/** The mode in which the program ran until it was stopped; MONITOR when this page has not seen it run. */
+let ranIn: Mode = "MONITOR";
+
+export function modeBefore(): Mode {
+  const mode = usePlc.getState().state?.mode ?? "PROGRAM";
+  return mode === "PROGRAM" ? ranIn : mode;
+}
+
+/** Once nothing fatal is left: into a mode at once where the model allows it, else by way of PROGRAM. */
+export async function backTo(mode: Mode): Promise<void> {
+  const direct = await send({ type: "mode", mode });
+  // A trap that no error stands for is ended by PROGRAM, too.
+  if (!direct.ok && report(await send({ type: "mode", mode: "PROGRAM" })).ok) await chooseMode(mode);
 }
 
 /** The same condition once more, from the menu: a refusal is shown in the status bar. */
@@ -100,6 +113,7 @@ export function forgetRefusals(): void {
 }
 
 usePlc.subscribe(({ state: now }, { state: before }) => {
+  if (now?.state === "running" || now?.state === "paused") ranIn = now.mode;
   if (now?.state !== before?.state || now?.mode !== before?.mode || now?.past?.live_scan !== before?.past?.live_scan)
     forgetRefusals();
 });

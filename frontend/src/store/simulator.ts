@@ -2,6 +2,7 @@
 import { create } from "zustand";
 import { type ErrorStatus, type ReactionFilter, toggleAll } from "../logic/catalogue";
 import { defaultEntries, type Entries, type Entry, needsDetails, wireDetails } from "../logic/details";
+import { withName } from "../logic/expression";
 import { isPlain, plainShape, readShape, type ShapeForm } from "../logic/shapes";
 import { send } from "../wire/send";
 import type { ErrorInfo, GenerateOne } from "../wire/types";
@@ -15,6 +16,8 @@ export interface Outcome {
   ids: readonly string[];
   /** Of these, the ones that are generated already: generating them again changes their details. */
   present: readonly string[];
+  /** Names that come near one that the PLC did not know. */
+  near: readonly string[];
 }
 
 interface Simulator {
@@ -61,6 +64,14 @@ export const setFilters = (filters: Partial<Filters>) => set(filters);
 export const selectError = (selected: string | null) => set({ selected, outcome: null });
 export const setShape = (change: Partial<ShapeForm>) => set(({ shape }) => ({ shape: { ...shape, ...change } }));
 export const closeDialog = () => set({ asking: null });
+export const forgetOutcome = () => set({ outcome: null });
+
+/** A name in the condition that the PLC did not know becomes one that it does. */
+export function mendCondition({ message }: Outcome, name: string): void {
+  const { shape } = get();
+  const field = shape.when === "condition" ? "condition" : "acknowledge";
+  set({ shape: { ...shape, [field]: withName(shape[field], message, name) }, outcome: null });
+}
 
 export function toggleChecked(ids: readonly string[]): void {
   set(({ checked }) => ({ checked: toggleAll(ids, checked), outcome: null }));
@@ -135,9 +146,9 @@ export async function raise(errors: readonly ErrorInfo[], { gap = 0, again = fal
 }
 
 /** What was refused because some of it is present, once more: what is present takes the details that are shown now. */
-export async function changeDetails(errors: readonly ErrorInfo[], outcome: Outcome): Promise<void> {
+export async function changeDetails(errors: readonly ErrorInfo[], outcome: Outcome): Promise<boolean> {
   const ids = new Set(outcome.ids);
-  await raise(
+  return raise(
     errors.filter((error) => ids.has(error.id)),
     { again: true },
   );
@@ -168,6 +179,7 @@ async function report(answer: ReturnType<typeof send>, errors: readonly ErrorInf
   const ids = errors.map((error) => error.id);
   const raised = usePlc.getState().errors;
   const present = ok ? [] : (near ?? []).filter((id) => ids.includes(id) && raised.get(id)?.status === "generated");
-  set({ outcome: { ok, message, ids, present } });
+  const others = ok ? [] : (near ?? []).filter((name) => !present.includes(name));
+  set({ outcome: { ok, message, ids, present, near: others } });
   return ok;
 }

@@ -18,11 +18,14 @@ import { refreshApp, useBench } from "./bench";
 import { messageOf } from "./documents";
 import { openInstance } from "./instances";
 import { keep, recall } from "./keep";
-import { openPage } from "./navigate";
+import { openPage, showPanel } from "./navigate";
 import { usePlc } from "./plc";
 
 /** What the page shows: the list, one sweep, or two of them side by side. */
-export type Shown = { view: "list" } | { view: "sweep"; id: number } | { view: "compare"; before: number; after: number };
+export type Shown =
+  | { view: "list" }
+  | { view: "sweep"; id: number }
+  | { view: "compare"; before: number; after: number };
 
 /** The dialog that is open. */
 export type Question = { ask: "run" } | { ask: "keep"; scan: number | null };
@@ -108,7 +111,8 @@ function show(shown: Shown): void {
   const { project } = get();
   if (project !== null) keep(`sweep.${project}`, shown.view === "sweep" ? shown.id : null);
   openPage("sweep");
-  void loadShown();
+  // The list may have changed: what others delete is not told.
+  void (shown.view === "list" ? refreshSweeps() : loadShown());
 }
 
 // ---- what the server tells -------------------------------------------------------------------------------------
@@ -156,7 +160,7 @@ function takeWhole(sweep: Sweep): void {
 
 /** The connection is back: what the socket did not tell meanwhile is asked for. */
 export function onSweepHello(): void {
-  if (get().list !== null) void refreshSweeps();
+  void refreshSweeps();
 }
 
 /** A sweep of this project began, went on or ended. */
@@ -247,4 +251,5 @@ export const openCell = (id: number, cell: CellRef) =>
     const made = await rest.openCell(id, cell, taken.includes(name) ? copyName(name, taken) : name);
     await refreshApp();
     openInstance(made);
+    showPanel("errors");
   });

@@ -21,7 +21,17 @@ interface Props {
 }
 
 /** A dialog that asks for one name. */
-export function AskName({ title, about, label, action, initial = "", missing = t("name.missing"), onName, onClose, children }: Props) {
+export function AskName({
+  title,
+  about,
+  label,
+  action,
+  initial = "",
+  missing = t("name.missing"),
+  onName,
+  onClose,
+  children,
+}: Props) {
   const [typed, setTyped] = useState<string | null>(null);
   const name = typed ?? initial;
   const [refused, setRefused] = useState<string | null>(null);

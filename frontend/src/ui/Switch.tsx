@@ -10,7 +10,7 @@ interface Props {
 export function Switch({ on, onToggle, children }: Props) {
   return (
     <label className="switchrow">
-      <input type="checkbox" role="switch" className="switch" checked={on} onChange={onToggle} />
+      <input type="checkbox" role="switch" aria-checked={on} className="switch" checked={on} onChange={onToggle} />
       {children}
     </label>
   );

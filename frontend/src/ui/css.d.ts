@@ -6,6 +6,7 @@ declare module "react" {
     "--lv"?: number;
     "--rows"?: number;
     "--cols"?: string;
+    "--states"?: number;
     "--c-current"?: string;
     "--c-change"?: string;
     "--c-type"?: string;

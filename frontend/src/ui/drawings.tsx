@@ -79,6 +79,7 @@ export const drawings = {
   ),
   plus: <path d="M8 3.25v9.5M3.25 8h9.5" />,
   minus: <path d="M3.5 8h9" />,
+  equal: <path d="M3.5 6.25h9M3.5 9.75h9" />,
   x: <path d="m4.25 4.25 7.5 7.5M11.75 4.25l-7.5 7.5" />,
   check: <path d="m3.25 8.5 3 3 6.5-7" />,
   more: (

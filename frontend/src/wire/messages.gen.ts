@@ -232,6 +232,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/history": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On History
+         * @description The error history of a version, or of the one that runs.
+         */
+        get: operations["on_history_api_instances__instance__history_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/history/versions": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Versions
+         * @description The versions of the program that have an error history here, the newest first.
+         */
+        get: operations["on_versions_api_instances__instance__history_versions_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/model": {
         parameters: {
             query?: never;
@@ -244,6 +284,26 @@ export interface paths {
          * @description The model with the errors that the project added, as the program that runs knows it.
          */
         get: operations["on_model_api_instances__instance__model_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/record": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Record
+         * @description The test record of a version, or of the one that runs: as a file, or as JSON.
+         */
+        get: operations["on_record_api_instances__instance__record_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -524,6 +584,54 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/projects/{project}/records": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Records
+         * @description The test records that were brought in, the newest first.
+         */
+        get: operations["on_records_api_projects__project__records_get"];
+        put?: never;
+        /**
+         * On Import
+         * @description Keeps a test record from elsewhere; the body is its XML.
+         */
+        post: operations["on_import_api_projects__project__records_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/projects/{project}/records/{record}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Imported
+         * @description A test record that was brought in: as a file, or as JSON.
+         */
+        get: operations["on_imported_api_projects__project__records__record__get"];
+        put?: never;
+        post?: never;
+        /**
+         * On Delete
+         * @description Forgets a test record that was brought in.
+         */
+        delete: operations["on_delete_api_projects__project__records__record__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/projects/{project}/states": {
         parameters: {
             query?: never;
@@ -558,6 +666,90 @@ export interface paths {
         get: operations["on_sweeps_api_projects__project__sweeps_get"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/projects/{project}/user-errors": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On User Errors
+         * @description The project's own errors.
+         */
+        get: operations["on_user_errors_api_projects__project__user_errors_get"];
+        /**
+         * On Save User Errors
+         * @description Writes them all to errors.xml, if nothing is wrong with them and nobody else saved since they were read.
+         */
+        put: operations["on_save_user_errors_api_projects__project__user_errors_put"];
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/projects/{project}/user-errors/check": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Check User Errors
+         * @description What is wrong with errors that are being edited; stores nothing.
+         */
+        post: operations["on_check_user_errors_api_projects__project__user_errors_check_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/projects/{project}/user-errors/export": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Export User Errors
+         * @description The file errors.xml.
+         */
+        get: operations["on_export_user_errors_api_projects__project__user_errors_export_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/projects/{project}/user-errors/import": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Import User Errors
+         * @description Takes the errors of a file, which is the body, in place of the project's own or in addition to them.
+         */
+        post: operations["on_import_user_errors_api_projects__project__user_errors_import_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1207,6 +1399,7 @@ export interface components {
             adds: boolean;
             /**
              * Base
+             * @description 10, 16; 0: a text of at most `maximum` characters
              * @default 10
              */
             base: number;
@@ -1564,6 +1757,45 @@ export interface components {
             /** Users */
             users: components["schemas"]["User"][];
             you: components["schemas"]["User"];
+        };
+        /**
+         * HistoryOfVersion
+         * @description The error history of one version, in the order of the catalogue.
+         */
+        HistoryOfVersion: {
+            /** Rows */
+            rows: components["schemas"]["ErrorHistoryRow"][];
+            /** Running */
+            running: boolean;
+            /** Version */
+            version: number;
+        };
+        /**
+         * HistoryVersion
+         * @description A version of the program that has an error history on a PLC.
+         */
+        HistoryVersion: {
+            /**
+             * At
+             * @description when it was built; null where the project does not know it
+             */
+            at: string | null;
+            /** Author */
+            author: string;
+            /**
+             * Raised
+             * @description errors that were raised on it
+             */
+            raised: number;
+            /** Running */
+            running: boolean;
+            /** Version */
+            version: number;
+        };
+        /** ImportedRecord */
+        ImportedRecord: {
+            info: components["schemas"]["RecordInfo"];
+            record: components["schemas"]["TestRecord"];
         };
         /** Instance */
         Instance: {
@@ -2103,6 +2335,169 @@ export interface components {
              */
             what: "flag" | "code" | "detail";
         };
+        /** RecordAccepted */
+        RecordAccepted: {
+            /** At */
+            at: string;
+            /** By */
+            by: string;
+            /** Reason */
+            reason: string;
+            /** State */
+            state: string;
+        };
+        /** RecordCell */
+        RecordCell: {
+            /** Error */
+            error: string;
+            /** Note */
+            note: string;
+            /** Scans */
+            scans: number | null;
+            /** State */
+            state: string;
+            /** Verdict */
+            verdict: ("reacted" | "no_effect" | "never_read" | "stopped") | null;
+        };
+        /**
+         * RecordError
+         * @description One error of the catalogue, as the record has it.
+         */
+        RecordError: {
+            /** Accepted */
+            accepted: components["schemas"]["RecordAccepted"][];
+            /** By */
+            by: string;
+            /** Code */
+            code: string;
+            /** Count */
+            count: number;
+            /** Details */
+            details: string;
+            /** Flag */
+            flag: string;
+            /** Generated At */
+            generated_at: string | null;
+            /** Generated Scan */
+            generated_scan: number | null;
+            /**
+             * Group
+             * @description from the top, with ` / ` between
+             */
+            group: string;
+            /** Id */
+            id: string;
+            /** Name */
+            name: string;
+            /** Origin */
+            origin: ("simulator" | "plc" | "program") | null;
+            /** @description on the PLC itself; of its differences the outputs */
+            reaction: components["schemas"]["Reaction"] | null;
+            /** Reaction Note */
+            reaction_note: string;
+            /** Recovered At */
+            recovered_at: string | null;
+            /** Recovered Scan */
+            recovered_scan: number | null;
+            /**
+             * Scans
+             * @description until the first effect, from 1
+             */
+            scans: number | null;
+            /**
+             * Severity
+             * @enum {string}
+             */
+            severity: "fatal" | "nonfatal";
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "never" | "generated" | "cleared";
+            /**
+             * Verdict
+             * @description of the PLC itself, else of sweeps
+             */
+            verdict: ("reacted" | "no_effect" | "never_read" | "stopped") | null;
+            /**
+             * Verdict From
+             * @enum {string}
+             */
+            verdict_from: "plc" | "sweep" | "";
+        };
+        /**
+         * RecordInfo
+         * @description A test record that was brought into a project.
+         */
+        RecordInfo: {
+            /** At */
+            at: string;
+            /**
+             * By
+             * @description who brought it in
+             */
+            by: string;
+            /** Id */
+            id: number;
+            /** Project */
+            project: number;
+            /** Title */
+            title: string;
+        };
+        /** RecordLine */
+        RecordLine: {
+            /** At */
+            at: string;
+            /** By */
+            by: string;
+            /** Scan */
+            scan: number;
+            /** Text */
+            text: string;
+        };
+        /** RecordSummary */
+        RecordSummary: {
+            /** Accepted */
+            accepted: number;
+            /** Errors */
+            errors: number;
+            /**
+             * Generated
+             * @description still present
+             */
+            generated: number;
+            /** Tested */
+            tested: number;
+            /**
+             * Unknown
+             * @description tested, without a verdict
+             */
+            unknown: number;
+            /** Verdicts */
+            verdicts: {
+                [key: string]: number;
+            };
+        };
+        /** RecordSweep */
+        RecordSweep: {
+            /** At */
+            at: string;
+            /** By */
+            by: string;
+            /** Cells */
+            cells: components["schemas"]["RecordCell"][];
+            /** Instance */
+            instance: string;
+            /** States */
+            states: string[];
+            /**
+             * Status
+             * @enum {string}
+             */
+            status: "running" | "done" | "cancelled" | "interrupted" | "failed";
+            /** Window */
+            window: number;
+        };
         /** Recover */
         Recover: {
             /**
@@ -2245,6 +2640,18 @@ export interface components {
         SaveFile: {
             /** Text */
             text: string;
+            /** Version */
+            version: number;
+        };
+        /**
+         * SaveUserErrors
+         * @description `version` is that of errors.xml which the edit began from (0: there was none).
+         */
+        SaveUserErrors: {
+            /** Errors */
+            errors: components["schemas"]["UserError"][];
+            /** Groups */
+            groups?: components["schemas"]["UserGroup"][];
             /** Version */
             version: number;
         };
@@ -2498,6 +2905,35 @@ export interface components {
             writable: boolean;
         };
         /**
+         * TestRecord
+         * @description What one version of a program was tested against on one PLC.
+         */
+        TestRecord: {
+            /** Errors */
+            errors: components["schemas"]["RecordError"][];
+            /** Exported At */
+            exported_at: string;
+            /** Exported By */
+            exported_by: string;
+            /** Instance */
+            instance: string;
+            /** Log */
+            log: components["schemas"]["RecordLine"][];
+            /** Model */
+            model: string;
+            /** Program Hash */
+            program_hash: string;
+            /** Program Version */
+            program_version: number;
+            /** Project */
+            project: string;
+            summary: components["schemas"]["RecordSummary"];
+            /** Sweeps */
+            sweeps: components["schemas"]["RecordSweep"][];
+            /** Tool */
+            tool: string;
+        };
+        /**
          * Timeline
          * @description The run's marks, in order: all of them in `hello` and with `fresh`, else only the new ones.
          */
@@ -2604,6 +3040,255 @@ export interface components {
             /** Name */
             name: string;
         };
+        /**
+         * UserAddress
+         * @description Where a detail writes; what is not given is empty.
+         */
+        UserAddress: {
+            /**
+             * Address
+             * @default
+             */
+            address: string;
+            /**
+             * Adds
+             * @description AddToErrorCode: true, false, or empty: as the error says
+             * @default
+             */
+            adds: string;
+            /**
+             * Base
+             * @default
+             */
+            base: string;
+            /**
+             * Default
+             * @default
+             */
+            default: string;
+            /**
+             * Id
+             * @default
+             */
+            id: string;
+            /**
+             * Max
+             * @default
+             */
+            max: string;
+            /**
+             * Min
+             * @default
+             */
+            min: string;
+            /**
+             * Shift
+             * @default
+             */
+            shift: string;
+            /** Texts */
+            texts?: components["schemas"]["UserText"][];
+            /**
+             * Type
+             * @default Bit
+             */
+            type: string;
+            /**
+             * Value
+             * @default
+             */
+            value: string;
+            /**
+             * Width
+             * @default
+             */
+            width: string;
+        };
+        /**
+         * UserAlso
+         * @description What the error writes besides its flag.
+         */
+        UserAlso: {
+            /**
+             * Address
+             * @default
+             */
+            address: string;
+            /**
+             * Detail
+             * @default
+             */
+            detail: string;
+            /**
+             * Shift
+             * @default
+             */
+            shift: string;
+            /**
+             * Type
+             * @default Bit
+             */
+            type: string;
+            /**
+             * Value
+             * @default
+             */
+            value: string;
+            /**
+             * Width
+             * @default
+             */
+            width: string;
+        };
+        /** UserDetail */
+        UserDetail: {
+            /** Addresses */
+            addresses?: components["schemas"]["UserAddress"][];
+            /**
+             * Control
+             * @default List
+             */
+            control: string;
+            /**
+             * Default
+             * @default
+             */
+            default: string;
+            /**
+             * Name
+             * @default
+             */
+            name: string;
+            /** Texts */
+            texts?: components["schemas"]["UserText"][];
+        };
+        /** UserError */
+        UserError: {
+            /**
+             * Adds
+             * @default
+             */
+            adds: string;
+            /** Also */
+            also?: components["schemas"]["UserAlso"][];
+            /**
+             * Cause
+             * @default
+             */
+            cause: string;
+            /**
+             * Code
+             * @default
+             */
+            code: string;
+            /** Details */
+            details?: components["schemas"]["UserDetail"][];
+            /**
+             * Flag
+             * @default
+             */
+            flag: string;
+            /**
+             * Group
+             * @description names of the groups it stands in, the outermost first
+             */
+            group: string[];
+            /**
+             * Id
+             * @default
+             */
+            id: string;
+            /**
+             * Memory
+             * @default
+             */
+            memory: string;
+            /**
+             * Priority
+             * @default
+             */
+            priority: string;
+            /**
+             * Severity
+             * @default nonfatal
+             */
+            severity: string;
+            /**
+             * Source
+             * @default
+             */
+            source: string;
+            /** Texts */
+            texts?: components["schemas"]["UserText"][];
+            /**
+             * Verified
+             * @default
+             */
+            verified: string;
+        };
+        /**
+         * UserErrors
+         * @description The project's errors.xml as a form. Not `readable`: a form cannot show it, the problems say why.
+         */
+        UserErrors: {
+            /** Errors */
+            errors: components["schemas"]["UserError"][];
+            /** Groups */
+            groups?: components["schemas"]["UserGroup"][];
+            /** Problems */
+            problems: components["schemas"]["UserProblem"][];
+            /** Readable */
+            readable: boolean;
+            /**
+             * Version
+             * @description of errors.xml; 0: there is none yet
+             */
+            version: number;
+        };
+        /** UserErrorsChecked */
+        UserErrorsChecked: {
+            /** Problems */
+            problems: components["schemas"]["UserProblem"][];
+        };
+        /**
+         * UserErrorsDraft
+         * @description All errors that a project defines itself, as they are being edited.
+         */
+        UserErrorsDraft: {
+            /** Errors */
+            errors: components["schemas"]["UserError"][];
+            /** Groups */
+            groups?: components["schemas"]["UserGroup"][];
+        };
+        /**
+         * UserGroup
+         * @description What a group is called in other languages than English.
+         */
+        UserGroup: {
+            /** Path */
+            path: string[];
+            /** Texts */
+            texts: components["schemas"]["UserText"][];
+        };
+        /** UserProblem */
+        UserProblem: {
+            /** Code */
+            code: string;
+            /** Column */
+            column: number;
+            /**
+             * Line
+             * @description in errors.xml
+             */
+            line: number;
+            /** Message */
+            message: string;
+            /**
+             * Path
+             * @description the field, such as errors.2.details.0.addresses.1.address; empty: the file
+             */
+            path: string;
+        };
         /** Users */
         Users: {
             /**
@@ -2613,6 +3298,24 @@ export interface components {
             type: "users";
             /** Users */
             users: components["schemas"]["User"][];
+        };
+        /**
+         * UserText
+         * @description Name and description in one language, English first; of a detail and an address only the description counts.
+         */
+        UserText: {
+            /**
+             * Description
+             * @default
+             */
+            description: string;
+            /** Language */
+            language: string;
+            /**
+             * Name
+             * @default
+             */
+            name: string;
         };
         /**
          * Violation
@@ -3215,6 +3918,70 @@ export interface operations {
             };
         };
     };
+    on_history_api_instances__instance__history_get: {
+        parameters: {
+            query?: {
+                version?: number | null;
+            };
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["HistoryOfVersion"];
+                };
+            };
+        };
+    };
+    on_versions_api_instances__instance__history_versions_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["HistoryVersion"][];
+                };
+            };
+        };
+    };
     on_model_api_instances__instance__model_get: {
         parameters: {
             query?: never;
@@ -3242,6 +4009,41 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ModelInfo"];
+                };
+            };
+        };
+    };
+    on_record_api_instances__instance__record_get: {
+        parameters: {
+            query?: {
+                format?: "csv" | "xml" | "html" | "json";
+                lang?: "en" | "ja";
+                version?: number | null;
+            };
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TestRecord"];
                 };
             };
         };
@@ -3774,6 +4576,133 @@ export interface operations {
             };
         };
     };
+    on_records_api_projects__project__records_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecordInfo"][];
+                };
+            };
+        };
+    };
+    on_import_api_projects__project__records_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RecordInfo"];
+                };
+            };
+        };
+    };
+    on_imported_api_projects__project__records__record__get: {
+        parameters: {
+            query?: {
+                format?: "csv" | "xml" | "html" | "json";
+                lang?: "en" | "ja";
+            };
+            header?: never;
+            path: {
+                project: number;
+                record: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ImportedRecord"];
+                };
+            };
+        };
+    };
+    on_delete_api_projects__project__records__record__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+                record: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
     on_states_api_projects__project__states_get: {
         parameters: {
             query?: never;
@@ -3832,6 +4761,188 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["SweepSummary"][];
+                };
+            };
+        };
+    };
+    on_user_errors_api_projects__project__user_errors_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UserErrors"];
+                };
+            };
+        };
+    };
+    on_save_user_errors_api_projects__project__user_errors_put: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SaveUserErrors"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UserErrors"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SaveConflict"];
+                };
+            };
+        };
+    };
+    on_check_user_errors_api_projects__project__user_errors_check_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["UserErrorsDraft"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UserErrorsChecked"];
+                };
+            };
+        };
+    };
+    on_export_user_errors_api_projects__project__user_errors_export_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    on_import_user_errors_api_projects__project__user_errors_import_post: {
+        parameters: {
+            query: {
+                how?: "replace" | "add";
+                version: number;
+            };
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UserErrors"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SaveConflict"];
                 };
             };
         };

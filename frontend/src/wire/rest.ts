@@ -9,6 +9,9 @@ import type {
   FileInfo,
   FileText,
   GenerateOne,
+  HistoryOfVersion,
+  HistoryVersion,
+  ImportedRecord,
   Instance,
   ModelInfo,
   ModelSummary,
@@ -18,11 +21,15 @@ import type {
   ProgramState,
   Project,
   Reaction,
+  RecordInfo,
   Refusal,
   SaveConflict,
   Sweep,
   SweepComparison,
   SweepSummary,
+  UserErrors,
+  UserErrorsDraft,
+  UserProblem,
 } from "./types";
 
 /** A request that the server refused: what, and what to do next, in the server's words. */
@@ -46,11 +53,16 @@ async function request(
     method,
     credentials: "same-origin",
     ...(signal ? { signal } : {}),
-    ...(body === undefined ? {} : { headers: { "Content-Type": "application/json" }, body: JSON.stringify(body) }),
+    ...(body === undefined ? {} : body instanceof Blob ? { body } : inJson(body)),
   });
   if (response.ok || alsoFine.includes(response.status)) return response;
   throw new Refused(response.status, await readRefusal(response));
 }
+
+const inJson = (body: unknown) => ({
+  headers: { "Content-Type": "application/json" },
+  body: JSON.stringify(body),
+});
 
 async function readRefusal(response: Response): Promise<Refusal> {
   const plain = { message: `${response.status} ${response.statusText}`, near: [] };
@@ -70,6 +82,12 @@ const filePath = (project: number, path: string) =>
   `/projects/${project}/files/${path.split("/").map(encodeURIComponent).join("/")}`;
 
 export type SaveResult = { saved: FileInfo } | { conflict: SaveConflict };
+
+async function savedErrors(answer: Promise<Response>): Promise<{ saved: UserErrors } | { conflict: SaveConflict }> {
+  const response = await answer;
+  if (response.status === 409) return { conflict: (await response.json()) as SaveConflict };
+  return { saved: (await response.json()) as UserErrors };
+}
 
 export const rest = {
   app: () => json<AppInfo>("GET", ""),
@@ -91,6 +109,16 @@ export const rest = {
   build: (project: number, agreed: boolean, instances: readonly number[] | null = null) =>
     json<BuildResult>("POST", `/projects/${project}/build`, { agreed, instances }),
 
+  userErrors: (project: number) => json<UserErrors>("GET", `/projects/${project}/user-errors`),
+  checkUserErrors: (project: number, draft: UserErrorsDraft) =>
+    json<{ problems: UserProblem[] }>("POST", `/projects/${project}/user-errors/check`, draft),
+  saveUserErrors: (project: number, draft: UserErrorsDraft & { version: number }) =>
+    savedErrors(request("PUT", `/projects/${project}/user-errors`, draft, [409])),
+  importUserErrors: (project: number, file: Blob, how: "replace" | "add", version: number) =>
+    savedErrors(request("POST", `/projects/${project}/user-errors/import?how=${how}&version=${version}`, file, [409])),
+  exportUserErrors: async (project: number): Promise<Blob> =>
+    (await request("GET", `/projects/${project}/user-errors/export`)).blob(),
+
   models: () => json<ModelSummary[]>("GET", "/models"),
   model: (name: string) => json<ModelInfo>("GET", `/models/${encodeURIComponent(name)}`),
 
@@ -100,6 +128,17 @@ export const rest = {
     json<PreviewedErrors>("POST", `/instances/${instance}/errors/preview`, { errors, again }),
   reaction: (instance: number, error: string) =>
     json<Reaction>("GET", `/instances/${instance}/errors/${encodeURIComponent(error)}/reaction`),
+
+  /** The versions of the program with an error history, the newest first. */
+  historyVersions: (instance: number) => json<HistoryVersion[]>("GET", `/instances/${instance}/history/versions`),
+  historyOf: (instance: number, version: number) =>
+    json<HistoryOfVersion>("GET", `/instances/${instance}/history?version=${version}`),
+  records: (project: number) => json<RecordInfo[]>("GET", `/projects/${project}/records`),
+  record: (project: number, record: number) => json<ImportedRecord>("GET", `/projects/${project}/records/${record}`),
+  importRecord: (project: number, file: Blob) => json<RecordInfo>("POST", `/projects/${project}/records`, file),
+  deleteRecord: async (project: number, record: number): Promise<void> => {
+    await request("DELETE", `/projects/${project}/records/${record}`);
+  },
 
   instances: () => json<Instance[]>("GET", "/instances"),
   createInstance: (project: number, name: string) => json<Instance>("POST", "/instances", { project, name }),
@@ -139,8 +178,7 @@ export const rest = {
   /** A new PLC in this state with this error raised, paused. */
   openCell: (sweep: number, { error, state }: CellRef, name: string) =>
     json<Instance>("POST", `/sweeps/${sweep}/open`, { error, state, name }),
-  compareSweeps: (before: number, after: number) =>
-    json<SweepComparison>("GET", `/sweeps/${before}/compare/${after}`),
+  compareSweeps: (before: number, after: number) => json<SweepComparison>("GET", `/sweeps/${before}/compare/${after}`),
 
   symbols: (instance: number, path: string) =>
     json<PlcSymbol[]>("GET", `/instances/${instance}/symbols?path=${encodeURIComponent(path)}`),

@@ -22,6 +22,11 @@ export type FileInfo = Shapes["FileInfo"];
 export type FileText = Shapes["FileText"];
 export type ForceInfo = Shapes["ForceInfo"];
 export type GenerateOne = Shapes["GenerateOne"];
+export type HistoryOfVersion = Shapes["HistoryOfVersion"];
+export type HistoryVersion = Shapes["HistoryVersion"];
+export type ImportedRecord = Shapes["ImportedRecord"];
+export type RecordInfo = Shapes["RecordInfo"];
+export type TestRecord = Shapes["TestRecord"];
 export type Hello = Shapes["Hello"];
 export type Instance = Shapes["Instance"];
 export type InstanceLimits = Shapes["InstanceLimits"];
@@ -78,3 +83,18 @@ export type RunOrder = Pick<Run, "action"> & Partial<Pick<Run, "speed" | "scans"
 
 /** What a panel may send: answered by one `Done`, so the reference is added on the way out. */
 export type Command = WithoutRef<Exclude<ClientMessage, { type: "watch" } | { type: "unwatch" }>>;
+
+export type UserText = Shapes["UserText"];
+export type UserAddress = Omit<Shapes["UserAddress"], "texts"> & { texts: UserText[] };
+export type UserDetail = Omit<Shapes["UserDetail"], "addresses" | "texts"> & {
+  addresses: UserAddress[];
+  texts: UserText[];
+};
+export type UserError = Omit<Shapes["UserError"], "texts" | "details" | "also"> & {
+  texts: UserText[];
+  details: UserDetail[];
+  also: Shapes["UserAlso"][];
+};
+export type UserProblem = Shapes["UserProblem"];
+export type UserErrorsDraft = { errors: UserError[]; groups: Shapes["UserGroup"][] };
+export type UserErrors = Omit<Shapes["UserErrors"], "errors" | "groups"> & UserErrorsDraft;

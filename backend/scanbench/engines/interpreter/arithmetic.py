@@ -109,6 +109,13 @@ def integer(op: str, type: Elementary, left: Operand, right: Operand) -> Operand
             return lambda instance: modulo(left(instance), right(instance))  # type: ignore[arg-type]
 
 
+def short(op: str, left: Operand, right: Operand) -> Operand:
+    """AND_THEN or OR_ELSE."""
+    if op == "and":
+        return lambda instance: left(instance) and right(instance)
+    return lambda instance: left(instance) or right(instance)
+
+
 BITWISE: dict[str, Callable[..., int]] = {"and": operator.and_, "or": operator.or_, "xor": operator.xor}
 """Of operands within the width, so the result is."""
 

@@ -11,25 +11,24 @@ from scanbench.check.program import Expr, Pou, Program, ProgramInstance, Task
 from scanbench.check.types import Kind, Record
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.interpreter.expressions import Body
-from scanbench.engines.interpreter.observed import Watcher
+from scanbench.engines.interpreter.observer import ReferenceObserver
 from scanbench.engines.interpreter.places import Places, Read, Trapped
 from scanbench.engines.interpreter.statements import Statements
 from scanbench.engines.interpreter.violations import recorder
-from scanbench.engines.observe import Observed
 from scanbench.problems import Span
 
 LOST_NS = 100_000_000
 
 
 class ReferenceEngine(Engine):
-    """Runs the checked tree in plain Python; with a watcher, it is told what the program does."""
+    """Runs the checked tree in plain Python; with an observer, that is told what the program does."""
 
     name = "reference"
 
-    def __init__(self, program: Program, memory: bytearray, watcher: Watcher | None = None) -> None:
+    def __init__(self, program: Program, memory: bytearray, observer: ReferenceObserver | None = None) -> None:
         self.program = program
         self.memory = memory
-        self.watcher = watcher
+        self.observer = observer
         self.state_size = program.layout.state_size
         self.record = recorder(memory, program.layout.violations)
         self._bodies: dict[Pou, Body] = {}
@@ -59,12 +58,12 @@ class ReferenceEngine(Engine):
 
     def _silent(self, run: Callable[[], None]) -> Callable[[], None]:
         """What is not the user's program is not observed."""
-        watcher = self.watcher
-        if watcher is None:
+        observer = self.observer
+        if observer is None:
             return run
 
         def silent() -> None:
-            with watcher.silence():
+            with observer.silence():
                 run()
 
         return silent
@@ -186,9 +185,3 @@ class ReferenceEngine(Engine):
             mask, value = memory[at + 4], memory[at + 5]
             if offset < len(memory):
                 memory[offset] = memory[offset] & ~mask | value & mask
-
-
-def observed_engine(program: Program, memory: bytearray) -> Observed:
-    """An engine whose code is observed, with what it notes; see `engines.observe`."""
-    watcher = Watcher(program)
-    return ReferenceEngine(program, memory, watcher), watcher

@@ -24,12 +24,13 @@ from scanbench.check.program import (
     Violates,
 )
 from scanbench.check.program import Sequence as SequenceNode
+from scanbench.check.system_text import is_system
 from scanbench.check.types import Elementary, Kind, Section, StringType
 from scanbench.engines.interpreter import arithmetic
 from scanbench.engines.interpreter.arithmetic import Operand
 from scanbench.engines.interpreter.intrinsics import intrinsic
 from scanbench.engines.interpreter.memory import Put, Value, decode, putter
-from scanbench.engines.interpreter.observed import ObservedPlaces, Watcher
+from scanbench.engines.interpreter.observer import ObservedPlaces, ReferenceObserver
 from scanbench.engines.interpreter.places import Places, Read, Trapped, Write
 from scanbench.engines.interpreter.violations import Record
 
@@ -43,7 +44,7 @@ class Bodies(Protocol):
     memory: bytearray
     state_size: int
     record: Record
-    watcher: Watcher | None
+    observer: ReferenceObserver | None
     """Of observed code."""
 
     def body(self, pou: Pou) -> Body: ...
@@ -62,7 +63,8 @@ class Expressions(ABC):
         self.caller = caller
         self.memory = bodies.memory
         found = bodies.memory, bodies.state_size, pou.frame_offset, self.evaluate, pou.first_trap
-        self.places = Places(*found) if bodies.watcher is None else ObservedPlaces(bodies.watcher, *found)
+        observer = None if is_system(pou.span) else bodies.observer
+        self.places = Places(*found) if observer is None else ObservedPlaces(observer, *found)
 
     @abstractmethod
     def block(self, statements: Sequence[Stmt]) -> Body:
@@ -119,6 +121,8 @@ class Expressions(ABC):
 
     def _binary(self, node: Binary) -> Read:
         left, right, type = self._number(node.left), self._number(node.right), node.type
+        if node.short:
+            return arithmetic.short(node.op, left, right)
         if type.kind is Kind.REAL:
             return arithmetic.real(node.op, type, left, right)
         if node.op != "div":

@@ -1,116 +1,12 @@
-"""Observed code of the reference engine: the same closures, with a note at each read and at each statement."""
+"""Reference engines that are observed; see `engines.observe`."""
 
-from collections.abc import Callable, Iterable, Iterator
-from contextlib import contextmanager
-
-from scanbench.check.program import Expr, Place, Program, Stmt
-from scanbench.check.types import Kind
-from scanbench.engines.interpreter.memory import Value, getter
-from scanbench.engines.interpreter.places import BIT_SHIFT, BYTE_OFFSET, Places, Read
-from scanbench.engines.observe import LIMIT, Observer, ReadAt, Seen
-
-ALL = 0xFF
+from scanbench.check.program import Program
+from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.interpreter.observer import ReferenceObserver
+from scanbench.engines.observe import Observed
 
 
-class Watcher(Observer):
-    """Notes what the closures of one program do."""
-
-    def __init__(self, program: Program) -> None:
-        super().__init__(program)
-        self._watched: dict[int, int] = {}
-        self._reached: set[int] = set()
-        self._reads: dict[tuple[int, int], int] = {}
-        self._lost = 0
-        self._site: int | None = None
-        self._silent = False
-
-    def watch(self, bits: Iterable[tuple[int, int]]) -> None:
-        self._watched = self._masks(bits)
-
-    def take(self) -> Seen:
-        reads = tuple(ReadAt(site, offset, mask) for (site, offset), mask in self._reads.items())
-        seen = Seen(frozenset(self._reached), reads, self._lost)
-        self._reached, self._reads, self._lost = set(), {}, 0
-        return seen
-
-    # ---- while the program runs -----------------------------------------------------------------------------
-
-    @contextmanager
-    def silence(self) -> Iterator[None]:
-        """What runs meanwhile is not the user's program."""
-        self._silent = True
-        try:
-            yield
-        finally:
-            self._silent = False
-
-    def statement(self, node: Stmt, run: Callable[[int], int]) -> Callable[[int], int]:
-        """The closure of a statement, which is marked when it begins."""
-        number = self.sites.number(node)
-        if number is None:
-            return run
-
-        def observed(instance: int) -> int:
-            if self._silent:
-                return run(instance)
-            outer, self._site = self._site, number
-            self._reached.add(number)
-            try:
-                return run(instance)
-            finally:
-                self._site = outer
-
-        return observed
-
-    def read(self, offset: int, size: int, mask: int) -> None:
-        """Bits in these bytes are read."""
-        site = self._site
-        if site is None or self._silent or not self._watched:
-            return
-        for at in range(offset, offset + size):
-            bits = self._watched.get(at, 0) & mask
-            if not bits:
-                continue
-            key = site, at
-            if key in self._reads or len(self._reads) < LIMIT:
-                self._reads[key] = self._reads.get(key, 0) | bits
-            else:
-                self._lost += 1
-
-
-class ObservedPlaces(Places):
-    """Places whose reads are noted."""
-
-    def __init__(
-        self,
-        watcher: Watcher,
-        memory: bytearray,
-        state_size: int,
-        frame_offset: int,
-        evaluate: Callable[[Expr], Read],
-        first_trap: int = 0,
-    ) -> None:
-        super().__init__(memory, state_size, frame_offset, evaluate, first_trap)
-        self.watcher = watcher
-
-    def read(self, place: Place) -> Read:
-        memory, note = self.memory, self.watcher.read
-        if self._in_bits(place):
-            reference = self.reference(place)
-
-            def read_bit(instance: int) -> Value:
-                found = reference(instance)
-                at, bit = found & BYTE_OFFSET, found >> BIT_SHIFT
-                note(at, 1, 1 << bit)
-                return memory[at] >> bit & 1
-
-            return read_bit
-        get, where, size = getter(memory, place.type), self.address(place), place.type.size
-        mask = 1 if place.type.kind is Kind.BOOL else ALL
-
-        def read(instance: int) -> Value:
-            at = where(instance)
-            note(at, size, mask)
-            return get(at)
-
-        return read
+def observed_engine(program: Program, memory: bytearray) -> Observed:
+    """An engine on this image, and what it notes."""
+    observer = ReferenceObserver(program)
+    return ReferenceEngine(program, memory, observer), observer

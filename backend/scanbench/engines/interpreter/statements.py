@@ -52,8 +52,8 @@ class Statements(Expressions):
         return run
 
     def _step(self, node: Stmt) -> Body:
-        run, watcher = self._statement(node), self.bodies.watcher
-        return run if watcher is None else watcher.statement(node, run)
+        run, observer = self._statement(node), self.bodies.observer
+        return run if observer is None else observer.statement(node, run)
 
     def _statement(self, node: Stmt) -> Body:
         match node:

@@ -8,7 +8,6 @@ from time import perf_counter_ns
 from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.native import inlining, jit
-from scanbench.engines.native.emit_observed import Observing
 from scanbench.engines.native.emit_program import emit_program
 from scanbench.engines.native.parts import Part, Parts
 from scanbench.garbage import without_collection
@@ -53,12 +52,11 @@ class Build:
 
 
 class Compiler:
-    """Compiles program after program, all of them to be observed or none. Not thread-safe."""
+    """Compiles program after program. Not thread-safe."""
 
-    def __init__(self, cache: BlobCache | None = None, observed: bool = False) -> None:
+    def __init__(self, cache: BlobCache | None = None) -> None:
         self._cache = cache
-        self._observed = observed
-        self._parts = Parts(observed)
+        self._parts = Parts()
         self._recent: OrderedDict[str, bytes] = OrderedDict()
         self._recent_bytes = 0
 
@@ -97,7 +95,7 @@ class Compiler:
         build = Build([], jit.Timings())
         start = perf_counter_ns()
         with without_collection():
-            text = emit_program(program, Observing(program) if self._observed else None)
+            text = emit_program(program)
         build.timings.emit = (perf_counter_ns() - start) / 1e6
         build.whole = jit.compile_object(text, QUICK, build.timings)
         return build

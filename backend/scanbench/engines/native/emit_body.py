@@ -122,9 +122,7 @@ class Body:
         self.leave = "leave"
         """Block that RETURN goes to."""
         self.site: int | None = None
-        """Observed code: the statement that is being emitted, by its number in the POU."""
-        self.marks = ""
-        """Observed code: pointer to the marks of the POU's statements, once there is one."""
+        """Observed code: the site of the statement that is being emitted, if it has one or stands inside of one."""
         self._swallowed = 0
         self._scalar = scalar
         self._pieces = pieces

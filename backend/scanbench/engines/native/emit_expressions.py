@@ -38,6 +38,8 @@ def scalar(body: Body, expr: Expr) -> Value:
             return load(body, place)
         case Unary(op, type, operand):
             return unary(body, op, type, body.scalar(operand))
+        case Binary(op, _, left, right) if expr.short and body.unit.observing is not None:
+            return _short(body, op, left, right)
         case Binary(op, type, left, right, trap):
             return binary(body, op, type, body.scalar(left), body.scalar(right), trap)
         case Compare():
@@ -76,6 +78,19 @@ def constant(expr: Const) -> Value:
     else:
         number &= (1 << type.bits) - 1
     return Value(integer(number, type), number, number)
+
+
+def _short(body: Body, op: str, left: Expr, right: Expr) -> Value:
+    """AND_THEN or OR_ELSE; code that is not observed evaluates both sides, which is quicker."""
+    text, first = body.text, body.scalar(left).ssa
+    before, more, on = text.block, text.name("more"), text.name("on")
+    text.choose(first, *((more, on) if op == "and" else (on, more)))
+    text.begin(more)
+    second, end = body.scalar(right).ssa, text.block
+    text.go(on)
+    text.begin(on)
+    decided = "false" if op == "and" else "true"
+    return Value(text.op(f"phi i1 [ {decided}, %{before} ], [ {second}, %{end} ]"), 0, 1)
 
 
 def _compare(body: Body, expr: Compare) -> Value:

@@ -1,8 +1,8 @@
 """Observed code: a mark where a statement begins, a note where watched bits are read; see `engines.observe`.
 
-Both go to memory beside the image, whose addresses stand in `@observed`. A read costs a look into a map of the watched bits,
-and only where the place may lie in an area of the model. The statement is a number in the code; before a call of what has no
-statements of its own, the library's, it is put where that finds it.
+Both go to memory beside the image, whose addresses stand in `STATE`. A read costs a look into a map of the watched bits, and
+only where the place may lie in an area of the model. The statement is a number in the code; before a call of what has no
+statements of its own, as the library's, it is put where that finds it.
 """
 
 from collections.abc import Iterator
@@ -11,6 +11,7 @@ from contextlib import contextmanager
 from scanbench.check.layout import Layout
 from scanbench.check.program import Base, Place, Pou, Program, Stmt
 from scanbench.check.sites import Sites, sites_of
+from scanbench.check.system_text import is_system
 from scanbench.check.types import Kind
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_memory import Address
@@ -28,8 +29,6 @@ ENTRIES = 8 + 4 * SLOTS
 """Where the entries begin in the log, behind u32 entries, u32 reads lost, and the table. An entry: u32 site, offset, mask."""
 ENTRY_BYTES = 12
 LOG_BYTES = ENTRIES + ENTRY_BYTES * LIMIT
-SCAN = "$scan"
-"""In place of the name of a POU: what a configuration connects."""
 
 LOOK = """\
 declare i64 @llvm.umin.i64(i64, i64)
@@ -139,32 +138,10 @@ class Observing:
     def __init__(self, program: Program) -> None:
         self.sites: Sites = sites_of(program)
         self.end = areas_end(program.layout)
-        self.first: dict[Pou, int] = {}
-        """Where the numbers of each POU's sites begin: in the code, each POU's follow one another."""
-        self.order: list[int] = []
-        """The number of the site, by its number in the code."""
-        for pou, numbers in self.sites.bodies.items():
-            self.first[pou] = len(self.order)
-            self.order += numbers
-        self.connections = len(self.order)
-        """Where the numbers of what the configuration connects begin."""
-        inside = set(self.order)
-        self.order += [number for number in range(len(self.sites.statements)) if number not in inside]
-        self._places = {number: place for place, number in enumerate(self.order)}
 
-    def sites_in(self, pou: Pou) -> int:
-        """How many statements of the POU have a site."""
-        return len(self.sites.bodies.get(pou, ()))
-
-    def local(self, pou: Pou, statement: Stmt) -> int | None:
-        """The number of the statement, counted from where those of its POU begin."""
-        number = self.sites.number(statement)
-        return None if number is None else self._places[number] - self.first.get(pou, self.connections)
-
-
-def first_site(name: str) -> str:
-    """The number that the numbers of a POU's sites count from."""
-    return f'@"site.{name}"'
+    def has_sites(self, pou: Pou) -> bool:
+        """Whether statements of the POU are the user's."""
+        return pou in self.sites.bodies
 
 
 def field(offset: int) -> str:
@@ -178,7 +155,7 @@ def field(offset: int) -> str:
 @contextmanager
 def statement(body: Body, observing: Observing, node: Stmt) -> Iterator[None]:
     """Marks that the statement begins; what is emitted meanwhile belongs to it."""
-    number = observing.local(body.pou, node)
+    number = observing.sites.number(node)
     if number is None:
         yield
         return
@@ -191,32 +168,30 @@ def statement(body: Body, observing: Observing, node: Stmt) -> Iterator[None]:
 def before_call(body: Body, callee: Pou) -> None:
     """Tells what has no statements of its own on whose behalf it runs."""
     observing = body.unit.observing
-    if observing is not None and body.site is not None and not observing.sites_in(callee):
-        body.text.do(f"store i32 {_site(body)}, ptr {field(SITE)}, align 8")
+    if observing is not None and body.site is not None and not observing.has_sites(callee):
+        body.text.do(f"store i32 {body.site}, ptr {field(SITE)}, align 8")
 
 
 def _marks(body: Body) -> str:
-    """The marks of the POU's statements."""
-    if not body.marks:
-        body.marks, name = "%marks", body.unit.names.get(body.pou, SCAN)
-        marks = MARKS if body.unit.has(body.pou) else OWN_MARKS  # the scan itself begins before it says which
-        body.text.entry += [
-            f"  %sites = load i32, ptr {first_site(name)}, align 4",
-            f"  %allmarks = load ptr, ptr {field(marks)}, align 8",
-            "  %firstmark = zext i32 %sites to i64",
-            "  %marks = getelementptr inbounds i8, ptr %allmarks, i64 %firstmark",
-        ]
-    return body.marks
+    """Pointer to the marks."""
+    # the scan itself begins before it says which marks are in use
+    marks = MARKS if body.unit.has(body.pou) else OWN_MARKS
+    return _at_entry(body, "%marks", f"load ptr, ptr {field(marks)}, align 8")
 
 
 def _site(body: Body) -> str:
-    """The number of the statement that runs; of the library, that of the user's statement that called it."""
+    """The number of the statement that runs; in the library, that of the user's statement that called it."""
     if body.site is not None:
-        return body.text.op(f"add i32 %sites, {body.site}") if body.site else "%sites"
-    load = f"  %caller = load i32, ptr {field(SITE)}, align 8"
-    if load not in body.text.entry:
-        body.text.entry.append(load)
-    return "%caller"
+        return str(body.site)
+    return _at_entry(body, "%caller", f"load i32, ptr {field(SITE)}, align 8")
+
+
+def _at_entry(body: Body, name: str, text: str) -> str:
+    """What stays the same for a whole call."""
+    line = f"  {name} = {text}"
+    if line not in body.text.entry:
+        body.text.entry.append(line)
+    return name
 
 
 # ---- reads ----------------------------------------------------------------------------------------------------
@@ -227,8 +202,10 @@ def read(body: Body, place: Place, where: Address) -> None:
     observing = body.unit.observing
     if observing is None or (place.variable and not place.variable.startswith("@")):
         return
-    if body.site is None and (observing.sites_in(body.pou) or not body.unit.has(body.pou)):
+    if body.site is None and (observing.has_sites(body.pou) or not body.unit.has(body.pou)):
         return  # what looks whether a task is due, and the start of a body
+    if is_system(body.pou.span):
+        return
     _declare(body.unit, observing)
     mask = _mask(body, place, where)
     if place.slot is not None or place.reference is not None or place.indices:

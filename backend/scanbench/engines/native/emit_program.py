@@ -13,7 +13,7 @@ from scanbench.engines.native import emit_pou, emit_scan, inlining
 from scanbench.engines.native.effects import Effects
 from scanbench.engines.native.emit_body import Unit
 from scanbench.engines.native.emit_checks import LIST
-from scanbench.engines.native.emit_observed import SCAN, STATE, STATE_BYTES, Observing, first_site
+from scanbench.engines.native.emit_observed import STATE, STATE_BYTES, Observing
 from scanbench.engines.native.registers import Signature
 
 
@@ -27,7 +27,7 @@ class Emitter:
         signatures: dict[Pou, Signature] | None = None,
         observing: Observing | None = None,
     ) -> None:
-        """`effects` and `signatures` of its POUs may be known already. With `observing`, the code is observed."""
+        """`effects` and `signatures` of its POUs may be known already. With `observing`, `whole` emits observed code."""
         self.names = names(program.pous)
         self._program = program
         self._effects = effects or Effects()
@@ -50,8 +50,6 @@ class Emitter:
         """The module of the scan, the loop around it and the small programs."""
         unit = self._unit()
         emit_scan.emit(unit, self._program)
-        if self._observing is not None:
-            unit.module.add(f"{first_site(SCAN)} = external constant i32")
         return self._complete(unit, set())
 
     def numbers(self) -> Unit:
@@ -97,13 +95,9 @@ class Emitter:
             if each in here:
                 for number in (first_trap(self.names[each]), first_check(self.names[each])):
                     unit.module.add(f"{number} = external constant i32")
-                if self._observing is not None and self._observing.sites_in(each):
-                    unit.module.add(f"{first_site(self.names[each])} = external constant i32")
             else:
                 unit.module.add(f"declare {emit_pou.head(unit, each, self._size)}")
         unit.module.add(f"{LIST} = external constant i64")
-        if self._observing is not None:
-            unit.module.add(f"{STATE} = external global [{STATE_BYTES} x i8], align 8")
         return unit
 
     def _add_numbers(self, unit: Unit, linkage: str) -> None:
@@ -113,13 +107,7 @@ class Emitter:
             unit.module.add(f"{first_check(name)} = {linkage}constant i32 {pou.first_check}")
         unit.module.add(f"{LIST} = {linkage}constant i64 {self._program.layout.violations}")
         if self._observing is not None:
-            self._add_sites(unit, linkage, self._observing)
-
-    def _add_sites(self, unit: Unit, linkage: str, observing: Observing) -> None:
-        unit.module.add(f"{STATE} = global [{STATE_BYTES} x i8] zeroinitializer, align 8")
-        firsts = {self.names[pou]: number for pou, number in observing.first.items()}
-        for name, number in {**firsts, SCAN: observing.connections}.items():
-            unit.module.add(f"{first_site(name)} = {linkage}constant i32 {number}")
+            unit.module.add(f"{STATE} = global [{STATE_BYTES} x i8] zeroinitializer, align 8")
 
 
 def emit_program(program: Program, observing: Observing | None = None) -> str:

@@ -10,7 +10,7 @@ from scanbench.engines.native import jit
 from scanbench.engines.native.compiler import FAST, Compiler
 from scanbench.engines.native.condition_code import link_condition
 from scanbench.engines.native.emit_loop import ASKED, CONDITION, DONE, FUTEX, FUTEX_WAKE_PRIVATE, KNOCKED, TRAP
-from scanbench.engines.native.recorder import Recorder
+from scanbench.engines.native.observer import NativeObserver
 
 
 class _Control(ctypes.Structure):
@@ -48,22 +48,22 @@ class NativeEngine(Engine):
         memory: bytearray,
         opt_level: int = FAST,
         objects: Sequence[bytes] | None = None,
-        recorder: Recorder | None = None,
+        observer: NativeObserver | None = None,
     ) -> None:
         """`opt_level` 0 builds fast, 2 runs fast. Object code of the program that is there already is only linked.
 
-        With a recorder, that is observed code.
+        With an observer, that is code to be observed, which `observed` compiles.
         """
         if len(memory) != program.layout.size:
             raise ValueError(f"the image has {len(memory)} bytes, but the program needs {program.layout.size}")
         self.timings = jit.Timings()
         if objects is None:
-            build = Compiler(observed=recorder is not None).build(program, opt_level)
+            build = Compiler().build(program, opt_level)
             objects, self.timings = build.objects, build.timings
         self._code = jit.link(objects, self.timings)
-        self._recorder = recorder  # the code writes to its memory
-        if recorder is not None:
-            recorder.attach(self._code)
+        self._observer = observer  # the code writes to its memory
+        if observer is not None:
+            observer.attach(self._code)
         self._run = _RUN(self._code.function("run"))
         self._image = (ctypes.c_uint8 * len(memory)).from_buffer(memory)
         self._address = ctypes.addressof(self._image)

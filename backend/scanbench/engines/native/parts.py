@@ -6,7 +6,6 @@ from scanbench.check.program import Pou, Program, Stmt
 from scanbench.engines.native import inlining, jit
 from scanbench.engines.native.effects import Effects, touched
 from scanbench.engines.native.emit_body import SCRATCH_LIMIT, TooLarge
-from scanbench.engines.native.emit_observed import Observing
 from scanbench.engines.native.emit_program import Emitter
 from scanbench.engines.native.registers import Signature, signature
 from scanbench.garbage import without_collection
@@ -67,8 +66,7 @@ class _Emitted:
 class Parts:
     """Makes the parts of programs. It remembers the last program: the next one may share POUs with it."""
 
-    def __init__(self, observed: bool = False) -> None:
-        self._observed = observed
+    def __init__(self) -> None:
         self._bodies: dict[Pou, _Body] = {}
         self._emitted: dict[Pou, _Emitted] = {}
 
@@ -80,19 +78,18 @@ class Parts:
     def of(self, program: Program) -> list[Part]:
         """One part for each POU, the scan, and the numbers that the others refer to; one part for a small program."""
         with without_collection():
-            observing = Observing(program) if self._observed else None
             if sum(inlining.size(pou.body) for pou in program.pous) <= SMALL:
-                unit = Emitter(program, observing=observing).whole()
+                unit = Emitter(program).whole()
                 return _fitting([Part(unit.module.text(), unit.scratch)])
-            return self._of(program, observing)
+            return self._of(program)
 
-    def _of(self, program: Program, observing: Observing | None) -> list[Part]:
+    def _of(self, program: Program) -> list[Part]:
         bodies: dict[Pou, _Body] = {}
         emitted: dict[Pou, _Emitted] = {}
         faces: dict[Pou, object] = {}
         writes: dict[Pou, frozenset[str]] = {}
         signatures: dict[Pou, Signature] = {}
-        emitter = Emitter(program, Effects(writes), signatures, observing)
+        emitter = Emitter(program, Effects(writes), signatures)
         sizes = program.layout.size, program.layout.state_size
         for pou in program.pous:
             body = bodies[pou] = self._body(pou)
@@ -102,9 +99,8 @@ class Parts:
             if pou in emitter.housed:
                 continue  # no POU calls a program
             called = tuple(faces[callee] for callee in body.callees)
-            sites = 0 if observing is None else observing.sites_in(pou)
-            faces[pou] = _face(emitter.names[pou], pou, body, writes[pou], called, sites > 0)
-            depends = (emitter.names[pou], body.same, pou.frame_offset, sizes, called, sites)
+            faces[pou] = _face(emitter.names[pou], pou, body, writes[pou], called)
+            depends = (emitter.names[pou], body.same, pou.frame_offset, sizes, called)
             known = self._emitted.get(pou)
             if known is None or known.depends != depends:
                 unit = emitter.pou(pou)
@@ -123,12 +119,12 @@ class Parts:
         return _Body(_Same(pou.body), frozenset(writes), tuple(callees), inlining.shared(pou), how)
 
 
-def _face(name: str, pou: Pou, body: _Body, writes: frozenset[str], called: object, observed: bool) -> object:
+def _face(name: str, pou: Pou, body: _Body, writes: frozenset[str], called: object) -> object:
     """Everything that the modules of callers may depend on."""
     how = body.signature
     passed = how and tuple((each.member.name, each.member.offset, each.passing) for each in how.all)
     inside = (body.same, called) if body.shared else None
-    return name, pou.frame_offset, passed, writes, inside, observed
+    return name, pou.frame_offset, passed, writes, inside
 
 
 def _fitting(parts: list[Part]) -> list[Part]:

@@ -11,7 +11,7 @@ from scanbench.check.incremental import Checks
 from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.engine import Engine
-from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.plcmodel.load import NoSuchModel, load_all, model_directory, model_named
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem, Severity
 from scanbench.session.host.observed import ObservedCode
@@ -52,11 +52,11 @@ def all_models() -> tuple[list[Model], list[Problem]]:
 def find_model(name: str) -> Model:
     """The model of this name; `BuildFailed` names those that there are."""
     models, problems = all_models()
-    for model in models:
-        if model.name == name:
-            return model
-    broken = f"; {problems[0]}" if problems else ""
-    raise BuildFailed(f"no model {name}: there are {', '.join(model.name for model in models)}{broken}")
+    try:
+        return model_named(name, models)
+    except NoSuchModel as error:
+        broken = f"; {problems[0]}" if problems else ""
+        raise BuildFailed(f"{error}{broken}") from None
 
 
 class Builder:

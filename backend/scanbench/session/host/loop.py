@@ -300,7 +300,9 @@ class Loop:
     def _observe(self, observable: Observable) -> None:
         loaded, then = self.timeline.live, observable.then
         if loaded.version != observable.version:
-            self._ack(then.ref, False, "the program was changed meanwhile: look where the statement is now, and arm again")
+            self._ack(
+                then.ref, False, "the program was changed meanwhile: see where the statement is now, and arm again"
+            )
             return
         loaded.fresh = observable.program
         self._entered(then.ref, self.timeline.submit(then.command))

@@ -40,7 +40,7 @@ class ObservedCode:
     def make(self, program: Program, memory: bytearray) -> Observed:
         """The engine on this memory: at once where the program was prepared."""
         if self._builds is None:
-            from scanbench.engines.interpreter.engine import observed_engine
+            from scanbench.engines.interpreter.observed import observed_engine
 
             return observed_engine(program, memory)
         from scanbench.engines.native.observed import observed_engine as native_engine

@@ -20,7 +20,9 @@ def test_a_program_beside_its_twin() -> None:
         assert measured["ns"] is not None
         assert measured["c_ns"] is not None
         assert measured["ratio"] == pytest.approx(measured["ns"] / measured["c_ns"], abs=0.01)
-        assert set(result["compile"][name]) == {"check", "emit", "parse", "optimise", "codegen", "link"}
+        assert set(result["compile"][name]) == {"check", "emit", "parse", "optimise", "codegen", "link", "observed"}
+        assert measured["observed_ratio"] is not None
+        assert measured["observed_ratio"] > 0
 
 
 def test_a_program_without_a_twin() -> None:

@@ -1,22 +1,32 @@
-import { allErrors, detailsInWords } from "../../logic/catalogue";
+import { detailsInWords } from "../../logic/catalogue";
 import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
-import { useBench } from "../../store/bench";
+import { useCatalogue } from "../../store/catalogue";
 import { usePlc } from "../../store/plc";
-import { clearFatal } from "../../store/simulator";
+import { backTo, modeBefore } from "../../store/run";
+import { clearFatal, forgetOutcome } from "../../store/simulator";
+import { travel } from "../../store/timeline";
 import { Icon } from "../../ui/Icon";
-import type { InstanceState } from "../../wire/types";
+import type { InstanceState, Mode } from "../../wire/types";
+
+async function goOn(mode: Mode): Promise<void> {
+  if (!(await clearFatal())) return;
+  await backTo(mode);
+  // What it said of the recovery ("the program stays stopped") is over.
+  forgetOutcome();
+}
 
 /** A fatal error: its code and cause, what it did, and the way back. */
 export function FatalBanner({ state }: { state: InstanceState }) {
   const errors = usePlc((plc) => plc.errors);
-  const cause = [...errors.values()].find((row) => row.status === "generated" && row.severity === "fatal");
-  const count = [...errors.values()].filter((row) => row.status === "generated" && row.severity === "fatal").length;
-  const model = useBench((bench) => bench.model);
-  const error = allErrors(model?.catalogue ?? []).find((known) => known.id === cause?.id);
+  const { byId } = useCatalogue();
+  const fatal = [...errors.values()].filter((row) => row.status === "generated" && row.severity === "fatal");
+  const [cause] = fatal;
+  const error = cause && byId.get(cause.id);
   const details = detailsInWords(error, cause?.details ?? "");
-  const title = cause ? t("fatal.title", { code: cause.code, name: cause.name }) : t("fatal.plain");
+  const title = cause ? t("fatal.title", { code: cause.code, name: error?.name ?? cause.name }) : t("fatal.plain");
   const scan = cause?.generated_scan ?? state.scan;
+  const mode = modeBefore();
   return (
     <div className="banner fatal" role="alert">
       <Icon name="fatal" />
@@ -25,8 +35,19 @@ export function FatalBanner({ state }: { state: InstanceState }) {
         {details ? ` (${details}). ` : ". "}
         <span className="muted">{t("fatal.about", { scan: grouped(scan) })}</span>
       </span>
+      {scan > 0 && (
+        <button type="button" className="btn sm" title={t("fatal.before.hint")} onClick={() => void travel(scan - 1)}>
+          <Icon name="past" small />
+          {t("fatal.before")}
+        </button>
+      )}
+      {mode !== "PROGRAM" && (
+        <button type="button" className="btn sm" title={t("fatal.goon.hint", { mode })} onClick={() => void goOn(mode)}>
+          {t("fatal.goon")}
+        </button>
+      )}
       <button type="button" className="btn danger sm" onClick={() => void clearFatal()}>
-        {count > 1 ? t("fatal.clear.all", { count: String(count) }) : t("fatal.clear")}
+        {fatal.length > 1 ? t("fatal.clear.all", { count: String(fatal.length) }) : t("fatal.clear")}
       </button>
     </div>
   );

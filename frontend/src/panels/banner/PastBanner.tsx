@@ -4,6 +4,7 @@ import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { branch, openInstance } from "../../store/instances";
+import { keepState } from "../../store/sweeps";
 import { returnToLive } from "../../store/timeline";
 import { AskName } from "../../ui/AskName";
 import { Icon } from "../../ui/Icon";
@@ -30,6 +31,16 @@ export function PastBanner({ state }: { state: InstanceState }) {
       >
         <Icon name="branch" small />
         {t("past.branch")}
+      </button>
+      <button
+        type="button"
+        className="btn sm"
+        disabled={instance === null}
+        title={t("states.keep.hint")}
+        onClick={() => keepState(scan)}
+      >
+        <Icon name="plus" small />
+        {t("states.keep")}
       </button>
       <button type="button" className="btn past sm" onClick={returnToLive}>
         {t("past.live")}

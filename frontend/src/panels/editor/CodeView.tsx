@@ -7,6 +7,7 @@ import { addToWatch } from "../../store/watchlist";
 import "./checks";
 import { modelOf } from "./models";
 import { editor, KeyCode, KeyMod, monospaceFont, options } from "./monaco";
+import { markReaction } from "./reaction";
 import { markTrap } from "./trap";
 
 /** The text of one file in Monaco. */
@@ -34,11 +35,13 @@ export default function CodeView({ path }: { path: string }) {
     code.onDidFocusEditorText(caret);
     caret();
     const unmark = markTrap(code, path);
+    const unmarkReaction = markReaction(code, path);
     const stop = useNavigation.subscribe(({ place }) => go(code, path, place));
     go(code, path, useNavigation.getState().place);
     return () => {
       stop();
       unmark();
+      unmarkReaction();
       code.dispose();
       view.current = null;
     };

@@ -5,8 +5,9 @@ import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
 import { readClock } from "../../store/clock";
 import { useForbidden, usePlc } from "../../store/plc";
-import { asksFirst, changeDetails, chosenOf, entriesOf, generate, recover, useSimulator } from "../../store/simulator";
+import { asksFirst, chosenOf, entriesOf, generate, recover, useSimulator } from "../../store/simulator";
 import { Icon } from "../../ui/Icon";
+import { WayOn } from "./WayOn";
 
 /** Generate what is ticked (or selected), recover it, or clear everything that is generated. */
 export function Actions({ refusedInTree }: { refusedInTree: boolean }) {
@@ -74,12 +75,7 @@ function Refusal() {
     <p className="trouble st fatal" role="alert">
       <Icon name="error" small />
       <span>
-        {inNames(errors, outcome.message) || t("notsent.about")}{" "}
-        {outcome.present.length > 0 && (
-          <button type="button" className="link" onClick={() => void changeDetails(errors, outcome)}>
-            {t("errors.again")}
-          </button>
-        )}
+        {inNames(errors, outcome.message) || t("notsent.about")} <WayOn outcome={outcome} />
       </span>
     </p>
   );

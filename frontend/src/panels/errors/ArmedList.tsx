@@ -36,7 +36,9 @@ function Fault({ fault, locked }: { fault: ArmedFault; locked: { disabled: boole
   const names = fault.errors.map((id) => byId.get(id)?.name ?? id).join(", ");
   const running = fault.state === "running";
   const facts = [
-    fault.raised === 0 ? t("armed.notyet") : t(fault.raised === 1 ? "armed.again.one" : "armed.again", { count: fault.raised }),
+    fault.raised === 0
+      ? t("armed.notyet")
+      : t(fault.raised === 1 ? "armed.again.one" : "armed.again", { count: fault.raised }),
     fault.next_scan === null ? "" : t("armed.next", { scan: grouped(fault.next_scan) }),
     t("armed.by", { by: fault.by }),
   ];
@@ -48,7 +50,9 @@ function Fault({ fault, locked }: { fault: ArmedFault; locked: { disabled: boole
         word={t(running ? "armed.running" : "armed.waiting")}
       />
       <span className="grow">
-        <b>{names}</b> <span className="muted">{fault.text}</span>
+        <p title={`${names}: ${fault.text}`}>
+          {names} <span className="muted">{fault.text}</span>
+        </p>
         <small className="faint">{facts.filter(Boolean).join(" · ")}</small>
       </span>
       <button

@@ -2,13 +2,17 @@ import { type KeyboardEvent, useEffect, useId, useRef, useState } from "react";
 import { pathBefore, withPath } from "../../logic/expression";
 import { complete } from "../../store/completion";
 import { useRun } from "../../store/run";
-import type { PlcSymbol } from "../../wire/types";
 
 interface Props {
   label: string;
   value: string;
   onChange: (value: string) => void;
   bad?: boolean;
+}
+
+interface Offer {
+  text: string;
+  hint: string;
 }
 
 const DELAY = 80;
@@ -19,7 +23,7 @@ export function ConditionBox({ label, value, onChange, bad = false }: Props) {
   const id = useId();
   const input = useRef<HTMLInputElement>(null);
   const conditions = useRun((run) => run.conditions);
-  const [offers, setOffers] = useState<readonly PlcSymbol[]>([]);
+  const [offers, setOffers] = useState<readonly Offer[]>([]);
   const [chosen, setChosen] = useState(-1);
   const [path, setPath] = useState("");
 
@@ -28,19 +32,29 @@ export function ConditionBox({ label, value, onChange, bad = false }: Props) {
     setChosen(-1);
     if (path === "") return;
     let gone = false;
-    const timer = setTimeout(() => void complete(path).then((found) => !gone && setOffers(found.slice(0, MOST))), DELAY);
+    const timer = setTimeout(() => {
+      void complete(path).then((symbols) => {
+        if (!gone) setOffers(symbols.slice(0, MOST).map((symbol) => ({ text: symbol.path, hint: symbol.type })));
+      });
+    }, DELAY);
     return () => {
       gone = true;
       clearTimeout(timer);
     };
   }, [path]);
 
-  function take(symbol: PlcSymbol): void {
+  function take(offer: Offer): void {
     const caret = input.current?.selectionStart ?? value.length;
-    const next = withPath(value, caret, symbol.path);
+    const next = withPath(value, caret, offer.text);
     onChange(next.text);
     setPath("");
+    setOffers([]);
     requestAnimationFrame(() => input.current?.setSelectionRange(next.caret, next.caret));
+  }
+
+  function close(): void {
+    setPath("");
+    setOffers([]);
   }
 
   function onKeyDown(event: KeyboardEvent): void {
@@ -48,7 +62,7 @@ export function ConditionBox({ label, value, onChange, bad = false }: Props) {
     const offer = offers[chosen];
     if (event.key === "ArrowDown" && count > 0) setChosen((chosen + 1) % count);
     else if (event.key === "ArrowUp" && count > 0) setChosen((chosen + count - 1) % count);
-    else if (event.key === "Escape" && count > 0) setPath("");
+    else if (event.key === "Escape" && count > 0) close();
     else if ((event.key === "Enter" || event.key === "Tab") && offer) take(offer);
     else return;
     event.preventDefault();
@@ -69,7 +83,6 @@ export function ConditionBox({ label, value, onChange, bad = false }: Props) {
         aria-activedescendant={chosen >= 0 ? `${id}-${chosen}` : undefined}
         aria-invalid={bad}
         placeholder="Main.count > 3"
-        list={value === "" && conditions.length > 0 ? `${id}-before` : undefined}
         value={value}
         spellCheck={false}
         autoComplete="off"
@@ -78,27 +91,25 @@ export function ConditionBox({ label, value, onChange, bad = false }: Props) {
           setPath(pathBefore(event.target.value, event.target.selectionStart ?? event.target.value.length));
         }}
         onKeyDown={onKeyDown}
-        onBlur={() => setPath("")}
+        onFocus={() => {
+          if (value === "") setOffers(conditions.map((text) => ({ text, hint: "" })));
+        }}
+        onBlur={close}
       />
-      <datalist id={`${id}-before`}>
-        {conditions.map((condition) => (
-          <option key={condition} value={condition} />
-        ))}
-      </datalist>
       {open && (
         <span className="conditionoffers" role="listbox" id={id} aria-label={label}>
-          {offers.map((symbol, index) => (
+          {offers.map((offer, index) => (
             <span
-              key={symbol.path}
+              key={offer.text}
               id={`${id}-${index}`}
               role="option"
               aria-selected={index === chosen}
               className={`mi${index === chosen ? " on" : ""}`}
               onPointerDown={(event) => event.preventDefault()}
-              onClick={() => take(symbol)}
+              onClick={() => take(offer)}
             >
-              <span className="mono cut">{symbol.path}</span>
-              <span className="k">{symbol.type}</span>
+              <span className="mono cut">{offer.text}</span>
+              <span className="k">{offer.hint}</span>
             </span>
           ))}
         </span>

@@ -36,15 +36,17 @@ export function Details({ error }: { error: ErrorInfo }) {
             <b>{error.flag}</b>
           </span>
         </span>
-        {error.details.map((detail) => (
-          <Control
-            key={detail.name}
-            detail={detail}
-            entry={entries[detail.name] ?? { text: "", format: "decimal" }}
-            trouble={refused.get(detail.name) ?? null}
-            onEntry={(entry) => setDetail(error, detail.name, entry)}
-          />
-        ))}
+        <div className="row wrap">
+          {error.details.map((detail) => (
+            <Control
+              key={detail.name}
+              detail={detail}
+              entry={entries[detail.name] ?? { text: "", format: "decimal" }}
+              trouble={refused.get(detail.name) ?? null}
+              onEntry={(entry) => setDetail(error, detail.name, entry)}
+            />
+          ))}
+        </div>
       </div>
       {row?.reaction && <ReactionView error={error} state={row.reaction} />}
       <ShapeFields />

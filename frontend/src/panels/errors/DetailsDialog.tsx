@@ -6,7 +6,7 @@ import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
 import { readClock } from "../../store/clock";
 import { useForbidden } from "../../store/plc";
-import { changeDetails, closeDialog, entriesOf, raise, setEntries, useSimulator } from "../../store/simulator";
+import { closeDialog, entriesOf, raise, setEntries, useSimulator } from "../../store/simulator";
 import { Dialog } from "../../ui/Dialog";
 import { Icon } from "../../ui/Icon";
 import type { ErrorInfo } from "../../wire/types";
@@ -15,6 +15,7 @@ import { Gap, type GapForm, gapOf } from "./Gap";
 import { PageList, type PageState } from "./PageList";
 import { Preview } from "./Preview";
 import { ShapeFields } from "./ShapeFields";
+import { WayOn } from "./WayOn";
 
 /** Details of several errors, a page for each that needs some; then all in one seam, or one by one. */
 export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
@@ -33,8 +34,7 @@ export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
   const bad = (of: ErrorInfo) => troubles(of, entriesOf(state, of)).size > 0;
   const shape = readShape(state.shape, readClock().scan);
   const scans = gapOf(gap);
-  const ready =
-    forbidden === null && !errors.some(bad) && Object.keys(shape.troubles).length === 0 && scans !== null;
+  const ready = forbidden === null && !errors.some(bad) && Object.keys(shape.troubles).length === 0 && scans !== null;
   const plain = isPlain(state.shape);
 
   function goTo(next: number): void {
@@ -50,7 +50,8 @@ export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
   }
 
   function spread(from: ErrorInfo, entries = entriesOf(state, from)): void {
-    for (const other of kindred(from, errors)) setEntries(other, takenOver(from, entries, other, entriesOf(state, other)));
+    for (const other of kindred(from, errors))
+      setEntries(other, takenOver(from, entries, other, entriesOf(state, other)));
   }
 
   function toggleSame(): void {
@@ -97,7 +98,9 @@ export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
             </>
           )}
           <button type="submit" className="btn primary" disabled={!ready} title={forbidden ?? undefined}>
-            {plain ? t("errors.generate.many", { count: errors.length }) : t("errors.arm.many", { count: errors.length })}
+            {plain
+              ? t("errors.generate.many", { count: errors.length })
+              : t("errors.arm.many", { count: errors.length })}
           </button>
         </>
       }
@@ -118,7 +121,7 @@ export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
         </div>
       </div>
       <ShapeFields />
-      <DialogRefusal errors={errors} />
+      <DialogRefusal />
     </Dialog>
   );
 }
@@ -129,7 +132,7 @@ function about(needing: number, total: number): string {
 }
 
 /** What the PLC refused stays here, with the entries as they are. */
-function DialogRefusal({ errors }: { errors: readonly ErrorInfo[] }) {
+function DialogRefusal() {
   const outcome = useSimulator((state) => state.outcome);
   const { errors: known } = useCatalogue();
   if (!outcome || outcome.ok) return null;
@@ -137,17 +140,7 @@ function DialogRefusal({ errors }: { errors: readonly ErrorInfo[] }) {
     <p className="trouble st fatal" role="alert">
       <Icon name="error" small />
       <span>
-        {inNames(known, outcome.message) || t("notsent.about")}{" "}
-        {outcome.present.length > 0 && (
-          <button
-            type="button"
-            className="link"
-            title={t("errors.again.hint")}
-            onClick={() => void changeDetails(errors, outcome).then(closeDialog)}
-          >
-            {t("errors.again")}
-          </button>
-        )}
+        {inNames(known, outcome.message) || t("notsent.about")} <WayOn outcome={outcome} onDone={closeDialog} />
       </span>
     </p>
   );

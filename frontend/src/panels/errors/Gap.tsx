@@ -36,7 +36,12 @@ export function Gap({ form, several, onForm }: Props) {
     <>
       <span className="muted">{t("dialog.apply")}</span>
       <span className="seg" role="group" aria-label={t("dialog.apply")}>
-        <button type="button" className={form.sequence ? "" : "on"} aria-pressed={!form.sequence} onClick={choose(false)}>
+        <button
+          type="button"
+          className={form.sequence ? "" : "on"}
+          aria-pressed={!form.sequence}
+          onClick={choose(false)}
+        >
           {t("dialog.apply.batch")}
         </button>
         <button type="button" className={form.sequence ? "on" : ""} aria-pressed={form.sequence} onClick={choose(true)}>

@@ -3,6 +3,7 @@ import { inNames } from "../../logic/catalogue";
 import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
+import { usePlc } from "../../store/plc";
 import { usePreview } from "../../store/preview";
 import { asWanted, useSimulator } from "../../store/simulator";
 import { Icon } from "../../ui/Icon";
@@ -25,6 +26,8 @@ export function Preview({ errors, of, valid, again = false, now = true }: Props)
   useSimulator((state) => state.details);
   const { preview, refused } = usePreview(valid ? asWanted(errors) : null, again);
   const { errors: known } = useCatalogue();
+  // While it runs, the number of the scan would be over before it is read.
+  const running = usePlc((plc) => plc.state?.state === "running");
   const [all, setAll] = useState(false);
   const several = of !== undefined && errors.length > 1;
   const writes = preview?.writes ?? [];
@@ -44,7 +47,9 @@ export function Preview({ errors, of, valid, again = false, now = true }: Props)
             </button>
           </span>
         )}
-        {preview?.ok && !several && <span>{t("preview.scan", { scan: grouped(preview.scan) })}</span>}
+        {preview?.ok && !several && (
+          <span>{running ? t("preview.seam") : t("preview.scan", { scan: grouped(preview.scan) })}</span>
+        )}
       </div>
       {refused !== null && (
         <p className="hint bad">
@@ -55,12 +60,32 @@ export function Preview({ errors, of, valid, again = false, now = true }: Props)
       {preview?.ok && shown.length === 0 && <p className="faint">{t("preview.none")}</p>}
       {shown.length > 0 && (
         <div className="writes">
-          {shown.map((write) => (
-            <Write key={`${write.address} ${write.error} ${write.what}`} write={write} named={several && all} />
-          ))}
+          {shown
+            .filter((write) => write.what !== "log")
+            .map((write) => (
+              <Write key={`${write.address} ${write.error} ${write.what}`} write={write} named={several && all} />
+            ))}
+          <LogWrites writes={shown.filter((write) => write.what === "log")} />
         </div>
       )}
     </section>
+  );
+}
+
+/** The device's own log takes several words for each error: one line says so, unless somebody wants to see them. */
+function LogWrites({ writes }: { writes: readonly PreviewedWrite[] }) {
+  const [open, setOpen] = useState(false);
+  const [first] = writes;
+  if (!first) return null;
+  if (open) return writes.map((write) => <Write key={write.address} write={write} named={false} />);
+  return (
+    <div className="w">
+      <span className="mono">{first.address} …</span>
+      <button type="button" className="link" onClick={() => setOpen(true)}>
+        {t(writes.length === 1 ? "preview.words.one" : "preview.words", { count: writes.length })}
+      </button>
+      <span className="cut">{t("preview.log")}</span>
+    </div>
   );
 }
 
@@ -71,9 +96,7 @@ function Write({ write, named }: { write: PreviewedWrite; named: boolean }) {
   return (
     <div className="w">
       <span className="mono">{address}</span>
-      <span className="mono">
-        {before === after ? t("preview.stays", { value: after }) : `${before} → ${after}`}
-      </span>
+      <span className="mono">{before === after ? t("preview.stays", { value: after }) : `${before} → ${after}`}</span>
       <span className="cut">
         {t(`preview.${what}`)}
         {name}

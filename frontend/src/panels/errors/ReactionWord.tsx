@@ -19,7 +19,12 @@ export function ReactionWord({ reaction }: { reaction: ReactionState }) {
     return <StateWord tone="stale" icon="info" word={t("reaction.failed")} title={message || undefined} />;
   return (
     <>
-      <StateWord tone={verdict} icon={VERDICT_ICONS[verdict]} word={t(`verdict.${verdict}`)} title={message || undefined} />
+      <StateWord
+        tone={verdict}
+        icon={VERDICT_ICONS[verdict]}
+        word={t(`verdict.${verdict}`)}
+        title={message || undefined}
+      />
       {verdict === "reacted" && scans !== null && (
         <span className="scans num" title={t("reaction.scans", { scans })}>
           {scans}

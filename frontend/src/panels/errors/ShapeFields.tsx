@@ -1,4 +1,4 @@
-import type { ReactNode } from "react";
+import { type ReactNode, useId } from "react";
 import { HOWS, readShape, type ShapeField, type ShapeForm, WHENS } from "../../logic/shapes";
 import { t } from "../../logic/text";
 import { readClock } from "../../store/clock";
@@ -10,42 +10,45 @@ type Troubles = ReturnType<typeof readShape>["troubles"];
 
 /** When a fault begins and how it goes on; now and to stay is an ordinary Generate. */
 export function ShapeFields() {
+  const id = useId();
   const form = useSimulator((state) => state.shape);
   const { troubles } = readShape(form, readClock().scan);
   return (
     <div className="shape" role="group" aria-label={`${t("shape.when")}, ${t("shape.how")}`}>
       <div className="shaperow">
-        <label>
-          <span className="faint">{t("shape.when")}</span>
-          <select
-            className="inp sm"
-            value={form.when}
-            onChange={(event) => setShape({ when: event.target.value as ShapeForm["when"] })}
-          >
-            {WHENS.map((when) => (
-              <option key={when} value={when}>
-                {t(`shape.when.${when}`)}
-              </option>
-            ))}
-          </select>
+        <label htmlFor={`${id}-when`} className="faint">
+          {t("shape.when")}
         </label>
+        <select
+          id={`${id}-when`}
+          className="inp sm"
+          value={form.when}
+          onChange={(event) => setShape({ when: event.target.value as ShapeForm["when"] })}
+        >
+          {WHENS.map((when) => (
+            <option key={when} value={when}>
+              {t(`shape.when.${when}`)}
+            </option>
+          ))}
+        </select>
         <WhenFields form={form} troubles={troubles} />
       </div>
       <div className="shaperow">
-        <label>
-          <span className="faint">{t("shape.how")}</span>
-          <select
-            className="inp sm"
-            value={form.how}
-            onChange={(event) => setShape({ how: event.target.value as ShapeForm["how"] })}
-          >
-            {HOWS.map((how) => (
-              <option key={how} value={how}>
-                {t(`shape.how.${how}`)}
-              </option>
-            ))}
-          </select>
+        <label htmlFor={`${id}-how`} className="faint">
+          {t("shape.how")}
         </label>
+        <select
+          id={`${id}-how`}
+          className="inp sm"
+          value={form.how}
+          onChange={(event) => setShape({ how: event.target.value as ShapeForm["how"] })}
+        >
+          {HOWS.map((how) => (
+            <option key={how} value={how}>
+              {t(`shape.how.${how}`)}
+            </option>
+          ))}
+        </select>
         <HowFields form={form} troubles={troubles} />
       </div>
       <Complaint form={form} troubles={troubles} />
@@ -97,6 +100,7 @@ function WhenFields({ form, troubles }: FieldsProps) {
 
 function HowFields({ form, troubles }: FieldsProps) {
   const props = { form, troubles };
+  const chance = useId();
   const times = (
     <Count field="times" label={t("shape.times")} placeholder={t("shape.times.endless")} {...props} wide>
       <span className="faint">{t("shape.times")}</span>
@@ -117,16 +121,20 @@ function HowFields({ form, troubles }: FieldsProps) {
           {times}
           <span className="row tightish">
             <input
-              id="shape-chance"
+              id={chance}
               type="checkbox"
               className="box"
               checked={form.chance}
               onChange={() => setShape({ chance: !form.chance })}
             />
-            <label htmlFor="shape-chance" className="faint">
+            <label htmlFor={chance} className="faint">
               {t("shape.chance")}
             </label>
-            {form.chance && <Count field="seed" label={t("shape.seed")} {...props} />}
+            {form.chance && (
+              <Count field="seed" label={t("shape.seed")} {...props}>
+                <span className="faint">{t("shape.seed")}</span>
+              </Count>
+            )}
           </span>
         </>
       );

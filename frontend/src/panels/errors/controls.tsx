@@ -50,7 +50,7 @@ function Choices({ detail, entry, onEntry }: ControlProps) {
   const choices = detail.choices ?? [];
   const chosen = choices.find((choice) => choice.id === entry.text);
   return (
-    <label className="detailrow">
+    <label className="detailrow choices">
       <span className="muted">{labelOf(detail)}</span>
       <select
         className="inp sm"

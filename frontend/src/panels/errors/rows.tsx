@@ -1,15 +1,16 @@
 import type { ReactNode } from "react";
 import type { GroupRow, LeafRow } from "../../logic/catalogue";
-import { inNames } from "../../logic/catalogue";
+import { detailsInWords, inNames } from "../../logic/catalogue";
 import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
-import { changeDetails, selectError, toggleChecked, toggleGroup, useSimulator } from "../../store/simulator";
+import { selectError, toggleChecked, toggleGroup, useSimulator } from "../../store/simulator";
 import { Checkbox } from "../../ui/Checkbox";
 import { Icon } from "../../ui/Icon";
 import { StateWord } from "../../ui/StateWord";
 import { STATUS_ICONS } from "../../ui/statuses";
 import type { ErrorInfo } from "../../wire/types";
 import { ReactionWord } from "./ReactionWord";
+import { WayOn } from "./WayOn";
 
 export function Group({ row, index, selected }: { row: GroupRow; index: number; selected: boolean }) {
   return (
@@ -96,30 +97,26 @@ export function Leaf({ row, index, selected, children }: LeafProps) {
   );
 }
 
+/** The reason without the name, which stands in the row above, and with its details in words. */
+function refusalOf(error: ErrorInfo, message: string): string {
+  const plain = message.startsWith(`${error.id}: `) ? message.slice(error.id.length + 2) : message;
+  const worded = plain.replace(/\(([^()]*=[^()]*)\)/, (_, details: string) => `(${detailsInWords(error, details)})`);
+  return worded === "" || /[.!?]$/.test(worded) ? worded : `${worded}.`;
+}
+
 /** Why this error was not generated, and the way on. */
 export function RefusalRow({ error }: { error: ErrorInfo }) {
   const outcome = useSimulator((state) => state.outcome);
   const { errors } = useCatalogue();
   if (!outcome) return null;
-  // The name stands in the row above.
-  const plain = outcome.message.startsWith(`${error.id}: `) ? outcome.message.slice(error.id.length + 2) : outcome.message;
+  const why = refusalOf(error, outcome.message);
   return (
     <div className="refusalrow" role="row">
       <span role="gridcell">
         <span role="alert">
           <Icon name="error" small />
           <span>
-            <b>{t("errors.notgenerated")}</b> {inNames(errors, plain) || t("notsent.about")}{" "}
-            {outcome.present.length > 0 && (
-              <button
-                type="button"
-                className="link"
-                title={t("errors.again.hint")}
-                onClick={() => void changeDetails(errors, outcome)}
-              >
-                {t("errors.again")}
-              </button>
-            )}
+            <b>{t("errors.notgenerated")}</b> {inNames(errors, why) || t("notsent.about")} <WayOn outcome={outcome} />
           </span>
         </span>
       </span>

@@ -1,4 +1,5 @@
 import { useEffect, useState } from "react";
+import { allErrors } from "../../logic/catalogue";
 import { type FileNode, isTable, type PouGroup, type PouNode, pouGroups, shownAt } from "../../logic/explorer";
 import { percent } from "../../logic/numbers";
 import { t } from "../../logic/text";
@@ -7,6 +8,7 @@ import { isDirty, useDocuments } from "../../store/documents";
 import { loadMembers, useMembers } from "../../store/members";
 import { openFile } from "../../store/navigate";
 import { usePlc } from "../../store/plc";
+import { openUserErrors } from "../../store/userErrors";
 import { addToWatch } from "../../store/watchlist";
 import type { IconName } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
@@ -193,8 +195,23 @@ function modelRows(model: ModelInfo, folding: Folding, openMenu: OpenMenu): Tree
     memory,
     ...(folding.isOpen("memory") ? model.areas.flatMap((area) => areaRows(area, folding, openMenu)) : []),
     plc,
-    ...(folding.isOpen("model") ? facts.map((fact) => factRow(fact)) : []),
+    ...(folding.isOpen("model") ? [...facts.map((fact) => factRow(fact)), userErrorsRow(model)] : []),
   ];
+}
+
+/** The way to the errors that the project defines itself. */
+function userErrorsRow(model: ModelInfo): TreeRow {
+  const own = allErrors(model.catalogue).filter((error) => error.user).length;
+  const name = t("usererrors.title");
+  return {
+    key: "usererrors",
+    level: 1,
+    icon: "list",
+    label: name,
+    name,
+    meta: own > 0 ? own : undefined,
+    onActivate: () => openUserErrors(),
+  };
 }
 
 /** How many of the model's errors were looked up in its manuals. */

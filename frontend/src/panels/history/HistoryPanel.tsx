@@ -1,79 +1,101 @@
-import { allErrors, detailsInWords } from "../../logic/catalogue";
-import { grouped, wallTime } from "../../logic/numbers";
+import { useEffect, useMemo } from "react";
+import type { HistoryLine } from "../../logic/history";
+import { dayTime } from "../../logic/sweep";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
+import { useCatalogue } from "../../store/catalogue";
 import { usePlc } from "../../store/plc";
-import { StateWord } from "../../ui/StateWord";
-import { STATUS_ICONS } from "../../ui/statuses";
-import type { ErrorHistoryRow } from "../../wire/types";
+import { refreshRecords, setHistoryView, showVersion, useRecords } from "../../store/records";
+import { Icon } from "../../ui/Icon";
+import { MenuButton, type MenuItem } from "../../ui/Menu";
+import { Filters } from "./Filters";
+import { HistoryTable } from "./HistoryTable";
+import "./history.css";
+import { RecordMenu } from "./RecordMenu";
 
-/** One row for each error of the catalogue: was the program ever tested against it? */
+/** One row for each error of the catalogue: was the program ever tested against it, and did it react? */
 export function HistoryPanel() {
-  const errors = usePlc((plc) => plc.errors);
-  const model = useBench((bench) => bench.model);
-  const rows = [...errors.values()];
-  const catalogue = new Map(allErrors(model?.catalogue ?? []).map((error) => [error.id, error]));
+  const instance = useBench((bench) => bench.instance?.id ?? null);
+  const project = useBench((bench) => bench.project?.id ?? null);
+  const running = usePlc((plc) => plc.state?.program_version ?? null);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: another PLC, another program, a connection that is back
+  useEffect(() => void refreshRecords(), [instance, project, running]);
+  const { old, view, trouble } = useRecords();
+  const lines = useLines();
   return (
     <div className="pane flexcol" data-pane="history" data-live>
-      {rows.length === 0 ? (
+      <div className="sub hbar" role="toolbar" aria-label={t("history.label")}>
+        <Filters view={view} onView={setHistoryView} />
+        <span className="grow" />
+        <VersionMenu running={running} />
+        <RecordMenu />
+      </div>
+      {trouble && (
+        <p className="trouble st fatal" role="alert">
+          <Icon name="error" small />
+          <span>{trouble}</span>
+        </p>
+      )}
+      {old && (
+        <p className="oldnote st past" role="status">
+          <Icon name="past" small />
+          <span>
+            {t("history.old", { version: old.version, running: running ?? "–" })}{" "}
+            <button type="button" className="link" onClick={() => void showVersion(null)}>
+              {t("history.old.back")}
+            </button>
+          </span>
+        </p>
+      )}
+      {lines.length === 0 ? (
         <p className="lonely faint">{t("history.none")}</p>
       ) : (
-        // biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard
-        <div className="scroll both hscroll" tabIndex={0}>
-          <table className="htable" aria-label={t("history.table")}>
-            <thead>
-              <tr>
-                <th scope="col">{t("errors.error")}</th>
-                <th scope="col">{t("errors.state")}</th>
-                <th scope="col">{t("history.generated")}</th>
-                <th scope="col">{t("history.recovered")}</th>
-                <th scope="col">{t("errors.code")}</th>
-                <th scope="col">{t("history.details")}</th>
-                <th scope="col">{t("log.by")}</th>
-                <th scope="col" className="num">
-                  {t("history.count")}
-                </th>
-              </tr>
-            </thead>
-            <tbody>
-              {rows.map((row) => (
-                <Row key={row.id} row={row} details={detailsInWords(catalogue.get(row.id), row.details)} />
-              ))}
-            </tbody>
-          </table>
-        </div>
+        <HistoryTable
+          lines={lines}
+          view={view}
+          onView={setHistoryView}
+          label={t("history.table")}
+          dated={old !== null}
+        />
       )}
     </div>
   );
 }
 
-function Row({ row, details }: { row: ErrorHistoryRow; details: string }) {
-  return (
-    <tr data-error={row.id}>
-      <th scope="row" title={row.name}>
-        {row.name}
-      </th>
-      <td>
-        <StateWord tone={row.status} icon={STATUS_ICONS[row.status]} word={t(`errors.status.${row.status}`)} />
-      </td>
-      <Moment at={row.generated_at} scan={row.generated_scan} />
-      <Moment at={row.recovered_at} scan={row.recovered_scan} />
-      <td className="mono">{row.status === "never" ? "" : row.code}</td>
-      <td className="details" title={details || undefined}>
-        {details}
-      </td>
-      <td title={row.origin ? t(`origin.${row.origin}`) : undefined}>{row.by ?? ""}</td>
-      <td className="num">{row.count || ""}</td>
-    </tr>
-  );
+/** The rows that are looked at, in the order of the catalogue and with its names. */
+function useLines(): readonly HistoryLine[] {
+  const live = usePlc((plc) => plc.errors);
+  const old = useRecords((records) => records.old);
+  const { errors } = useCatalogue();
+  return useMemo(() => {
+    const rows = old ? new Map(old.rows.map((row) => [row.id, row])) : live;
+    const names = new Map(errors.map(({ id, name }) => [id, name]));
+    // What the catalogue of the program that runs does not know belongs to another one: it stands behind.
+    const others = old ? old.rows.filter(({ id }) => !names.has(id)) : [];
+    const known = errors.flatMap(({ id }) => rows.get(id) ?? []);
+    return [...known, ...others].map((row) => ({ ...row, name: names.get(row.id) ?? row.name }));
+  }, [live, old, errors]);
 }
 
-function Moment({ at, scan }: { at: string | null; scan: number | null }) {
-  const before = scan === null ? "" : t("history.scan", { scan: grouped(scan) });
+function VersionMenu({ running }: { running: number | null }) {
+  const { versions, old } = useRecords();
+  const shown = old?.version ?? running;
+  if (shown === null) return null;
+
+  function items(): MenuItem[] {
+    return versions.map(({ version, raised, at }) => ({
+      label: t(version === running ? "history.version.running" : "history.version", { version }),
+      hint: [t("history.raised", { raised }), at ? dayTime(at) : ""].filter(Boolean).join(" · "),
+      checked: version === shown,
+      onSelect: () => void showVersion(version),
+    }));
+  }
+
+  const word = t(old ? "history.version" : "history.version.running", { version: shown });
   return (
-    <td className="mono" title={[at, before].filter(Boolean).join(" · ") || undefined}>
-      {wallTime(at)}
-      {before && <span className="faint scan"> {before}</span>}
-    </td>
+    <MenuButton label={t("history.version.of", { version: word })} items={items} disabled={versions.length === 0}>
+      <span className="cut">{word}</span>
+      <Icon name="chev-d" small />
+    </MenuButton>
   );
 }

@@ -1,9 +1,9 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { type RefObject, useCallback, useEffect, useLayoutEffect, useMemo, useRef, useState } from "react";
-import { allErrors, inNames } from "../../logic/catalogue";
+import { inNames } from "../../logic/catalogue";
 import { grouped, wallTime } from "../../logic/numbers";
 import { t } from "../../logic/text";
-import { useBench } from "../../store/bench";
+import { useCatalogue } from "../../store/catalogue";
 import { usePlc } from "../../store/plc";
 import { Icon, type IconName } from "../../ui/Icon";
 import { MenuButton } from "../../ui/Menu";
@@ -64,8 +64,7 @@ function KindMenu({ kind, onKind }: { kind: Filter; onKind: (kind: Filter) => vo
 }
 
 function Lines({ log }: { log: readonly LogLine[] }) {
-  const model = useBench((bench) => bench.model);
-  const errors = useMemo(() => allErrors(model?.catalogue ?? []), [model]);
+  const { errors } = useCatalogue();
   const scroll = useRef<HTMLDivElement>(null);
   const virtual = useVirtualizer({
     count: log.length,

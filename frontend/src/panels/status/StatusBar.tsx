@@ -1,10 +1,11 @@
-import { interval } from "../../logic/numbers";
+import { interval, percent } from "../../logic/numbers";
 import { languageNames, languages, t } from "../../logic/text";
 import { isDirty, useDocuments } from "../../store/documents";
 import { showPanel } from "../../store/navigate";
 import { useOnline, usePlc } from "../../store/plc";
 import { chooseLanguage, usePrefs } from "../../store/prefs";
 import { speedName, useRun } from "../../store/run";
+import { showSweep, useSweeps } from "../../store/sweeps";
 import { useTimeline } from "../../store/timeline";
 import { Icon } from "../../ui/Icon";
 import { MenuButton } from "../../ui/Menu";
@@ -39,6 +40,8 @@ export function StatusBar() {
         <StateWord tone="forced" icon="forced" word={t("force.count", { count: state.forces })} />
       )}
       <Raised />
+      <Sweeping />
+      <ArmedFaults />
       <RunRefusal />
       <span className="right">
         <FileState />
@@ -60,6 +63,34 @@ function Raised() {
         icon={fatal ? "fatal" : "generated"}
         word={t(raised.length === 1 ? "status.errors.one" : "status.errors", { count: raised.length })}
       />
+    </button>
+  );
+}
+
+function ArmedFaults() {
+  const count = usePlc((plc) => plc.armed.length);
+  if (count === 0) return null;
+  return (
+    <button type="button" className="link plain" onClick={() => showPanel("errors")}>
+      <StateWord tone="recording" icon="clock" word={t(count === 1 ? "armed.count.one" : "armed.count", { count })} />
+    </button>
+  );
+}
+
+/** A sweep that runs, of whomever: one click away. */
+function Sweeping() {
+  const sweep = useSweeps((sweeps) => sweeps.list?.find(({ status }) => status === "running"));
+  if (!sweep) return null;
+  const { id, by, done, total } = sweep;
+  const share = percent(total === 0 ? 0 : Math.floor((done / total) * 100));
+  return (
+    <button
+      type="button"
+      className="link plain"
+      title={t("sweep.underway.hint", { by, done, total })}
+      onClick={() => showSweep(id)}
+    >
+      <StateWord tone="info" icon="record" word={t("sweep.underway", { share })} />
     </button>
   );
 }

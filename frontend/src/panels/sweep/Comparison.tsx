@@ -52,6 +52,7 @@ export function Comparison({ comparison }: { comparison: SweepComparison }) {
       {rows.length === 0 ? (
         <p className="lonely faint">{t("sweep.compare.same")}</p>
       ) : (
+        // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls must be reached by the keyboard
         <div className="grid scroll swcmp" role="table" aria-label={t("sweep.compare.table")} tabIndex={0}>
           <div className="gr h" role="row">
             {(["error", "state", "before", "after", "change"] as const).map((column) => (
@@ -107,6 +108,11 @@ function Line({ row }: { row: SweepChange }) {
 function Outcome({ verdict, scans, missing }: { verdict: Verdict | null; scans: number | null; missing: boolean }) {
   if (missing) return <span className="faint">–</span>;
   if (verdict === null) return <span className="faint">{t("sweep.none")}</span>;
-  const word = verdict === "reacted" && scans !== null ? (scans === 1 ? t("sweep.scan") : t("sweep.scans", { count: scans })) : t(`verdict.${verdict}`);
+  const word =
+    verdict === "reacted" && scans !== null
+      ? scans === 1
+        ? t("sweep.scan")
+        : t("sweep.scans", { count: scans })
+      : t(`verdict.${verdict}`);
   return <StateWord tone={verdict} icon={VERDICT_ICONS[verdict]} word={word} />;
 }

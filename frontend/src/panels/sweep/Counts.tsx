@@ -42,7 +42,7 @@ export function Counts({ sweep, view, onView }: Props) {
       {counts.left > 0 && (
         <span className="fl still">
           <span className="st never">
-            <Icon name="wait" small />
+            <Icon name={left === "waiting" ? "wait" : "never"} small />
             {t(`sweep.${left}`)}
           </span>
           <b>{counts.left}</b>

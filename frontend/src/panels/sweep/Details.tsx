@@ -1,18 +1,20 @@
 import { useEffect, useState } from "react";
-import { allErrors } from "../../logic/catalogue";
 import { grouped } from "../../logic/numbers";
-import { isFinding } from "../../logic/sweep";
+import { isFinding, isOpen, NOW } from "../../logic/sweep";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
+import { useCatalogue } from "../../store/catalogue";
 import { messageOf } from "../../store/documents";
 import { openCell, reactionOf, withdrawFinding } from "../../store/sweeps";
 import { Icon } from "../../ui/Icon";
 import { StateWord } from "../../ui/StateWord";
 import { VERDICT_ICONS } from "../../ui/statuses";
-import type { CellRef, Reaction, Sweep, SweepCell, SweepError } from "../../wire/types";
+import type { CellRef, Reaction, Sweep, SweepCell, SweepError, Verdict } from "../../wire/types";
 import { Accept } from "./Accept";
 import { Found } from "./Found";
-import { nextHint, sentence } from "./sentences";
+
+/** Who runs along a row with the arrow keys asks for nothing on the way. */
+const PAUSE = 120;
 
 interface Props {
   sweep: Sweep;
@@ -27,7 +29,9 @@ export function Details({ sweep, error, state, cell }: Props) {
   return (
     <>
       <div>
-        <span className="hint">{t("sweep.while", { error: error.name, state })}</span>
+        <span className="hint">
+          {state === NOW ? t("sweep.asitwas", { error: error.name }) : t("sweep.while", { error: error.name, state })}
+        </span>
         <h3>
           {cell?.verdict ? (
             <StateWord tone={cell.verdict} icon={VERDICT_ICONS[cell.verdict]} word={t(`verdict.${cell.verdict}`)} />
@@ -43,13 +47,12 @@ export function Details({ sweep, error, state, cell }: Props) {
 
 function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell: SweepCell }) {
   const [reaction, refused] = useReaction(sweep.id, cell);
-  const model = useBench((bench) => bench.model);
-  const flag = allErrors(model?.catalogue ?? []).find(({ id }) => id === error.id)?.flag ?? "";
-  const codeWord = model?.code_word ?? "";
+  const codeWord = useBench((bench) => bench.model?.code_word ?? "");
+  const flag = useCatalogue().byId.get(error.id)?.flag ?? "";
   if (cell.verdict === null) return <p className="muted">{cell.note || t("sweep.none.about")}</p>;
   return (
     <>
-      <p className="muted">{sentence(cell, sweep.window)}</p>
+      <p className="muted">{sentence(cell, cell.verdict, sweep.window)}</p>
       {cell.note && <p className="muted">{cell.note}</p>}
       {reaction ? (
         <Found reaction={reaction} raised={cell.raised_scan} flag={flag} codeWord={codeWord} code={error.code} />
@@ -57,9 +60,22 @@ function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell:
         <p className="hint">{refused ?? t("sweep.loading")}</p>
       )}
       <Deeds sweep={sweep} error={error} cell={cell} />
-      {isFinding(cell) && !cell.accepted && <p className="hint">{nextHint(cell, flag)}</p>}
+      {isOpen(cell) && (
+        <p className="hint">
+          {t(cell.verdict === "no_effect" ? "sweep.next.no_effect" : "sweep.next.never_read", {
+            flag: flag || t("errors.flag"),
+          })}
+        </p>
+      )}
     </>
   );
+}
+
+/** What the program did, in one sentence. */
+function sentence({ first_read: read, first_effect: scans }: SweepCell, verdict: Verdict, window: number): string {
+  if (verdict === "reacted" && scans === 1) return t("sweep.says.reacted.one");
+  if (verdict === "reacted" && read === null) return t("sweep.says.reacted.unread", { scans });
+  return t(`sweep.says.${verdict}`, { read, scans, window: grouped(window) });
 }
 
 function Deeds({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell: SweepCell }) {
@@ -79,7 +95,7 @@ function Deeds({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell: 
           </span>
         </p>
       )}
-      <div className="row wrap">
+      <div className="row">
         <button
           type="button"
           className="btn primary sm"
@@ -113,12 +129,15 @@ function useReaction(sweep: number, { error, state, verdict }: SweepCell): [Reac
     setRefused(null);
     if (verdict === null) return;
     const cell: CellRef = { error, state };
-    reactionOf(sweep, cell).then(
-      (found) => over || setReaction(found),
-      (why: unknown) => over || setRefused(messageOf(why)),
-    );
+    const ask = () =>
+      reactionOf(sweep, cell).then(
+        (found) => over || setReaction(found),
+        (why: unknown) => over || setRefused(messageOf(why)),
+      );
+    const timer = setTimeout(() => void ask(), PAUSE);
     return () => {
       over = true;
+      clearTimeout(timer);
     };
   }, [sweep, error, state, verdict]);
   return [reaction, refused];

@@ -1,7 +1,7 @@
 import type { ReactNode } from "react";
 import { grouped } from "../../logic/numbers";
 import { baseName } from "../../logic/paths";
-import { readersOf } from "../../logic/sweep";
+import { countReaders } from "../../logic/sweep";
 import { t } from "../../logic/text";
 import { openFile } from "../../store/navigate";
 import type { Reaction } from "../../wire/types";
@@ -27,9 +27,12 @@ export function Found({ reaction, raised, flag, codeWord, code }: Props) {
     <>
       <dl className="facts">
         <Fact name={t("sweep.fact.raised")} value={<span className="mono">{grouped(raised)}</span>} />
-        <Fact name={flag ? t("sweep.fact.flag", { flag }) : t("errors.flag")} value={reads(readersOf(reaction, "flag"))} />
-        <Fact name={t("sweep.fact.code", { word: codeWord, code })} value={reads(readersOf(reaction, "code"))} />
-        <Fact name={t("sweep.fact.detail")} value={reads(readersOf(reaction, "detail"))} />
+        <Fact
+          name={flag ? t("sweep.fact.flag", { flag }) : t("errors.flag")}
+          value={reads(countReaders(reaction, "flag"))}
+        />
+        <Fact name={t("sweep.fact.code", { word: codeWord, code })} value={reads(countReaders(reaction, "code"))} />
+        <Fact name={t("sweep.fact.detail")} value={reads(countReaders(reaction, "detail"))} />
         <Fact name={t("sweep.fact.outputs")} value={outputs.length === 0 ? t("sweep.fact.none") : outputs.length} />
         <Fact name={t("sweep.fact.variables")} value={hidden === 0 ? t("sweep.fact.none") : hidden} />
       </dl>
@@ -37,7 +40,7 @@ export function Found({ reaction, raised, flag, codeWord, code }: Props) {
         {({ file, line, pou, what, scan }) => (
           <>
             <Place file={file} line={line} />
-            <span className="faint cut">{t("sweep.reader", { pou, what: t(`sweep.what.${what}`) })}</span>
+            <span className="faint cut">{t("sweep.reader", { pou, what: t(`reaction.what.${what}`) })}</span>
             <span className="faint end">{t("sweep.inscan", { scan })}</span>
           </>
         )}
@@ -68,7 +71,12 @@ function Fact({ name, value }: { name: string; value: ReactNode }) {
 
 function Place({ file, line }: { file: string; line: number }) {
   return (
-    <button type="button" className="link mono" title={t("sweep.goto", { file, line })} onClick={() => openFile(file, line)}>
+    <button
+      type="button"
+      className="link mono"
+      title={t("sweep.goto", { file, line })}
+      onClick={() => openFile(file, line)}
+    >
       {`${baseName(file)}:${line}`}
     </button>
   );

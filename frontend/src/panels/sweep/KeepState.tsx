@@ -9,7 +9,9 @@ export function KeepState({ scan }: { scan: number | null }) {
   const name = useBench((bench) => bench.instance?.name ?? "");
   return (
     <AskName
-      title={scan === null ? t("states.keep.title", { name }) : t("states.keep.title.scan", { name, scan: grouped(scan) })}
+      title={
+        scan === null ? t("states.keep.title", { name }) : t("states.keep.title.scan", { name, scan: grouped(scan) })
+      }
       about={t("states.keep.about")}
       label={t("states.keep.name")}
       action={t("states.keep.do")}

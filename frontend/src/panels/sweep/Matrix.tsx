@@ -1,3 +1,4 @@
+import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, useEffect, useRef } from "react";
 import { type MatrixRow, stepIn } from "../../logic/sweep";
 import { t } from "../../logic/text";
@@ -5,6 +6,7 @@ import type { CellRef, Sweep } from "../../wire/types";
 import { cellId, Row } from "./Row";
 
 const ROW = 24;
+const GROUP = 28;
 
 interface Props {
   sweep: Sweep;
@@ -15,20 +17,45 @@ interface Props {
   onEnter: () => void;
 }
 
-/** Errors by states. Arrow keys move, Home and End lead along a row, with Ctrl to the corners; Enter goes to the details. */
+/** Errors by states; only the rows in sight exist in the page. Arrow keys move, Home and End lead along a row, with Ctrl to the corners. */
 export function Matrix({ sweep, rows, selected, onSelect, onEnter }: Props) {
   const grid = useRef<HTMLDivElement>(null);
   const { states } = sweep;
   const row = rows.findIndex((known) => known.kind === "error" && known.error.id === selected?.error);
   const column = selected ? states.indexOf(selected.state) : -1;
   const place = row >= 0 && column >= 0 ? { row, column } : null;
+  const virtual = useVirtualizer({
+    count: rows.length,
+    getScrollElement: () => grid.current,
+    estimateSize: (index) => (rows[index]?.kind === "group" ? GROUP : ROW),
+    overscan: 6,
+    scrollMargin: ROW,
+    scrollPaddingStart: ROW,
+    getItemKey: (index) => keyOf(rows[index], index),
+  });
 
-  // The head and the column of names cover what lies below them: the margins keep the cell clear of both.
-  // biome-ignore lint/correctness/useExhaustiveDependencies: only the choice moves the grid, not the progress
+  // Another view has other rows at other heights.
+  // biome-ignore lint/correctness/useExhaustiveDependencies: the rows are the reason
+  useEffect(() => virtual.measure(), [rows.length]);
+  // At first sight, and where a key leads; progress never moves what one looks at.
+  // biome-ignore lint/correctness/useExhaustiveDependencies: as said
   useEffect(() => {
-    if (grid.current?.contains(document.activeElement) && selected)
-      grid.current.querySelector(`[id="${cellId(sweep.id, row, column)}"]`)?.scrollIntoView({ block: "nearest", inline: "nearest" });
-  }, [selected]);
+    if (place) virtual.scrollToIndex(row);
+  }, []);
+
+  function bringIntoSight(to: { row: number; column: number }): void {
+    virtual.scrollToIndex(to.row);
+    // The columns of names and codes cover what lies below them.
+    const [names, , ...heads] = grid.current?.querySelectorAll<HTMLElement>("[role=columnheader]") ?? [];
+    const head = heads[to.column];
+    if (!grid.current || !names || !head) return;
+    const covered = head.parentElement?.querySelector<HTMLElement>(".swcode");
+    const left = names.offsetWidth + (covered?.offsetWidth ?? 0);
+    const { scrollLeft, clientWidth } = grid.current;
+    if (head.offsetLeft < scrollLeft + left) grid.current.scrollLeft = head.offsetLeft - left;
+    else if (head.offsetLeft + head.offsetWidth > scrollLeft + clientWidth)
+      grid.current.scrollLeft = head.offsetLeft + head.offsetWidth - clientWidth;
+  }
 
   function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
     if (event.altKey || event.metaKey) return;
@@ -38,8 +65,10 @@ export function Matrix({ sweep, rows, selected, onSelect, onEnter }: Props) {
     const target = to && rows[to.row];
     const state = to && states[to.column];
     if (key === "Enter") onEnter();
-    else if (target?.kind === "error" && state) onSelect({ error: target.error.id, state });
-    else return;
+    else if (target?.kind === "error" && state !== undefined && state !== null) {
+      onSelect({ error: target.error.id, state });
+      bringIntoSight(to);
+    } else return;
     event.preventDefault();
   }
 
@@ -70,17 +99,30 @@ export function Matrix({ sweep, rows, selected, onSelect, onEnter }: Props) {
           </span>
         ))}
       </div>
-      {rows.map((known, index) => (
-        <Row
-          key={known.kind === "group" ? `/${known.name}` : known.error.id}
-          sweep={sweep.id}
-          row={known}
-          index={index}
-          states={states}
-          column={index === row ? column : null}
-          onSelect={onSelect}
-        />
-      ))}
+      <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
+        {virtual.getVirtualItems().map(({ index, key, start }) => {
+          const known = rows[index];
+          return (
+            known && (
+              <Row
+                key={key}
+                sweep={sweep.id}
+                row={known}
+                index={index}
+                top={start - ROW}
+                states={states}
+                column={index === row ? column : null}
+                onSelect={onSelect}
+              />
+            )
+          );
+        })}
+      </div>
     </div>
   );
+}
+
+function keyOf(row: MatrixRow | undefined, index: number): string | number {
+  if (!row) return index;
+  return row.kind === "group" ? `/${row.name}` : row.error.id;
 }

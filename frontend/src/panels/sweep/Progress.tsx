@@ -1,8 +1,9 @@
-import { allErrors, inNames } from "../../logic/catalogue";
-import { duration, percent } from "../../logic/numbers";
-import { clockTime, secondsLeft } from "../../logic/sweep";
+import { inNames } from "../../logic/catalogue";
+import { percent } from "../../logic/numbers";
+import { clockTime, dayTime, secondsLeft, timeLeft } from "../../logic/sweep";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
+import { useCatalogue } from "../../store/catalogue";
 import { cancelSweep, compareSweeps, resumeSweep, showSweeps, useSweeps } from "../../store/sweeps";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
@@ -24,9 +25,19 @@ export function Progress({ sweep }: { sweep: Sweep }) {
       <div className="swp">
         <div className="row">
           <b>{t("sweep.runs", { done, total })}</b>
-          {running ? <Left sweep={sweep} share={share} /> : <StateWord {...STATUS[status]} word={t(`sweep.status.${status}`)} />}
+          {running ? (
+            <Left sweep={sweep} share={share} />
+          ) : (
+            <StateWord {...STATUS[status]} word={t(`sweep.status.${status}`)} />
+          )}
           <span className="faint cut">
-            {t("sweep.of", { by: sweep.by, at: clockTime(sweep.at), instance: sweep.instance, model: sweep.model, version: sweep.program_version })}
+            {t("sweep.of", {
+              by: sweep.by,
+              at: clockTime(sweep.at),
+              instance: sweep.instance,
+              model: sweep.model,
+              version: sweep.program_version,
+            })}
           </span>
           <span className="grow" />
           {running && <Now id={id} />}
@@ -49,7 +60,12 @@ export function Progress({ sweep }: { sweep: Sweep }) {
         </button>
       )}
       {!running && done < total && (
-        <button type="button" className="btn sm" title={t("sweep.resume.hint", { left: total - done })} onClick={() => void resumeSweep(id)}>
+        <button
+          type="button"
+          className="btn sm"
+          title={t("sweep.resume.hint", { left: total - done })}
+          onClick={() => void resumeSweep(id)}
+        >
           <Icon name="play" small />
           {t("sweep.resume")}
         </button>
@@ -73,18 +89,14 @@ export function Progress({ sweep }: { sweep: Sweep }) {
 function Left({ sweep, share }: { sweep: Sweep; share: number }) {
   const left = secondsLeft(sweep);
   const done = percent(Math.floor(share * 100));
-  return (
-    <span className="faint">
-      {left === null ? done : t("sweep.left", { share: done, time: duration(Math.max(1, Math.round(left)) * 1e9) })}
-    </span>
-  );
+  return <span className="faint">{left === null ? done : t("sweep.left", { share: done, time: timeLeft(left) })}</span>;
 }
 
 function Now({ id }: { id: number }) {
   const now = useSweeps((sweeps) => sweeps.now[id]);
-  const model = useBench((bench) => bench.model);
+  const { errors } = useCatalogue();
   if (!now) return null;
-  return <span className="faint cut">{t("sweep.now", { what: inNames(allErrors(model?.catalogue ?? []), now) })}</span>;
+  return <span className="faint cut">{t("sweep.now", { what: inNames(errors, now) })}</span>;
 }
 
 /** The other sweeps of the project: choosing one shows both side by side. */
@@ -98,7 +110,7 @@ function CompareWith({ id }: { id: number }) {
       disabled={others.length === 0}
       items={() =>
         others.map((other) => ({
-          label: t("sweep.compare.with", { at: clockTime(other.at), version: other.program_version }),
+          label: t("sweep.compare.menu", { at: dayTime(other.at), version: other.program_version }),
           hint: `${other.instance}, ${other.by}`,
           onSelect: () => compareSweeps(id, other.id),
         }))

@@ -11,6 +11,7 @@ interface Props {
   sweep: number;
   row: MatrixRow;
   index: number;
+  top: number;
   states: readonly string[];
   /** Which of its cells is selected; null when none is. */
   column: number | null;
@@ -18,10 +19,10 @@ interface Props {
 }
 
 /** A group's name, or an error with its cells. It is drawn again only when something of it changed: progress comes often. */
-export const Row = memo(function Row({ sweep, row, index, states, column, onSelect }: Props) {
+export const Row = memo(function Row({ sweep, row, index, top, states, column, onSelect }: Props) {
   if (row.kind === "group") {
     return (
-      <div className="gr sg" role="row" aria-rowindex={index + 2}>
+      <div className="gr sg" role="row" aria-rowindex={index + 2} style={{ transform: `translateY(${top}px)` }}>
         <span role="rowheader" className="swname" aria-colspan={states.length + 2}>
           <b>{row.name}</b>
         </span>
@@ -30,7 +31,13 @@ export const Row = memo(function Row({ sweep, row, index, states, column, onSele
   }
   const { error, slots, line } = row;
   return (
-    <div className="gr" role="row" aria-rowindex={index + 2} data-error={error.id}>
+    <div
+      className="gr"
+      role="row"
+      aria-rowindex={index + 2}
+      data-error={error.id}
+      style={{ transform: `translateY(${top}px)` }}
+    >
       <span role="rowheader" className="swname cut" title={error.name}>
         {error.name}
       </span>
@@ -61,7 +68,12 @@ export const Row = memo(function Row({ sweep, row, index, states, column, onSele
 }, sameRow);
 
 function sameRow(before: Props, after: Props): boolean {
-  if (before.column !== after.column || before.index !== after.index || before.states.length !== after.states.length)
+  if (
+    before.column !== after.column ||
+    before.index !== after.index ||
+    before.top !== after.top ||
+    before.states.length !== after.states.length
+  )
     return false;
   const [one, other] = [before.row, after.row];
   if (one.kind === "group" || other.kind === "group") return one.kind === other.kind;
@@ -90,7 +102,7 @@ function Cell({ id, look, selected, span, onSelect }: CellProps) {
       id={id}
       role="gridcell"
       className={`sc ${look.tone}${selected ? " selc" : ""}`}
-      style={span ? { gridColumn: `span ${span}` } : undefined}
+      style={span ? { gridColumn: "3 / -1" } : undefined}
       aria-colspan={span}
       aria-selected={selected}
       title={look.title}
@@ -104,7 +116,13 @@ function Cell({ id, look, selected, span, onSelect }: CellProps) {
 
 function lookOf(slot: Slot): Look {
   if (slot === "running") return { icon: "record", tone: "run", word: t("sweep.running") };
-  if (!isCell(slot)) return { icon: slot === "waiting" ? "wait" : "never", tone: "dim", word: slot === "waiting" ? "" : t("sweep.missing"), title: t(`sweep.${slot}`) };
+  if (!isCell(slot))
+    return {
+      icon: slot === "waiting" ? "wait" : "never",
+      tone: "dim",
+      word: slot === "waiting" ? "" : t("sweep.missing"),
+      title: t(`sweep.${slot}`),
+    };
   const { verdict, note } = slot;
   if (verdict === null) return { icon: "never", tone: "dim", word: t("sweep.none"), title: note };
   if (isFinding(slot) && slot.accepted)
@@ -113,15 +131,21 @@ function lookOf(slot: Slot): Look {
 }
 
 function wordOf({ verdict, first_effect: effect }: SweepCell): string {
-  if (verdict === "reacted" && effect !== null) return effect === 1 ? t("sweep.scan") : t("sweep.scans", { count: effect });
+  if (verdict === "reacted" && effect !== null)
+    return effect === 1 ? t("sweep.scan") : t("sweep.scans", { count: effect });
   return verdict === null ? "" : t(`verdict.${verdict}`);
 }
 
 function lookOfLine({ line, slots }: ErrorRow): Look {
   const many = slots.length > 1;
   if (line?.what === "stopped")
-    return { icon: "stopped", tone: "stopped", word: many ? t("sweep.line.stopped", { count: slots.length }) : t("sweep.line.stopped.one") };
-  if (line?.what === "note") return { icon: "never", tone: "dim", word: line.note || t("sweep.none"), title: line.note };
+    return {
+      icon: "stopped",
+      tone: "stopped",
+      word: many ? t("sweep.line.stopped", { count: slots.length }) : t("sweep.line.stopped.one"),
+    };
+  if (line?.what === "note")
+    return { icon: "never", tone: "dim", word: line.note || t("sweep.none"), title: line.note };
   return line?.what === "waiting"
     ? { icon: "wait", tone: "dim", word: t("sweep.waiting") }
     : { icon: "never", tone: "dim", word: t("sweep.missing") };

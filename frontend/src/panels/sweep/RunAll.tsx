@@ -1,13 +1,12 @@
 import { type ReactNode, useEffect, useState } from "react";
-import { allErrors } from "../../logic/catalogue";
 import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
+import { useCatalogue } from "../../store/catalogue";
 import { messageOf } from "../../store/documents";
 import { usePlc } from "../../store/plc";
 import { useSimulator } from "../../store/simulator";
 import { beginSweep, closeQuestion, useSweeps } from "../../store/sweeps";
-import { Checkbox } from "../../ui/Checkbox";
 import { Dialog } from "../../ui/Dialog";
 import { Field } from "../../ui/Field";
 import { Icon } from "../../ui/Icon";
@@ -20,7 +19,7 @@ const WINDOW_MOST = 100_000;
 
 /** Asks which errors are raised, from which states, and for how long the program is watched after each. */
 export function RunAll() {
-  const model = useBench((bench) => bench.model);
+  const { errors } = useCatalogue();
   const instance = useBench((bench) => bench.instance);
   const ticked = useSimulator((simulator) => simulator.checked);
   const scan = usePlc((plc) => plc.state?.past?.live_scan ?? plc.state?.scan ?? 0);
@@ -34,7 +33,6 @@ export function RunAll() {
   // The states of the project may come after the dialog.
   useEffect(() => setFrom(states.length > 0 ? "states" : "now"), [states.length]);
 
-  const errors = allErrors(model?.catalogue ?? []);
   const chosen: Record<Which, string[] | null> = {
     all: errors.map(({ id }) => id),
     nonfatal: errors.filter(({ severity }) => severity === "nonfatal").map(({ id }) => id),
@@ -104,7 +102,8 @@ export function RunAll() {
       <fieldset className="choices">
         <legend>{t("sweep.run.states")}</legend>
         <Radio name="from" on={from === "now"} onChoose={() => setFrom("now")}>
-          {t("sweep.run.now", { name: instance?.name ?? "" })} <span className="faint">{t("sweep.run.scan", { scan: grouped(scan) })}</span>
+          {t("sweep.run.now", { name: instance?.name ?? "" })}{" "}
+          <span className="faint">{t("sweep.run.scan", { scan: grouped(scan) })}</span>
         </Radio>
         <Radio name="from" on={from === "states"} disabled={states.length === 0} onChoose={() => setFrom("states")}>
           {t("sweep.run.kept")} <span className="faint">{states.length === 0 ? t("sweep.run.kept.none") : ""}</span>
@@ -113,15 +112,24 @@ export function RunAll() {
           <ul className="picks">
             {states.map((state) => (
               <li key={state.id}>
-                <label>
-                  <Checkbox
-                    label={state.name}
-                    check={left.has(state.id) ? "none" : "all"}
+                <label htmlFor={`state-${state.id}`}>
+                  <input
+                    id={`state-${state.id}`}
+                    type="checkbox"
+                    className="box"
+                    aria-label={state.name}
+                    checked={!left.has(state.id)}
                     disabled={from === "now"}
-                    onToggle={() => toggle(state.id)}
+                    onChange={() => toggle(state.id)}
                   />
                   <span className="cut">{state.name}</span>
-                  <span className="faint cut">{t("sweep.run.kept.of", { instance: state.instance, scan: grouped(state.scan), version: state.program_version })}</span>
+                  <span className="faint cut">
+                    {t("sweep.run.kept.of", {
+                      instance: state.instance,
+                      scan: grouped(state.scan),
+                      version: state.program_version,
+                    })}
+                  </span>
                 </label>
               </li>
             ))}

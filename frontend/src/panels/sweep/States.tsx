@@ -49,8 +49,13 @@ export function States() {
               <span role="cell" className="cut muted">
                 {dayTime(state.at)}
               </span>
-              <span role="cell" className="end">
-                <IconButton icon="trash" small label={t("states.delete", { name: state.name })} onClick={() => setDoomed(state)} />
+              <span role="cell" className="gut end">
+                <IconButton
+                  icon="trash"
+                  small
+                  label={t("states.delete", { name: state.name })}
+                  onClick={() => setDoomed(state)}
+                />
               </span>
             </div>
           ))}

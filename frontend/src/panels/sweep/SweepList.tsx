@@ -27,11 +27,23 @@ export function SweepList({ list }: { list: readonly SweepSummary[] }) {
       <div className="sub tall">
         <h2 className="swtitle">{t("sweep.tab.list")}</h2>
         <span className="grow" />
-        <button type="button" className="btn sm" disabled={!instance} title={t("states.keep.hint")} onClick={() => keepState()}>
+        <button
+          type="button"
+          className="btn sm"
+          disabled={!instance}
+          title={t("states.keep.hint")}
+          onClick={() => keepState()}
+        >
           <Icon name="plus" small />
           {t("states.keep")}
         </button>
-        <button type="button" className="btn primary sm" disabled={!instance} title={instance ? t("sweep.run.hint") : t("sweep.noplc")} onClick={openSweep}>
+        <button
+          type="button"
+          className="btn primary sm"
+          disabled={!instance}
+          title={instance ? t("sweep.run.hint") : t("sweep.noplc")}
+          onClick={openSweep}
+        >
           {t("sweep.run.button")}
         </button>
       </div>
@@ -106,7 +118,11 @@ function Line({ sweep, onMenu }: { sweep: SweepSummary; onMenu: (at: { x: number
       <span role="cell" title={sweep.message || undefined}>
         <StateWord {...STATUS[status]} word={word} />
       </span>
-      <span role="cell" className="swsum" title={t("sweep.column.counts.about", { done, total, states: states.join(", ") })}>
+      <span
+        role="cell"
+        className="swsum"
+        title={t("sweep.column.counts.about", { done, total, states: states.join(", ") })}
+      >
         {VERDICTS.map((verdict) => (
           <span key={verdict} className={`st ${verdict}`} title={t(`sweep.count.${verdict}`)}>
             <Icon name={VERDICT_ICONS[verdict]} small />
@@ -116,7 +132,7 @@ function Line({ sweep, onMenu }: { sweep: SweepSummary; onMenu: (at: { x: number
         ))}
         <span className="faint cut">{t("sweep.runs", { done, total })}</span>
       </span>
-      <span role="cell" className="end">
+      <span role="cell" className="gut end">
         <IconButton
           icon="more"
           small

@@ -1,6 +1,8 @@
 import { useMemo, useRef, useState } from "react";
-import { firstFinding, isCell, type MatrixView, matrixRows } from "../../logic/sweep";
+import { firstFinding, inWordsOf, isCell, type MatrixView, matrixRows } from "../../logic/sweep";
 import { t } from "../../logic/text";
+import { useBench } from "../../store/bench";
+import { useCatalogue } from "../../store/catalogue";
 import type { CellRef, Sweep } from "../../wire/types";
 import { Counts } from "./Counts";
 import { Details } from "./Details";
@@ -12,7 +14,13 @@ export function SweepView({ sweep }: { sweep: Sweep }) {
   const [view, setView] = useState<MatrixView>({ findings: false, verdict: null });
   const [chosen, setChosen] = useState<CellRef | null>(null);
   const aside = useRef<HTMLElement>(null);
-  const rows = useMemo(() => matrixRows(sweep, view), [sweep, view]);
+  const model = useBench((bench) => bench.model?.name);
+  const { groups } = useCatalogue();
+  const rows = useMemo(() => {
+    // Names in the language of the page, where this is the model that was swept.
+    const named = sweep.model === model ? inWordsOf(sweep, groups) : sweep;
+    return matrixRows(named, view);
+  }, [sweep, view, model, groups]);
   const ref = chosen ?? firstFinding(rows);
   const row = rows.find((known) => known.kind === "error" && known.error.id === ref?.error);
   const slot = row?.kind === "error" && ref ? row.slots[sweep.states.indexOf(ref.state)] : undefined;
@@ -28,9 +36,16 @@ export function SweepView({ sweep }: { sweep: Sweep }) {
           rows={rows}
           selected={ref}
           onSelect={setChosen}
-          onEnter={() => aside.current?.querySelector<HTMLElement>("button, a")?.focus()}
+          onEnter={() => aside.current?.querySelector<HTMLElement>(".btn, button")?.focus()}
         />
-        <aside className="swside scroll" aria-label={t("sweep.details")} ref={aside}>
+        <aside
+          className="swside scroll"
+          aria-label={t("sweep.details")}
+          ref={aside}
+          onKeyDown={(event) => {
+            if (event.key === "Escape") event.currentTarget.parentElement?.querySelector<HTMLElement>(".sw")?.focus();
+          }}
+        >
           {ref && row?.kind === "error" ? (
             <Details
               key={`${ref.error} ${ref.state}`}

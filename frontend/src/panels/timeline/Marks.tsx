@@ -1,9 +1,9 @@
 import { memo, useMemo, useState } from "react";
-import { allErrors, inNames } from "../../logic/catalogue";
+import { inNames } from "../../logic/catalogue";
 import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { type Axis, around, type Cluster, clusters, countKinds } from "../../logic/timeline";
-import { useBench } from "../../store/bench";
+import { useCatalogue } from "../../store/catalogue";
 import { usePlc } from "../../store/plc";
 import { setView, travel, useTimeline } from "../../store/timeline";
 import { Icon, type IconName } from "../../ui/Icon";
@@ -35,8 +35,7 @@ interface Props {
 export const Marks = memo(function Marks({ axis, whole, width, position }: Props) {
   const marks = useTimeline((timeline) => timeline.marks);
   const found = useMemo(() => (width > 0 ? clusters(marks, axis, width, APART) : []), [marks, axis, width]);
-  const model = useBench((bench) => bench.model);
-  const errors = useMemo(() => allErrors(model?.catalogue ?? []), [model]);
+  const { errors } = useCatalogue();
   const you = usePlc((plc) => plc.you?.name);
   const [listed, setListed] = useState<{ items: MenuItem[]; at: { x: number; y: number } } | null>(null);
   const say = (mark: Mark) =>

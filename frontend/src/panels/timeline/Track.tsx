@@ -1,10 +1,9 @@
 import { type KeyboardEvent, type PointerEvent, useEffect, useMemo, useRef, useState } from "react";
-import { allErrors } from "../../logic/catalogue";
 import { grouped, plcTime } from "../../logic/numbers";
 import { pieces, stretches } from "../../logic/stretches";
 import { t } from "../../logic/text";
 import { neighbour, placeOf, scanAt, stepTo, ticks } from "../../logic/timeline";
-import { useBench } from "../../store/bench";
+import { useCatalogue } from "../../store/catalogue";
 import { useForbidden } from "../../store/plc";
 import { travel, useTimeline } from "../../store/timeline";
 import { Marks } from "./Marks";
@@ -128,8 +127,8 @@ function keyTarget(event: KeyboardEvent, position: number, whole: RunOnAxis["who
 /** The ribbon: the states there were, what of it is slower to reach, and that something before it is gone. */
 function Ribbon({ run, width }: { run: RunOnAxis; width: number }) {
   const { info, marks } = useTimeline();
-  const model = useBench((bench) => bench.model);
-  const course = useMemo(() => stretches(marks, allErrors(model?.catalogue ?? [])), [marks, model]);
+  const { errors } = useCatalogue();
+  const course = useMemo(() => stretches(marks, errors), [marks, errors]);
   const thinned = placeOf(info?.thinned_before ?? 0, run.axis);
   const dropped = (info?.dropped_before ?? 0) > 0 && run.axis.from <= run.whole.from;
   return (

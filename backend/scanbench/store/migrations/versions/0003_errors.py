@@ -19,6 +19,7 @@ def upgrade() -> None:
         table.add_column(sa.Column("reaction_message", sa.Text, nullable=False, server_default=""))
         table.drop_constraint("pk_error_history", type_="primary")
         table.create_primary_key("pk_error_history", ["instance_id", "program_version", "error"])
+    op.add_column("log", sa.Column("program_version", sa.Integer, nullable=True))
     op.create_table(
         "program_state",
         sa.Column("id", sa.Integer, nullable=False),
@@ -107,12 +108,13 @@ def downgrade() -> None:
     """What only these tables can keep is gone; of each error the row of the newest version stays."""
     for table in ("test_record", "accepted_finding", "sweep_cell", "sweep", "program_state"):
         op.drop_table(table)
+    op.drop_column("log", "program_version")
     op.execute(
         "DELETE FROM error_history WHERE program_version < (SELECT MAX(other.program_version) FROM error_history AS"
         " other WHERE other.instance_id = error_history.instance_id AND other.error = error_history.error)"
     )
-    with op.batch_alter_table("error_history") as table:
-        table.drop_constraint("pk_error_history", type_="primary")
-        table.create_primary_key("pk_error_history", ["instance_id", "error"])
+    with op.batch_alter_table("error_history") as history:
+        history.drop_constraint("pk_error_history", type_="primary")
+        history.create_primary_key("pk_error_history", ["instance_id", "error"])
         for column in ("reaction", "reaction_state", "reaction_message"):
-            table.drop_column(column)
+            history.drop_column(column)

@@ -6,8 +6,7 @@ from collections.abc import Iterable
 
 from scanbench.check.program import Program
 from scanbench.engines.native import emit_observed, jit
-from scanbench.engines.native.emit_observed import Observing
-from scanbench.engines.observe import Observer, ReadAt, Seen
+from scanbench.engines.observe import Observer, ReadAt, Seen, areas_end
 
 _HEAD = struct.Struct("<II")
 _ENTRY = struct.Struct("<III")
@@ -15,16 +14,13 @@ _PADDING = 8
 """Behind the map: the code looks at the whole of a variable at once."""
 
 
-class Recorder(Observer):
+class NativeObserver(Observer):
     """Reads what the code of one engine notes."""
 
     def __init__(self, program: Program) -> None:
         super().__init__(program)
-        observing = Observing(program)
-        self._order = observing.order
-        """The number of the site, by its number in the code."""
-        self._marks, self._spare_marks = (_memory(len(self._order)) for _ in range(2))
-        self._map, self._spare_map = (_memory(observing.end + _PADDING) for _ in range(2))
+        self._marks, self._spare_marks = (_memory(len(self.sites.statements)) for _ in range(2))
+        self._map, self._spare_map = (_memory(areas_end(program.layout) + _PADDING) for _ in range(2))
         self._log = _memory(emit_observed.LOG_BYTES)
         self._watched: tuple[int, ...] = ()
         self._last: tuple[bytes, frozenset[int]] = b"", frozenset()
@@ -61,13 +57,13 @@ class Recorder(Observer):
     def _read(self, number: int) -> ReadAt:
         at = emit_observed.ENTRIES + number * emit_observed.ENTRY_BYTES
         site, offset, mask = _ENTRY.unpack_from(self._log, at)
-        return ReadAt(self._order[site], offset, mask)
+        return ReadAt(site, offset, mask)
 
     def _reached(self) -> frozenset[int]:
         marks = bytes(self._marks)
         ctypes.memset(self._marks, 0, len(marks))
         if marks != self._last[0]:  # most scans go the same way
-            self._last = marks, frozenset(self._order[number] for number, mark in enumerate(marks) if mark)
+            self._last = marks, frozenset(number for number, mark in enumerate(marks) if mark)
         return self._last[1]
 
 

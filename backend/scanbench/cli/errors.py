@@ -1,0 +1,266 @@
+"""`scanbench errors`: the errors of a model, and what a program does about each of them."""
+
+import json
+from collections.abc import Callable, Iterator
+from dataclasses import asdict
+from enum import StrEnum
+from pathlib import Path
+
+import typer
+
+from scanbench.check.build import check_sources
+from scanbench.check.program import Program
+from scanbench.cli.inputs import DEFAULT_MODEL, below, find_model, find_model_named, problem_json, read_sources, usage
+from scanbench.cli.run_options import read_interval
+from scanbench.cli.sweep_states import START, BadStates, FromRun, State, read_states, run_state
+from scanbench.engines.observe import MakeObserved
+from scanbench.faults.compare import Outcome, compare
+from scanbench.faults.observed import ObservedPrograms
+from scanbench.faults.react import Point
+from scanbench.faults.reaction import WINDOW
+from scanbench.faults.reference import find_error
+from scanbench.faults.sweep import sweep
+from scanbench.faults.sweep_page import sweep_page
+from scanbench.faults.sweep_report import (
+    SweepResult,
+    compare_text,
+    count,
+    outcomes_in,
+    sweep_json,
+    sweep_junit,
+    sweep_text,
+    table,
+)
+from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity
+from scanbench.plcmodel.model import Model
+from scanbench.plcmodel.user_errors import model_for
+from scanbench.runtime.clock import iso, wall_time
+from scanbench.runtime.command import Refusal
+from scanbench.runtime.header import Header
+from scanbench.session.protocol import Sources
+from scanbench.session.starting import NoStart, point_in
+
+errors = typer.Typer(
+    no_args_is_help=True, rich_markup_mode=None, help="Errors of a PLC: list them, and find out what a program does about each."
+)  # fmt: skip
+_VERSION = 1
+
+
+class Severities(StrEnum):
+    """Which errors a program has to handle."""
+
+    FATAL = "fatal"
+    NONFATAL = "nonfatal"
+    ALL = "all"
+
+
+class SweepEngine(StrEnum):
+    """Which engine runs the program."""
+
+    NATIVE = "native"
+    REFERENCE = "reference"
+
+
+# ---- list ----------------------------------------------------------------------------------------------------------
+
+
+@errors.command("list")
+def list_errors(
+    project: Path | None = typer.Argument(None, metavar="[PROJECT]", help="A project, for its model and its own errors."),
+    model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else the project's, else GENERIC-IEC."),
+    as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
+) -> None:  # fmt: skip
+    """List the errors that a model knows: id, code, flag, severity, details."""
+    if project is None:
+        plc = find_model_named(model or DEFAULT_MODEL)
+    else:
+        sources = read_sources([project])
+        plc = model_for(find_model(model, sources), below(project, sources.texts))
+    entries = list(_entries(plc))
+    if as_json:
+        told = {"model": plc.name, "errors": [_entry_json(group, entry) for group, entry in entries]}
+        typer.echo(json.dumps(told, ensure_ascii=False))
+        return
+    rows = [("ERROR", "CODE", "FLAG", "SEVERITY", "DETAILS", "NAME")]
+    for _, entry in entries:
+        details = ", ".join(detail.name for detail in entry.details) or "-"
+        rows.append((entry.id, entry.code_text, entry.flag_text, entry.severity, details, entry.name))
+    typer.echo("\n".join(table(rows)))
+
+
+def _entries(model: Model) -> Iterator[tuple[str, ErrorEntry]]:
+    """Each error with the path of its group."""
+
+    def walk(path: str, group: ErrorGroup) -> Iterator[tuple[str, ErrorEntry]]:
+        here = f"{path} / {group.name}" if path else group.name
+        yield from ((here, entry) for entry in group.errors)
+        for each in group.groups:
+            yield from walk(here, each)
+
+    for group in model.catalogue:
+        yield from walk("", group)
+
+
+def _entry_json(group: str, entry: ErrorEntry) -> dict[str, object]:
+    details = [
+        {"name": each.name, "control": each.control, "description": each.description,
+         "choices": [choice.id for choice in each.addresses] if each.control == "List" else [],
+         "addresses": [place.text for place in each.addresses]}
+        for each in entry.details
+    ]  # fmt: skip
+    return {
+        "id": entry.id, "name": entry.name, "description": entry.description, "code": entry.code_text,
+        "flag": entry.flag_text, "severity": entry.severity, "priority": entry.priority, "group": group,
+        "verified": entry.verified, "source": entry.source, "details": details,
+    }  # fmt: skip
+
+
+# ---- sweep ---------------------------------------------------------------------------------------------------------
+
+
+@errors.command("sweep")
+def sweep_errors(
+    project: Path = typer.Argument(metavar="PROJECT", help="A folder with a program, or a program file."),
+    model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else project.json's, else GENERIC-IEC."),
+    states: Path | None = typer.Option(None, metavar="FILE", help="States to begin from (JSON, docs/error-sweep.md); else 100 scans from a cold start."),
+    window: int = typer.Option(WINDOW, min=1, max=100_000, metavar="N", help="Scans that the program gets to react."),
+    severity: list[Severities] = typer.Option([Severities.ALL], help="Which errors count for exit code 1; may stand several times."),
+    only: list[str] = typer.Option([], metavar="ID", help="Only this error; may stand several times."),
+    interval: str = typer.Option("10ms", help="Task interval where no CONFIGURATION says another."),
+    engine: SweepEngine = typer.Option(SweepEngine.NATIVE, help="native is fast; reference is the interpreter."),
+    as_json: bool = typer.Option(False, "--json", help="Print one JSON object, for `errors compare` too."),
+    junit: Path | None = typer.Option(None, metavar="FILE", help="Write a JUnit report too: a test case for each error and state."),
+    html: Path | None = typer.Option(None, metavar="FILE", help="Write a page to print too."),
+) -> None:  # fmt: skip
+    """Raise every error alone, from each state, and find out what the program does about it.
+
+    Each run is compared with the same run without the error. Exit 0; 1: an error is unhandled (never read, or read without
+    effect), or the program does not compile; 2: wrong usage.
+    """
+    sources = read_sources([project])
+    plc = find_model(model, sources)
+    given = Sources(plc.name, below(project, sources.texts), read_interval(interval), _VERSION)
+    program = _program(given, plc, as_json)
+    chosen = _chosen(program.layout.model, only)
+    make = _engine(engine)
+    points = _points(states, program, given, make)
+    programs = ObservedPrograms({_VERSION: program}.__getitem__, make)
+    cells = tuple(sweep(points, [each.id for each in chosen], window, programs))
+    begun = tuple((name, Header(point.state).scan) for name, point in points.items())
+    result = SweepResult(project.resolve().name, plc.name, window, begun, tuple(chosen), cells)
+    severities = _severities(severity)
+    if junit is not None:
+        _write(junit, sweep_junit(result, severities))
+    if html is not None:
+        _write(html, sweep_page(result, iso(wall_time())))
+    unhandled = result.unhandled(severities)
+    if as_json:
+        told = sweep_json(result) | {"unhandled": list(dict.fromkeys(cell.error for cell in unhandled))}
+        typer.echo(json.dumps(told, ensure_ascii=False))
+    else:
+        typer.echo("\n".join(sweep_text(result)))
+        if unhandled:
+            typer.echo(
+                f"scanbench: {count(len(unhandled), 'finding')}: an error is forgotten, or read in vain", err=True
+            )
+    raise typer.Exit(1 if unhandled else 0)
+
+
+def _engine(choice: SweepEngine) -> MakeObserved:
+    if choice is SweepEngine.NATIVE:
+        from scanbench.engines.native.observed import ObservedBuilds
+
+        return ObservedBuilds(None).engine
+    from scanbench.engines.interpreter.observed import observed_engine
+
+    return observed_engine
+
+
+def _program(sources: Sources, model: Model, as_json: bool) -> Program:
+    checked = check_sources(sources.files, model, sources.interval_ns)
+    if checked.program is not None:
+        return checked.program
+    if as_json:
+        typer.echo(json.dumps({"problems": [problem_json(each) for each in checked.problems]}, ensure_ascii=False))
+    for problem in checked.problems:
+        typer.echo(str(problem), err=True)
+    raise typer.Exit(1)
+
+
+def _chosen(model: Model, only: list[str]) -> list[ErrorEntry]:
+    """The errors asked for, in the order of the catalogue."""
+    for id in only:
+        known = find_error(model, id)
+        if isinstance(known, Refusal):
+            usage(f"--only {id}: {known.message}")
+    return [each for each in model.errors() if not only or each.id in only]
+
+
+def _points(path: Path | None, program: Program, sources: Sources, make: MakeObserved) -> dict[str, Point]:
+    try:
+        wanted: list[State] = [START] if path is None else read_states(path)
+        return {each.name: _point(each, path, program, sources, make) for each in wanted}
+    except (BadStates, NoStart) as why:
+        usage(str(why) if path is None else f"--states {path}: {why}")
+
+
+def _point(state: State, path: Path | None, program: Program, sources: Sources, make: MakeObserved) -> Point:
+    if not isinstance(state, FromRun):
+        return run_state(state, program, make, _VERSION)
+    run = Path(state.run) if path is None else path.parent / state.run
+    try:
+        return point_in(run, state.scan, sources, _program_of(sources, program), make)
+    except NoStart as why:
+        raise NoStart(f"state {state.name}: {why}") from why
+
+
+def _program_of(sources: Sources, program: Program) -> Callable[[Sources], Program]:
+    def get(wanted: Sources) -> Program:
+        if wanted == sources:
+            return program
+        checked = check_sources(wanted.files, find_model_named(wanted.model), wanted.interval_ns)
+        if checked.program is None:
+            raise LookupError(f"the program of the run does not compile here: {checked.problems[0]}")
+        return checked.program
+
+    return get
+
+
+def _severities(asked: list[Severities]) -> tuple[Severity, ...]:
+    known: tuple[Severity, ...] = ("fatal", "nonfatal")
+    return known if Severities.ALL in asked else tuple(each for each in known if each in asked)
+
+
+# ---- compare -------------------------------------------------------------------------------------------------------
+
+
+@errors.command("compare")
+def compare_sweeps(
+    before: Path = typer.Argument(metavar="BEFORE", help="What `errors sweep --json` printed."),
+    after: Path = typer.Argument(metavar="AFTER", help="And a later one: of another version, or on another model."),
+    as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
+) -> None:
+    """Compare two sweeps, by error and state. Exit 0; 1: something is worse or gone; 2: wrong usage."""
+    changes = compare(_read_outcomes(before), _read_outcomes(after))
+    if as_json:
+        told = [asdict(each) for each in changes]
+        typer.echo(json.dumps({"changes": told}, ensure_ascii=False))
+    else:
+        typer.echo("\n".join(compare_text(changes)))
+    raise typer.Exit(1 if any(each.change in ("worse", "gone") for each in changes) else 0)
+
+
+def _read_outcomes(path: Path) -> list[Outcome]:
+    try:
+        return outcomes_in(json.loads(path.read_text("utf-8")))
+    except OSError as error:
+        usage(f"{path} cannot be read: {error.strerror}")
+    except ValueError as error:
+        usage(f"{path}: {error}")
+
+
+def _write(path: Path, text: str) -> None:
+    try:
+        path.write_text(text, "utf-8")
+    except OSError as error:
+        usage(f"{path} cannot be written: {error.strerror}")

@@ -1,0 +1,103 @@
+"""`--raise` of `scanbench run`: an error at a scan, or a fault with a shape in time.
+
+battery-error@100                                   raised in front of scan 100
+battery-error for 5@100                             and recovered 5 scans later
+battery-error every 100 on 10 times 3 seed 7@20     present for 10 of every 100 scans, three times, varied by chance 7
+battery-error chatter times 4                       on and off in turn
+battery-error for 9 unless Main.ack                 recovered after 9 scans, or when it is acknowledged before
+battery-error when Main.n > 3                       begins when this holds; `when main.st:12`: when that line is reached
+battery-error + io-bus-error:rack=1 gap 3@10        one 3 scans behind the other; without a gap in one seam
+"""
+
+import re
+from dataclasses import replace
+
+from scanbench.check.program import Program
+from scanbench.cli.inputs import usage
+from scanbench.faults.arm import Arm
+from scanbench.faults.inject import Generate
+from scanbench.faults.reference import ErrorRef, parse_reference
+from scanbench.faults.shapes import Shape, Start, Wanted
+from scanbench.runtime.command import Command, Refusal
+
+_AT = re.compile(r"(.*)@(\d+)\s*", re.DOTALL)
+_LINE = re.compile(r"(\S.*\.\w+):(\d+)")
+_WORDS = ("for", "every", "on", "times", "seed", "gap")
+_HOW = "write e.g. `battery-error for 5@100`, `battery-error every 100 on 10 times 3 seed 7`, `battery-error when Main.n > 3`"
+
+
+def read_raise(program: Program, author: str, text: str) -> tuple[int, Command]:
+    """The scan in front of which it is entered, and the command."""
+    body, scan = _at(text)
+    body, when = _cut(body, "when")
+    body, unless = _cut(body, "unless")
+    references, words = _shape_words(body)
+    errors = tuple(_error(program, text, each) for each in references.split(" + "))
+    if not words and when is None and unless is None:
+        return scan, Generate(author, errors)
+    numbers, chatter = _numbers(text, words)
+    wanted = Wanted(errors, _start(when), _shape(text, numbers, chatter, unless), numbers.get("gap", 0))
+    return scan, Arm(author, wanted)
+
+
+def _at(text: str) -> tuple[str, int]:
+    match = _AT.fullmatch(text)
+    return (match.group(1), int(match.group(2))) if match else (text, 0)
+
+
+def _cut(text: str, word: str) -> tuple[str, str | None]:
+    """What stands in front of a word, and behind it; None where it does not stand."""
+    parts = re.split(rf"\s{word}\s", f" {text} ", maxsplit=1)
+    return parts[0].strip(), parts[1].strip() if len(parts) > 1 else None
+
+
+def _shape_words(body: str) -> tuple[str, list[str]]:
+    """The references, and the words behind them."""
+    found = re.search(rf"\s({'|'.join((*_WORDS, 'chatter'))})(\s|$)", body)
+    return (body, []) if found is None else (body[: found.start()], body[found.start() :].split())
+
+
+def _error(program: Program, text: str, reference: str) -> ErrorRef:
+    error = parse_reference(program.layout.model, reference)
+    if isinstance(error, Refusal):
+        usage(f"--raise {text}: {error.message}")
+    return error
+
+
+def _numbers(text: str, words: list[str]) -> tuple[dict[str, int], bool]:
+    """The number behind each word; whether it chatters."""
+    left = [word for word in words if word != "chatter"]
+    numbers: dict[str, int] = {}
+    for word, number in zip(left[::2], [*left[1::2], ""][: len(left[::2])], strict=True):
+        if word not in _WORDS or word in numbers or not number.isdecimal():
+            usage(f"--raise {text}: `{f'{word} {number}'.strip()}` is not understood; {_HOW}")
+        numbers[word] = int(number)
+    return numbers, len(left) < len(words)
+
+
+def _shape(text: str, numbers: dict[str, int], chatter: bool, unless: str | None) -> Shape:
+    given = numbers.keys() - {"gap"}
+    times, seed = numbers.get("times"), numbers.get("seed")
+    if chatter and given <= {"times"}:
+        shape = Shape("chatter", times=times)
+    elif not chatter and given == {"for"}:
+        shape = Shape("for", numbers["for"])
+    elif not chatter and {"every"} <= given <= {"every", "on", "times", "seed"}:
+        shape = Shape("intermittent", numbers.get("on", 1), numbers["every"], times, seed)
+    elif not chatter and not given:
+        shape = Shape()
+    else:
+        words = [*sorted(given), *(["chatter"] if chatter else [])]
+        usage(f"--raise {text}: {' and '.join(words)} {'do' if len(words) > 1 else 'does'} not make a shape; {_HOW}")
+    if unless is None:
+        return shape
+    if shape.kind != "for":
+        usage(f"--raise {text}: `unless` goes with `for`: say after how many scans it goes by itself")
+    return replace(shape, kind="unacknowledged", acknowledge=unless)
+
+
+def _start(when: str | None) -> Start:
+    if when is None:
+        return Start()
+    line = _LINE.fullmatch(when)
+    return Start("condition", condition=when) if line is None else Start("line", file=line[1], line=int(line[2]))

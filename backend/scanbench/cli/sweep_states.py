@@ -1,0 +1,205 @@
+"""The program states that `scanbench errors sweep --states FILE` begins from (docs/error-sweep.md): JSON -> points."""
+
+import json
+import re
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
+from difflib import get_close_matches
+from pathlib import Path
+
+from scanbench.check.program import Program
+from scanbench.check.symbols import UnknownPath, resolve
+from scanbench.check.values import parse_value
+from scanbench.engines.observe import MakeObserved
+from scanbench.faults.detect import Detection
+from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.react import Point
+from scanbench.faults.reference import parse_reference
+from scanbench.runtime.command import Command, Refusal
+from scanbench.runtime.forces import Force, Release
+from scanbench.runtime.header import Mode
+from scanbench.runtime.headless import HeadlessRun, run_headless
+from scanbench.runtime.modes import SetMode
+from scanbench.runtime.write import Write
+
+AUTHOR = "command line"
+_RUN_KEYS, _FILE_KEYS = ("name", "scans", "do"), ("name", "run", "scan")
+_DO = re.compile(r"\s*(\d+)\s*:\s*(.+)", re.DOTALL)
+_HOW = 'write "SCAN: COMMAND", as in "10: Main.start=TRUE"'
+
+
+class BadStates(Exception):
+    """The file cannot be used; the message says where and why."""
+
+
+@dataclass(frozen=True, slots=True)
+class FromStart:
+    """`scans` scans from a cold start, with commands on the way."""
+
+    name: str
+    scans: int = 100
+    do: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class FromRun:
+    """A moment of a recorded run; `scan` None is its end."""
+
+    name: str
+    run: str
+    scan: int | None = None
+
+
+State = FromStart | FromRun
+START = FromStart("Start")
+"""Where a sweep begins that nobody gave states."""
+
+
+# ---- the file ------------------------------------------------------------------------------------------------------
+
+
+def read_states(path: Path) -> list[State]:
+    """The states of a file, checked as far as that is possible without a program."""
+    try:
+        told = json.loads(path.read_text("utf-8"))
+    except OSError as error:
+        raise BadStates(f"it cannot be read: {error.strerror}") from error
+    except ValueError as error:
+        raise BadStates(f"it is no JSON: {error}") from error
+    if not isinstance(told, list) or not told:
+        raise BadStates('it has to be a list of states, as in [{"name": "Running", "scans": 100}]')
+    states: list[State] = []
+    for number, each in enumerate(told, 1):
+        state = _read_state(number, each)
+        if any(state.name == other.name for other in states):
+            raise BadStates(f"state {number}: there are two states {state.name!r}; give each a name of its own")
+        states.append(state)
+    return states
+
+
+def _read_state(number: int, told: object) -> State:
+    where = f"state {number}"
+    if not isinstance(told, dict):
+        raise BadStates(f"{where} is {json.dumps(told)}; it has to be an object with a name")
+    name = told.get("name")
+    if not isinstance(name, str) or not name.strip():
+        raise BadStates(f'{where} has no name; give it one, as in {{"name": "Running", ...}}')
+    where += f" ({name})"
+    known = _FILE_KEYS if "run" in told else _RUN_KEYS
+    for key in told:
+        if key not in known:
+            near = get_close_matches(key, known, 1)
+            hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(known)}"
+            raise BadStates(f"{where} has {key!r}, which is nothing here; {hint}")
+    if "run" in told:
+        run = told["run"]
+        if not isinstance(run, str) or not run:
+            raise BadStates(f"{where}: `run` has to be the name of a run file, not {json.dumps(run)}")
+        return FromRun(name, run, _number(where, told, "scan") if told.get("scan") is not None else None)
+    do = told.get("do", [])
+    if not isinstance(do, list) or not all(isinstance(each, str) for each in do):
+        raise BadStates(f"{where}: `do` has to be a list of texts; {_HOW}")
+    scans = _number(where, told, "scans") if "scans" in told else START.scans
+    return FromStart(name, scans, tuple(do))
+
+
+def _number(where: str, told: Mapping[str, object], key: str) -> int:
+    value = told[key]
+    if not isinstance(value, int) or isinstance(value, bool) or value < 0:
+        raise BadStates(f"{where}: `{key}` has to be a number of scans from 0 on, not {json.dumps(value)}")
+    return value
+
+
+# ---- states of a program ---------------------------------------------------------------------------------------------
+
+
+def run_state(state: FromStart, program: Program, make: MakeObserved, version: int) -> Point:
+    """Runs from a cold start to the state."""
+    where = f"state {state.name}"
+    commands = [_command(where, program, text) for text in state.do]
+    for (scan, _), text in zip(commands, state.do, strict=True):
+        if scan > state.scans:
+            raise BadStates(f"{where}: `{text}` comes behind its {state.scans} scans: give it more scans")
+    result: HeadlessRun[None] = run_headless(
+        program, state.scans, lambda each, memory: make(each, memory)[0], commands, detect=Detection()
+    )
+    for refused in result.refused:
+        near = f" Near: {', '.join(refused.refusal.near)}." if refused.refusal.near else ""
+        raise BadStates(f"{where}: refused before scan {refused.scan}: {refused.refusal.message}.{near}")
+    if result.resource.trap is not None:
+        raise BadStates(f"{where}: the program trapped on the way: {result.resource.trap}")
+    if not result.resource.runnable:
+        raise BadStates(f"{where}: the program does not run there, so it cannot react: end in MONITOR or RUN")
+    return Point(version, result.resource.state, result.resource.journal)
+
+
+def _command(where: str, program: Program, text: str) -> tuple[int, Command]:
+    match = _DO.fullmatch(text)
+    if match is None:
+        raise BadStates(f"{where}: `{text}` cannot be read; {_HOW}")
+    at, body = int(match.group(1)), match.group(2).strip()
+    verb, _, rest = body.partition(" ")
+    known = _VERBS.get(verb.lower())
+    if known is not None and rest.strip() and not rest.lstrip().startswith("="):
+        command = known(program, rest.strip())
+    else:
+        command = _write(program, body)
+    if isinstance(command, Refusal):
+        near = f" Near: {', '.join(command.near)}." if command.near else ""
+        raise BadStates(f"{where}: `{text}`: {command.message}{near}")
+    return at, command
+
+
+def _write(program: Program, text: str) -> Command | Refusal:
+    found = _assignment(program, text)
+    return found if isinstance(found, Refusal) else Write(AUTHOR, *found)
+
+
+def _force(program: Program, text: str) -> Command | Refusal:
+    found = _assignment(program, text)
+    return found if isinstance(found, Refusal) else Force(AUTHOR, *found)
+
+
+def _assignment(program: Program, text: str) -> tuple[str, str] | Refusal:
+    path, equals, value = text.partition("=")
+    if not equals:
+        verbs = ", ".join(_VERBS)
+        return Refusal(f"write PATH=VALUE, or one of {verbs} and what for")
+    try:
+        symbol = resolve(program, path.removesuffix(":").strip())
+    except UnknownPath as error:
+        return Refusal(error.message, error.near)
+    try:
+        parse_value(symbol.type, value.strip())
+    except ValueError as error:
+        return Refusal(str(error))
+    return symbol.path, value.strip()
+
+
+def _release(program: Program, text: str) -> Command | Refusal:
+    try:
+        return Release(AUTHOR, resolve(program, text).path)
+    except UnknownPath as error:
+        return Refusal(error.message, error.near)
+
+
+def _raise(program: Program, text: str) -> Command | Refusal:
+    found = parse_reference(program.layout.model, text)
+    return found if isinstance(found, Refusal) else Generate(AUTHOR, (found,))
+
+
+def _clear(program: Program, text: str) -> Command | Refusal:
+    if text.lower() == "all":
+        return Recover(AUTHOR, None)
+    found = parse_reference(program.layout.model, text)
+    return found if isinstance(found, Refusal) else Recover(AUTHOR, (found.id,))
+
+
+def _mode(program: Program, text: str) -> Command | Refusal:
+    modes: Collection[str] = Mode.__members__
+    return SetMode(AUTHOR, text.upper()) if text.upper() in modes else Refusal(f"there are {', '.join(modes)}")
+
+
+_VERBS: Mapping[str, Callable[[Program, str], Command | Refusal]] = {
+    "force": _force, "release": _release, "raise": _raise, "clear": _clear, "mode": _mode,
+}  # fmt: skip

@@ -1,0 +1,154 @@
+"""Test records and histories of all versions: put together from a session and the store; imported ones."""
+
+import asyncio
+from collections.abc import Sequence
+from dataclasses import dataclass
+from typing import cast
+
+from scanbench.faults.history import ErrorRow
+from scanbench.faults.reaction import Verdict
+from scanbench.faults.record import (
+    Language,
+    RecordAccepted,
+    RecordCell,
+    RecordHead,
+    RecordLine,
+    RecordSweep,
+    TestRecord,
+    make_record,
+)
+from scanbench.faults.record_read import from_xml
+from scanbench.plcmodel.model import Model
+from scanbench.plcmodel.user_errors import device_of, model_for
+from scanbench.runtime.clock import wall_time
+from scanbench.session.keeper import Keeper
+from scanbench.session.refused import Refused
+from scanbench.session.session import Session
+from scanbench.store.records import BuildRow, NotFound, RecordInfo, RecordRow, SweepRow
+from scanbench.store.store import Store
+
+LOG_LINES = 2000
+"""Of a record, the last ones."""
+TOLD = 5
+"""Mistakes of a record that are told at once."""
+
+
+@dataclass(frozen=True, slots=True)
+class HistoryVersion:
+    """A version of the program that has an error history on a PLC."""
+
+    version: int
+    running: bool
+    raised: int
+    """Errors that were raised on it."""
+    build: BuildRow | None
+    """None: the project does not know it, as behind a run that was imported."""
+
+
+class Records:
+    """What was tested, for all PLCs."""
+
+    def __init__(self, store: Store, keeper: Keeper, tool: str) -> None:
+        """`tool` is named in what is written."""
+        self._store, self._keeper, self._tool = store, keeper, tool
+
+    async def versions(self, session: Session) -> list[HistoryVersion]:
+        """The versions with a history, the newest first."""
+        found = []
+        for version in reversed(session.history_versions):
+            build = await asyncio.to_thread(self._store.build, session.project_id, version)
+            rows = session.rows_of(version, self._model(session, version, build))
+            raised = sum(row.status != "never" for row in rows)
+            found.append(HistoryVersion(version, version == session.history_version, raised, build))
+        return found
+
+    async def rows(self, session: Session, version: int | None) -> list[ErrorRow]:
+        """The history of a version, or of the one that runs."""
+        rows, _, _ = await self._of_version(session, version)
+        return rows
+
+    async def of_instance(self, session: Session, version: int | None, by: str, language: Language) -> TestRecord:
+        """The record of a version, or of the one that runs."""
+        rows, model, build = await self._of_version(session, version)
+        version = session.history_version if version is None else version
+        await self._keeper.flush()
+        project = await asyncio.to_thread(self._store.project, session.project_id)
+        lines = await asyncio.to_thread(self._store.error_log, session.id, version)
+        accepted = await asyncio.to_thread(self._store.acceptances, session.project_id)
+        head = RecordHead(
+            project.name, session.model.name, session.name, version, "" if build is None else build.hash,
+            wall_time(), by, self._tool,
+        )  # fmt: skip
+        return make_record(
+            head, model, rows, language=language,
+            sweeps=await asyncio.to_thread(self._sweeps, session, version),
+            accepted=[(one.error, RecordAccepted(one.state, one.reason, one.by, one.at)) for one in accepted],
+            log=[RecordLine(line.at, line.scan, line.author, line.text) for line in lines[-LOG_LINES:]],
+        )  # fmt: skip
+
+    async def _of_version(self, session: Session, version: int | None) -> tuple[list[ErrorRow], Model, BuildRow | None]:
+        wanted = session.history_version if version is None else version
+        if wanted not in session.history_versions:
+            known = ", ".join(map(str, session.history_versions))
+            raise NotFound(f"{session.name} has no error history of version {wanted}; there are {known}")
+        build = await asyncio.to_thread(self._store.build, session.project_id, wanted)
+        model = self._model(session, wanted, build)
+        return session.rows_of(wanted, model), model, build
+
+    @staticmethod
+    def _model(session: Session, version: int, build: BuildRow | None) -> Model:
+        """The catalogue that the version had: the project's own errors are part of its sources."""
+        if version == session.history_version or build is None:
+            return session.model
+        return model_for(device_of(session.model), build.sources)
+
+    def _sweeps(self, session: Session, version: int) -> list[RecordSweep]:
+        found = []
+        for sweep in self._store.sweeps(session.project_id):
+            ours = sweep.instance_id == session.id and sweep.model == session.model.name
+            if ours and sweep.program_version == version and sweep.done:
+                found.append(self._sweep(sweep))
+        return found
+
+    def _sweep(self, sweep: SweepRow) -> RecordSweep:
+        cells = tuple(
+            RecordCell(cell.error, cell.state, cast(Verdict | None, cell.verdict), cell.first_effect, cell.note)
+            for cell in self._store.cells(sweep.id)
+        )
+        return RecordSweep(sweep.at, sweep.by, sweep.instance, sweep.status, sweep.window, sweep.states, cells)
+
+    # ---- imported -------------------------------------------------------------------------------------------------
+
+    async def imported(self, project: int) -> list[RecordInfo]:
+        """The records that were brought into a project, the newest first."""
+        return await asyncio.to_thread(self._store.records, project)
+
+    async def bring_in(self, project: int, text: str, by: str) -> RecordInfo:
+        """Keeps a record from elsewhere; `Refused` says what is wrong with it, and where."""
+        record = await asyncio.to_thread(_read, text)
+        return await asyncio.to_thread(self._store.add_record, project, title=record.title[:255], text=text, by=by)
+
+    async def one(self, project: int, id: int) -> tuple[RecordInfo, TestRecord]:
+        """A record that was brought in."""
+        row = await asyncio.to_thread(self._of_project, project, id)
+        return row, await asyncio.to_thread(_read, row.text)
+
+    async def delete(self, project: int, id: int) -> None:
+        """Forgets a record that was brought in."""
+        await asyncio.to_thread(self._of_project, project, id)
+        await asyncio.to_thread(self._store.delete_record, id)
+
+    def _of_project(self, project: int, id: int) -> RecordRow:
+        row = self._store.record(id)
+        if row.project != project:
+            raise NotFound(f"there is no record {id} in this project")
+        return row
+
+
+def _read(text: str) -> TestRecord:
+    found = from_xml(text)
+    if isinstance(found, TestRecord):
+        return found
+    told: Sequence[str] = [str(problem) for problem in found[:TOLD]]
+    more = f"; and {len(found) - TOLD} more" if len(found) > TOLD else ""
+    raise Refused(f"this is no test record that can be read, nothing was kept: {'; '.join(told)}{more}")

@@ -1,0 +1,104 @@
+"""REST: error histories by version, test records out and in."""
+
+import re
+from typing import Literal
+from urllib.parse import quote
+
+from fastapi import APIRouter, Request
+from fastapi.responses import Response
+
+from scanbench.faults.record import Language, TestRecord
+from scanbench.faults.record_csv import to_csv
+from scanbench.faults.record_html import to_html
+from scanbench.faults.record_xml import to_xml
+from scanbench.plcmodel.document import SIZE_LIMIT
+from scanbench.session.refused import Refused
+from scanbench.web import messages_records as wire
+from scanbench.web import translate, translate_records
+from scanbench.web.auth import user_of
+from scanbench.web.reach import Bench
+
+router = APIRouter(prefix="/api", tags=["records"])
+Format = Literal["csv", "xml", "html", "json"]
+_TYPES = {"csv": "text/csv; charset=utf-8", "xml": "application/xml", "html": "text/html; charset=utf-8"}
+_STYLE_ONLY = {"Content-Security-Policy": "default-src 'none'; style-src 'unsafe-inline'"}
+
+
+@router.get("/instances/{instance}/history/versions")
+async def on_versions(bench: Bench, instance: int) -> list[wire.HistoryVersion]:
+    """The versions of the program that have an error history here, the newest first."""
+    return list(map(translate_records.version, await bench.records.versions(bench.session(instance))))
+
+
+@router.get("/instances/{instance}/history")
+async def on_history(bench: Bench, instance: int, version: int | None = None) -> wire.HistoryOfVersion:
+    """The error history of a version, or of the one that runs."""
+    session = bench.session(instance)
+    rows = await bench.records.rows(session, version)
+    of = session.history_version if version is None else version
+    return wire.HistoryOfVersion(
+        version=of, running=of == session.history_version, rows=list(map(translate.error_row, rows))
+    )
+
+
+@router.get("/instances/{instance}/record", response_model=wire.TestRecord)
+async def on_record(
+    bench: Bench, request: Request, instance: int, version: int | None = None, format: Format = "json",
+    lang: Language = "en",
+) -> Response | wire.TestRecord:  # fmt: skip
+    """The test record of a version, or of the one that runs: as a file, or as JSON."""
+    record = await bench.records.of_instance(bench.session(instance), version, user_of(request).name, lang)
+    return _as(format, record, lang)
+
+
+@router.get("/projects/{project}/records")
+async def on_records(bench: Bench, project: int) -> list[wire.RecordInfo]:
+    """The test records that were brought in, the newest first."""
+    return list(map(translate_records.info, await bench.records.imported(project)))
+
+
+@router.post("/projects/{project}/records", status_code=201)
+async def on_import(bench: Bench, request: Request, project: int) -> wire.RecordInfo:
+    """Keeps a test record from elsewhere; the body is its XML."""
+    body = bytearray()
+    async for chunk in request.stream():
+        body += chunk
+        if len(body) > SIZE_LIMIT:
+            raise Refused(f"the file is larger than {SIZE_LIMIT >> 20} MiB, no test record is")
+    try:
+        text = body.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise Refused(f"byte {error.start} is not UTF-8: this is no test record") from error
+    return translate_records.info(await bench.records.bring_in(project, text, user_of(request).name))
+
+
+@router.get("/projects/{project}/records/{record}", response_model=wire.ImportedRecord)
+async def on_imported(
+    bench: Bench, project: int, record: int, format: Format = "json", lang: Language = "en"
+) -> Response | wire.ImportedRecord:
+    """A test record that was brought in: as a file, or as JSON."""
+    info, found = await bench.records.one(project, record)
+    if format != "json":
+        return _file(format, found, lang)
+    return wire.ImportedRecord(info=translate_records.info(info), record=translate_records.record(found))
+
+
+@router.delete("/projects/{project}/records/{record}", status_code=204)
+async def on_delete(bench: Bench, project: int, record: int) -> None:
+    """Forgets a test record that was brought in."""
+    await bench.records.delete(project, record)
+
+
+def _as(format: Format, record: TestRecord, language: Language) -> Response | wire.TestRecord:
+    return translate_records.record(record) if format == "json" else _file(format, record, language)
+
+
+def _file(format: Format, record: TestRecord, language: Language) -> Response:
+    """CSV and XML are saved; HTML is shown, and can do nothing but look good."""
+    if format == "html":
+        return Response(to_html(record, language), media_type=_TYPES[format], headers=_STYLE_ONLY)
+    text = to_csv(record) if format == "csv" else to_xml(record)
+    name = f"{record.head.instance}-version-{record.head.program_version}-record.{format}"
+    plain = re.sub(r"[^A-Za-z0-9._ -]", "_", name)
+    headers = {"Content-Disposition": f"attachment; filename=\"{plain}\"; filename*=UTF-8''{quote(name)}"}
+    return Response(text, media_type=_TYPES[format], headers=headers)

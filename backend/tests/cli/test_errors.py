@@ -1,0 +1,223 @@
+"""`scanbench errors`: what it lists, what a sweep says, and every way to get the call wrong."""
+
+import json
+from dataclasses import dataclass
+from importlib.resources import files
+from pathlib import Path
+from xml.etree import ElementTree
+
+import pytest
+from typer.testing import CliRunner
+
+from scanbench.cli import app
+
+SAMPLE = str(files("scanbench").joinpath("samples/conveyor"))
+SOURCE = """PROGRAM Main
+VAR
+  battery AT A402.04 : BOOL; inner AT A402.08 : BOOL; lamp AT CIO 100.00 : BOOL; on : BOOL; n : DINT;
+END_VAR
+  n := n + 1;
+  IF on THEN lamp := battery; END_IF;
+  IF inner THEN ; END_IF;
+END_PROGRAM
+"""
+FEW = ("--only", "battery-error", "--only", "inner-board-error", "--only", "basic-io-error", "--only", "memory-error")
+
+
+@dataclass
+class Said:
+    returncode: int
+    stdout: str
+    stderr: str
+
+
+def scanbench(*args: str) -> Said:
+    """In this process: starting one takes longer than a sweep."""
+    result = CliRunner().invoke(app, args)
+    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
+    return Said(result.exit_code, result.stdout, result.stderr)
+
+
+@pytest.fixture
+def project(tmp_path: Path) -> Path:
+    folder = tmp_path / "line"
+    folder.mkdir()
+    (folder / "main.st").write_text(SOURCE, "utf-8")
+    (folder / "project.json").write_text('{"model": "CJ1M-CPU63"}', "utf-8")
+    return folder
+
+
+def states(project: Path, told: object) -> str:
+    path = project.parent / "states.json"
+    path.write_text(told if isinstance(told, str) else json.dumps(told), "utf-8")
+    return str(path)
+
+
+def test_list_names_every_error_of_a_model() -> None:
+    told = json.loads(scanbench("errors", "list", "--model", "cj1m-cpu63", "--json").stdout)
+    assert told["model"] == "CJ1M-CPU63"
+    (memory,) = (each for each in told["errors"] if each["id"] == "memory-error")
+    assert (memory["code"], memory["flag"], memory["severity"]) == ("80F1", "A401.15", "fatal")
+    text = scanbench("errors", "list", "--model", "CJ1M-CPU63").stdout.splitlines()
+    assert len(text) == 1 + len(told["errors"])
+    assert scanbench("errors", "list", SAMPLE, "--json").stdout == json.dumps(told, ensure_ascii=False) + "\n"
+
+
+def test_a_sweep_names_what_is_forgotten_and_what_is_read_in_vain(project: Path) -> None:
+    result = scanbench("errors", "sweep", str(project), *FEW, "--states",
+                       states(project, [{"name": "On", "scans": 30, "do": ["5: Main.on=TRUE"]}, {"name": "Off"}]), "--json")  # fmt: skip
+    assert result.returncode == 1, result.stderr
+    told = json.loads(result.stdout)
+    cells = {(each["id"], each["state"]): each for each in told["results"]}
+    assert told["states"] == [{"name": "On", "scan": 30}, {"name": "Off", "scan": 100}]
+    verdicts = {key: each["verdict"] for key, each in cells.items()}
+    assert verdicts == {
+        ("battery-error", "On"): "reacted", ("battery-error", "Off"): "never_read",
+        ("inner-board-error", "On"): "no_effect", ("inner-board-error", "Off"): "no_effect",
+        ("basic-io-error", "On"): "never_read", ("basic-io-error", "Off"): "never_read",
+        ("memory-error", "On"): "stopped", ("memory-error", "Off"): "stopped",
+    }  # fmt: skip
+    assert cells["battery-error", "On"]["readers"] == ["main.st:6"]
+    assert [each["path"] for each in cells["battery-error", "On"]["differences"]] == ["Main.lamp"]
+    assert cells["inner-board-error", "On"]["readers"] == ["main.st:7"]
+    assert sorted(told["unhandled"]) == ["basic-io-error", "battery-error", "inner-board-error"]
+
+
+def test_both_engines_say_the_same(project: Path) -> None:
+    native, reference = (
+        scanbench("errors", "sweep", str(project), *FEW, "--json", "--window", "30", "--engine", engine).stdout
+        for engine in ("native", "reference")
+    )
+    assert native == reference
+    assert json.loads(native)["window"] == 30
+
+
+def test_the_severity_decides_what_counts(project: Path) -> None:
+    assert scanbench("errors", "sweep", str(project), *FEW).returncode == 1
+    assert scanbench("errors", "sweep", str(project), *FEW, "--severity", "fatal").returncode == 0
+    assert scanbench("errors", "sweep", str(project), "--only", "memory-error").returncode == 0
+    assert (
+        scanbench("errors", "sweep", str(project), *FEW, "--severity", "fatal", "--severity", "nonfatal").returncode
+        == 1
+    )
+
+
+def test_reports(project: Path) -> None:
+    junit, page = project.parent / "junit.xml", project.parent / "page.html"
+    result = scanbench("errors", "sweep", str(project), *FEW, "--junit", str(junit), "--html", str(page))
+    assert "battery-error" in result.stdout
+    assert "3 never read" not in result.stderr
+    suite = ElementTree.fromstring(junit.read_text("utf-8"))
+    assert (suite.get("tests"), suite.get("failures")) == ("4", "3")
+    assert "main.st:7" in page.read_text("utf-8")
+
+
+def test_the_whole_catalogue_of_the_sample() -> None:
+    result = scanbench("errors", "sweep", SAMPLE, "--json")
+    told = json.loads(result.stdout)
+    listed = json.loads(scanbench("errors", "list", SAMPLE, "--json").stdout)["errors"]
+    assert [each["id"] for each in told["results"]] == [each["id"] for each in listed]
+    verdicts = {each["id"]: each["verdict"] for each in told["results"]}
+    assert verdicts["basic-io-error"] == "reacted"
+    assert verdicts["battery-error"] == "never_read"
+    assert verdicts["memory-error"] == "stopped"
+    assert result.returncode == 1
+
+
+def test_a_state_from_a_recorded_run(project: Path) -> None:
+    run = project.parent / "on.scanrun"
+    assert (
+        scanbench("run", str(project), "--scans", "50", "--set", "Main.on=TRUE@20", "--record", str(run)).returncode
+        == 0
+    )
+    (project / "main.st").write_text(SOURCE.replace("n : DINT", "n : DINT; more : INT"), "utf-8")  # carried over
+    given = states(
+        project,
+        [{"name": "Before", "run": "on.scanrun", "scan": 20}, {"name": "After", "run": "on.scanrun", "scan": 25},
+         {"name": "End", "run": "on.scanrun"}],
+    )  # fmt: skip
+    result = scanbench("errors", "sweep", str(project), "--only", "battery-error", "--states", given, "--json")
+    told = json.loads(result.stdout)
+    assert [each["scan"] for each in told["states"]] == [20, 25, 50]
+    assert [each["verdict"] for each in told["results"]] == ["reacted", "reacted", "reacted"]
+
+
+@pytest.mark.parametrize(
+    ("told", "words"),
+    [
+        ("{", "it is no JSON"),
+        ([], "a list of states"),
+        ({"name": "x"}, "a list of states"),
+        ([3], "state 1 is 3"),
+        ([{"scans": 3}], "state 1 has no name"),
+        ([{"name": "A"}, {"name": "A"}], "state 2: there are two states 'A'"),
+        ([{"name": "A", "scan": 3}], "did you mean 'scans'?"),
+        ([{"name": "A", "scans": -1}], "`scans` has to be a number of scans"),
+        ([{"name": "A", "scans": True}], "`scans` has to be a number of scans"),
+        ([{"name": "A", "do": "x"}], "`do` has to be a list of texts"),
+        ([{"name": "A", "do": ["Main.on=TRUE"]}], "cannot be read"),
+        ([{"name": "A", "do": ["5: Main.off=TRUE"]}], "has no member `off`"),
+        ([{"name": "A", "do": ["5: Main.on=MAYBE"]}], "is not a BOOL"),
+        ([{"name": "A", "do": ["5: Main.on"]}], "write PATH=VALUE, or one of force"),
+        ([{"name": "A", "do": ["5: raise batery-error"]}], "did you mean battery-error"),
+        ([{"name": "A", "do": ["5: mode SLOW"]}], "there are PROGRAM"),
+        ([{"name": "A", "do": ["500: Main.on=TRUE"]}], "comes behind its 100 scans"),
+        ([{"name": "A", "do": ["5: A400=3"]}], "refused before scan 5"),
+        ([{"name": "A", "do": ["5: mode PROGRAM"]}], "the program does not run there"),
+        ([{"name": "A", "do": ["5: raise memory-error"]}], "the program does not run there"),
+        ([{"name": "A", "run": 3}], "`run` has to be the name of a run file"),
+        ([{"name": "A", "run": "none.scanrun"}], "none.scanrun cannot be read"),
+        ([{"name": "A", "run": "states.json"}], "states.json is not a run file"),
+        ([{"name": "A", "run": "x", "do": []}], "has 'do', which is nothing here"),
+    ],
+)
+def test_states_that_cannot_be(project: Path, told: object, words: str) -> None:
+    result = scanbench("errors", "sweep", str(project), "--only", "battery-error", "--states", states(project, told))
+    assert result.returncode == 2, result.stdout
+    assert words in result.stderr
+    assert "Traceback" not in result.stderr
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("errors", "sweep", "no-such-folder"), "does not exist"),
+        (("errors", "sweep", SAMPLE, "--only", "batery-error"), "did you mean battery-error"),
+        (("errors", "sweep", SAMPLE, "--model", "CJ1M-CPU6"), "did you mean CJ1M-CPU63?"),
+        (("errors", "sweep", SAMPLE, "--window", "0"), "--window"),
+        (("errors", "sweep", SAMPLE, "--severity", "bad"), "--severity"),
+        (("errors", "sweep", SAMPLE, "--states", "none.json"), "cannot be read"),
+        (("errors", "sweep", SAMPLE, "--only", "battery-error", "--junit", "/no/such/folder/x"), "cannot be written"),
+        (("errors", "list", "--model", "nothing"), "there is no model nothing"),
+        (("errors", "compare", "a.json", "b.json"), "a.json cannot be read"),
+    ],
+)
+def test_wrong_usage(arguments: tuple[str, ...], words: str) -> None:
+    result = scanbench(*arguments)
+    assert result.returncode == 2
+    assert words in result.stderr
+    assert "Traceback" not in result.stderr
+
+
+def test_a_program_with_errors(project: Path) -> None:
+    (project / "main.st").write_text("PROGRAM Main\n  x := 1;\nEND_PROGRAM\n", "utf-8")
+    result = scanbench("errors", "sweep", str(project), "--json")
+    assert result.returncode == 1
+    assert json.loads(result.stdout)["problems"]
+    assert "main.st:2" in result.stderr
+
+
+def test_two_sweeps_compared(project: Path) -> None:
+    before, after = project.parent / "before.json", project.parent / "after.json"
+    before.write_text(scanbench("errors", "sweep", str(project), *FEW, "--json").stdout, "utf-8")
+    (project / "main.st").write_text(SOURCE.replace("IF inner THEN ;", "IF inner THEN on := TRUE;"), "utf-8")
+    after.write_text(scanbench("errors", "sweep", str(project), *FEW, "--json").stdout, "utf-8")
+    better = scanbench("errors", "compare", str(before), str(after))
+    assert better.returncode == 0
+    assert "inner-board-error  Start  read, no effect  reacted after 1 scan  better" in better.stdout
+    worse = scanbench("errors", "compare", str(after), str(before), "--json")
+    assert worse.returncode == 1
+    changes = {each["error"]: each["change"] for each in json.loads(worse.stdout)["changes"]}
+    assert changes["inner-board-error"] == "worse"
+    assert changes["memory-error"] == "same"
+    assert scanbench("errors", "compare", str(before), str(project / "project.json")).returncode == 2

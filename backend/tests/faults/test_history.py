@@ -1,0 +1,135 @@
+"""The history of one PLC over several versions of its program, with what is known of reactions."""
+
+from datetime import UTC, datetime
+
+from scanbench.faults.history import ErrorRow, History, RowReaction
+from scanbench.faults.inject import Active, Generate, Recover
+from scanbench.faults.reaction import Reaction
+from scanbench.faults.reference import ErrorRef
+from scanbench.runtime.command import Command, Entry, Plan, Swapped
+from scanbench.runtime.write import Write
+from tests.runtime.bench import model
+
+REACTED = Reaction("reacted", 200, 1, 2)
+_second = 0
+
+
+def entry(command: Command, scan: int, effect: Swapped | None = None) -> Entry:
+    global _second
+    _second += 1
+    at = datetime(2026, 11, 21, 12, _second // 60 % 60, _second % 60, tzinfo=UTC)
+    return Entry(scan, at, command, Plan((), "", effect))
+
+
+def raise_(history: History, *ids: str, scan: int = 1, by: str = "Ada") -> list[ErrorRow]:
+    return history.fold(entry(Generate(by, tuple(ErrorRef(id) for id in ids)), scan))
+
+
+def swap(history: History, version: int, fresh: bool = False, scan: int = 1) -> list[ErrorRow]:
+    return history.fold(entry(Write("Ada", "any", "1"), scan, Swapped(version, fresh)))
+
+
+def row(history: History, id: str) -> ErrorRow:
+    return next(each for each in history.rows if each.id == id)
+
+
+def test_another_version_begins_with_rows_of_its_own() -> None:
+    history = History(model(), 1)
+    raise_(history, "battery-error")
+    history.fold(entry(Recover("Ada", ("battery-error",)), 5))
+    assert row(history, "battery-error").program_version == 1
+    assert swap(history, 2) == []
+    assert history.version == 2
+    assert {each.status for each in history.rows} == {"never"}
+    assert {each.program_version for each in history.rows} == {2}
+    old = {each.id: each for each in history.rows_of(1, model())}
+    assert (old["battery-error"].status, old["battery-error"].count) == ("cleared", 1)
+    assert history.versions == [1, 2]
+
+
+def test_what_is_present_is_present_in_the_new_version_too() -> None:
+    history = History(model(), 1)
+    raise_(history, "battery-error", scan=7, by="Bob")
+    assert history.set_reaction("battery-error", 1, 7, REACTED) is not None
+    (carried,) = swap(history, 2)
+    assert (carried.status, carried.by, carried.generated_scan, carried.count) == ("generated", "Bob", 7, 1)
+    assert carried.reaction is None  # nobody compared how this version reacts
+    history.fold(entry(Recover("Ada", None), 9))
+    assert row(history, "battery-error").status == "cleared"
+    old = {each.id: each for each in history.rows_of(1, model())}
+    assert old["battery-error"].status == "generated"  # so it was when version 1 ended
+
+
+def test_a_program_that_starts_anew_has_no_errors() -> None:
+    history = History(model(), 1)
+    raise_(history, "battery-error")
+    (ended,) = swap(history, 2, fresh=True, scan=9)
+    assert (ended.program_version, ended.status, ended.recovered_scan) == (1, "cleared", 9)
+    assert {each.status for each in history.rows} == {"never"}
+
+
+def test_back_to_a_version_that_ran_before() -> None:
+    history = History(model(), 1)
+    raise_(history, "battery-error")
+    swap(history, 2)
+    history.fold(entry(Recover("Ada", None), 9))
+    (cleared,) = swap(history, 1, scan=12)
+    assert (cleared.id, cleared.program_version, cleared.status, cleared.recovered_scan) == (
+        "battery-error", 1, "cleared", 12,
+    )  # fmt: skip
+    raise_(history, "battery-error", scan=13)
+    assert row(history, "battery-error").count == 2
+    swap(history, 2)
+    assert row(history, "battery-error").count == 2  # once carried over, once again
+    assert swap(history, 1) == []  # the same generation is counted once
+    assert row(history, "battery-error").count == 2
+
+
+def test_reactions_belong_to_one_generation() -> None:
+    history = History(model(), 1)
+    (first,) = raise_(history, "battery-error", scan=7)
+    assert first.reaction == RowReaction("recording")
+    raise_(history, "battery-error", scan=9)
+    assert history.set_reaction("battery-error", 1, 7, REACTED) is None  # raised anew since
+    assert row(history, "battery-error").reaction == RowReaction("recording")
+    done = history.set_reaction("battery-error", 1, 9, REACTED)
+    assert done is not None
+    assert done.reaction == RowReaction("done", REACTED)
+    assert (done.reaction.verdict, done.reaction.scans) == ("reacted", 2)
+    failed = history.set_reaction("battery-error", 1, 9, "it died")
+    assert failed is not None
+    assert failed.reaction == RowReaction("failed", None, "it died")
+    assert history.set_reaction("battery-error", 4, 9, REACTED) is None
+    assert history.set_reaction("fal", 1, 9, REACTED) is None
+
+
+def test_what_the_plc_finds_itself_has_no_reaction() -> None:
+    history = History(model(), 1)
+    raise_(history, "cycle-time-over", scan=7)
+    found = Generate("PLC", (ErrorRef("cycle-time-over"),), "plc")
+    (changed,) = history.fold(entry(found, 9))
+    assert (changed.origin, changed.reaction) == ("plc", None)
+
+
+def test_rows_are_kept_over_a_restart() -> None:
+    before = History(model(), 1)
+    raise_(before, "battery-error")
+    swap(before, 2)
+    raise_(before, "fal")
+    kept = [each for version in (1, 2) for each in before.rows_of(version, model()) if each.status != "never"]
+    after = History(model(), 2, kept)
+    assert after.rows == before.rows
+    assert after.rows_of(1, model()) == before.rows_of(1, model())
+    present = {"battery-error": Active((ErrorRef("battery-error"),), "Ada", 1, "simulator")}
+    (gone,) = after.reconcile(present, datetime(2026, 11, 21, 13, tzinfo=UTC))
+    assert (gone.id, gone.status) == ("fal", "cleared")
+
+
+def test_the_past_may_be_of_another_version() -> None:
+    history = History(model(), 1)
+    raise_(history, "battery-error")
+    swap(history, 2)
+    raise_(history, "fal")
+    then = {each.id: each for each in history.as_of({}, datetime(2026, 11, 21, 13, tzinfo=UTC), 1)}
+    assert (then["battery-error"].status, then["fal"].status) == ("cleared", "never")
+    assert row(history, "fal").status == "generated"  # nothing was changed

@@ -1,0 +1,133 @@
+"""Error memory on every model beside a naive model of it: what is present written one after the other onto zeros."""
+
+from collections.abc import Mapping
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+
+from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.reference import ErrorRef
+from scanbench.plcmodel.model import ErrorAddress, ErrorEntry, Location
+from scanbench.runtime.command import Entry, Refusal
+from scanbench.runtime.resource import Resource
+from tests.faults.test_models import MODELS, SOURCE, every_choice, log_spans
+from tests.runtime.bench import model, plc
+
+Bit = tuple[str, int]
+"""Area, and bit from its start."""
+Details = Mapping[str, str]
+
+
+def first_bit(place: Location) -> Bit:
+    return place.area.name, place.byte * 8 + (place.bit or 0)
+
+
+def writes(address: ErrorAddress, number: int) -> dict[Bit, int]:
+    """The bits that one address of the catalogue stands for."""
+    if address.location is None:
+        return {}
+    area, start = first_bit(address.location)
+    if address.kind == "Bit":
+        return {(area, start): 1}
+    if address.kind == "BitArray":
+        return {(area, start + number): 1}
+    if address.kind == "BCD":
+        number = sum(int(digit) << 4 * place for place, digit in enumerate(reversed(str(number))))
+    start, width = (start, 8 * (address.maximum or 0)) if address.base == 0 else (start + address.shift, address.width)
+    return {(area, start + bit): number >> bit & 1 for bit in range(width)}
+
+
+def told(error: ErrorEntry, details: Details) -> tuple[dict[Bit, int], int]:
+    """All bits of an error with these details, and its code."""
+    found: dict[Bit, int] = {}
+    numbers: dict[str, int] = {}
+    code = error.code
+    for detail in error.details:
+        if detail.control == "List":
+            id = details.get(detail.name, detail.default or detail.addresses[0].id)
+            address = next(each for each in detail.addresses if each.id == id)
+            number = address.value if address.value is not None else 1
+        else:
+            address = detail.addresses[0]
+            start = address.default if address.default is not None else address.minimum
+            text = details.get(detail.name)
+            if address.base == 0:
+                number = sum(ord(letter) << 8 * place for place, letter in enumerate(text or ""))
+            else:
+                number = (start or 0) if text is None else int(text, address.base)
+        found |= writes(address, number)
+        numbers[detail.name] = number
+        code += number if address.add_to_code else 0
+    found[first_bit(error.flag)] = 1
+    for address in error.also:
+        found |= writes(address, numbers.get(address.id, 1) if address.value is None else address.value)
+    return found, code
+
+
+def expected(name: str, present: Mapping[str, Details]) -> dict[Bit, int]:
+    """What is not 0."""
+    memory: dict[Bit, int] = {}
+    shown: list[tuple[int, int]] = []
+    for id, details in present.items():
+        error = model(name).error(id)
+        assert error is not None
+        bits, code = told(error, details)
+        memory |= bits
+        shown.append((error.priority, code))
+    word = model(name).code_word
+    if word is not None and shown:
+        area, start = first_bit(word)
+        memory |= {(area, start + bit): min(shown)[1] >> bit & 1 for bit in range(word.bits)}
+    return {bit: value for bit, value in memory.items() if value}
+
+
+def found(resource: Resource) -> dict[Bit, int]:
+    """What is not 0 in the memory of the model; the log is another matter."""
+    memory = bytearray(resource.memory)
+    for start, end in log_spans(resource):
+        memory[start:end] = bytes(end - start)
+    areas = resource.program.layout.areas
+    return {
+        (area.name, 8 * byte + bit): 1
+        for area in resource.view.model.areas
+        for byte in _not_zero(memory, areas[area.name], area.size)
+        for bit in range(8)
+        if memory[areas[area.name] + byte] >> bit & 1
+    }
+
+
+def _not_zero(memory: bytearray, start: int, size: int) -> list[int]:
+    data = bytes(memory[start : start + size])
+    return [byte for byte, value in enumerate(data) if value] if data.strip(b"\0") else []
+
+
+@pytest.mark.parametrize("name", MODELS)
+@settings(max_examples=25, deadline=None)
+@given(data=st.data())
+def test_any_order_any_company(name: str, data: st.DataObject) -> None:
+    errors = list(model(name).errors())
+    resource = plc(SOURCE, model_name=name)
+    assert found(resource) == {}
+    present: dict[str, Details] = {}
+    for _ in range(data.draw(st.integers(1, 10))):
+        step = data.draw(st.sampled_from(["generate", "generate", "again", "recover"]))
+        if step == "recover" and present:
+            gone = data.draw(st.lists(st.sampled_from(sorted(present)), min_size=1, unique=True))
+            assert isinstance(resource.submit(Recover("Ada", tuple(gone))), Entry)
+            present = {id: details for id, details in present.items() if id not in gone}
+        else:
+            batch = data.draw(st.lists(st.sampled_from(errors), min_size=1, max_size=3, unique_by=lambda one: one.id))
+            chosen = {error.id: data.draw(st.sampled_from(every_choice(error))) for error in batch}
+            refs = tuple(ErrorRef(id, tuple(details.items())) for id, details in chosen.items())
+            outcome = resource.submit(Generate("Ada", refs, again=step == "again"))
+            if step != "again" and present.keys() & chosen.keys():
+                assert isinstance(outcome, Refusal)
+                continue
+            assert isinstance(outcome, Entry), outcome
+            for id, details in chosen.items():  # what is raised anew counts as the latest
+                present.pop(id, None)
+                present[id] = details
+        assert found(resource) == expected(name, present)
+    assert isinstance(resource.submit(Recover("Ada", None)), Entry)
+    assert found(resource) == {}

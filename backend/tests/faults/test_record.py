@@ -1,0 +1,280 @@
+"""Test records: made, written as CSV, XML and HTML, and read again."""
+
+import csv
+import io
+from dataclasses import replace
+from datetime import UTC, datetime, timedelta, timezone
+
+import pytest
+from hypothesis import given, settings
+from hypothesis import strategies as st
+from lxml import etree
+
+from scanbench.faults.history import ErrorRow, RowReaction
+from scanbench.faults.reaction import Difference, Line, Reaction, Reader
+from scanbench.faults.reaction_json import from_json, to_json
+from scanbench.faults.record import (
+    RecordAccepted,
+    RecordCell,
+    RecordError,
+    RecordHead,
+    RecordLine,
+    RecordSweep,
+    TestRecord,
+    make_record,
+)
+from scanbench.faults.record_csv import COLUMNS, to_csv
+from scanbench.faults.record_html import to_html
+from scanbench.faults.record_read import from_xml
+from scanbench.faults.record_words import WORDS
+from scanbench.faults.record_xml import to_xml
+from tests.runtime.bench import model
+
+NOON = datetime(2026, 11, 21, 12, 0, 0, 123456, tzinfo=UTC)
+HEAD = RecordHead("conveyor", "CJ1M-CPU63", "line-1", 3, "ab" * 32, NOON, "Ada", "Scanbench 0.1")
+REACTION = Reaction(
+    "reacted", 200, 1, 2, (Reader("main.st", 12, "Main", "flag", 1), Reader("main.st", 12, "Main", "code", 2)),
+    (Difference("Main.out", "TRUE", "FALSE", True, 2), Difference("Main.n", "1", "2", False, 3)), 17,
+    (Line("main.st", 13),),
+)  # fmt: skip
+
+
+def made() -> TestRecord:
+    rows = [
+        ErrorRow(
+            "battery-error", "x", "nonfatal", "cleared", "00F7", "", NOON, NOON + timedelta(seconds=5), 7, 9, "Ada",
+            "simulator", 2, RowReaction("done", REACTION), 3,
+        ),
+        ErrorRow(
+            "memory-error", "x", "fatal", "generated", "80F4", "location=io-table-checksum", NOON, None, 8, None,
+            "=Bob", "simulator", 1, RowReaction("failed", None, "the run was made smaller"), 3,
+        ),
+    ]  # fmt: skip
+    cells = (
+        RecordCell("fal", "filled", "reacted", 3), RecordCell("fal", "empty", "never_read"),
+        RecordCell("cycle-time-over", "filled", None, None, "it cannot be raised here"),
+        RecordCell("of another catalogue", "filled", "reacted", 1),
+    )  # fmt: skip
+    sweep = RecordSweep(NOON, "Ada", "line-1", "done", 200, ("filled", "empty"), cells)
+    accepted = [("fal", RecordAccepted("empty", "no <FAL> in this line & no other", "Eva", NOON))]
+    log = [RecordLine(NOON, 7, "Ada", "generated battery-error, code 00F7")]
+    return make_record(HEAD, model(), rows, sweeps=[sweep], accepted=accepted, log=log)
+
+
+def find(record: TestRecord, id: str) -> RecordError:
+    return next(error for error in record.errors if error.id == id)
+
+
+def test_every_error_of_the_catalogue_has_a_row() -> None:
+    record = made()
+    assert [error.id for error in record.errors] == [error.id for error in model().errors()]
+    battery = find(record, "battery-error")
+    assert battery.reaction is not None
+    assert [each.path for each in battery.reaction.differences] == ["Main.out"]  # outputs only
+    assert battery.reaction.difference_count == 17
+    assert battery.name == "Battery error"
+    assert " / " in battery.group or battery.group
+    assert "of another catalogue" not in {cell.error for cell in record.sweeps[0].cells}
+
+
+def test_the_verdict_is_the_plcs_own_or_the_worst_of_the_newest_sweep() -> None:
+    record = made()
+    assert record.finding(find(record, "battery-error")).where == "plc"
+    fal = record.finding(find(record, "fal"))
+    assert (fal.verdict, fal.where) == ("never_read", "sweep")
+    assert record.finding(find(record, "memory-error")).verdict is None
+    older = replace(
+        record.sweeps[0], cells=(RecordCell("fal", "filled", "no_effect"), RecordCell("cpu-error", "filled", "stopped"))
+    )
+    both = replace(record, sweeps=(record.sweeps[0], older))
+    assert both.finding(find(both, "fal")).verdict == "never_read"
+    told = record.summary
+    assert (told.errors, told.tested, told.generated, told.accepted) == (len(record.errors), 3, 1, 1)
+    assert told.verdicts == {"never_read": 1, "no_effect": 0, "stopped": 0, "reacted": 1}
+    assert told.unknown == 1
+
+
+def test_names_in_japanese_where_the_model_has_them() -> None:
+    record = make_record(HEAD, model(), [], language="ja")
+    worded = {error.id: error for error in model().errors()}
+    for error in record.errors:
+        names = {each.name for each in worded[error.id].wordings if each.language == "ja"} - {""}
+        assert error.name in (names or {worded[error.id].name})
+
+
+def test_csv_has_a_row_for_each_error() -> None:
+    record = made()
+    text = to_csv(record)
+    assert text.startswith("\ufeff")
+    head, *rows = list(csv.reader(io.StringIO(text.removeprefix("\ufeff"))))
+    assert tuple(head) == COLUMNS
+    assert len(rows) == len(record.errors)
+    by_id = {row[1]: dict(zip(head, row, strict=True)) for row in rows}
+    battery, memory, fal = by_id["battery-error"], by_id["memory-error"], by_id["fal"]
+    assert (battery["verdict"], battery["readers"], battery["outputs that differ"]) == (
+        "reacted", "main.st:12", "Main.out TRUE → FALSE",
+    )  # fmt: skip
+    assert battery["generated"] == "2026-11-21T12:00:00.123Z"
+    assert memory["by"] == "'=Bob"  # no formula in whoever's spreadsheet
+    assert memory["note"] == "the run was made smaller"
+    assert (fal["verdict"], fal["verdict from"]) == ("never_read", "sweep")
+    assert fal["accepted"] == "empty: no <FAL> in this line & no other (Eva)"
+
+
+@pytest.mark.parametrize("language", ["en", "ja"])
+def test_the_document_to_sign(language: str) -> None:
+    record = made()
+    text = to_html(record, "ja" if language == "ja" else "en")
+    page = etree.fromstring(text, etree.HTMLParser())
+    assert page.get("lang") == language
+    words = WORDS["ja" if language == "ja" else "en"]
+    said = "".join(str(part) for part in page.itertext())
+    for name in ("title", "findings", "sign", "tested_by", "approved_by", "reacted", "never_read"):
+        assert words[name] in said
+    assert "no <FAL> in this line & no other (Eva" in said  # escaped once, shown as it was
+    rows = page.findall(".//table//tbody//tr")
+    assert any(
+        "Battery error" in "".join(map(str, row.itertext())) and "main.st:12" in "".join(map(str, row.itertext()))
+        for row in rows
+    )
+    for tag in ("script", "img", "link", "iframe"):
+        assert page.find(f".//{tag}") is None  # self-contained, and nothing that could do anything
+    assert "http" not in text.replace("http-equiv", "")
+
+
+def test_both_languages_have_the_same_words() -> None:
+    assert WORDS["en"].keys() == WORDS["ja"].keys()
+    assert all(WORDS["ja"].values())
+
+
+def test_names_are_text_not_markup() -> None:
+    evil = "<script>alert(1)</script>"
+    error = RecordError(evil, evil, evil, evil, evil, "fatal", "generated", evil, NOON, None, 1, None, evil)
+    sweep = RecordSweep(NOON, evil, evil, "done", 1, (evil,), (RecordCell(evil, evil, None, None, evil),))
+    head = RecordHead(evil, evil, evil, 1, evil, NOON, evil, evil)
+    record = TestRecord(head, (error,), (sweep,), (RecordLine(NOON, 1, evil, evil),))
+    assert "<script" not in to_html(record)
+    assert from_xml(to_xml(record)) == record
+
+
+def test_what_xml_cannot_hold_is_marked() -> None:
+    record = replace(made(), log=(RecordLine(NOON, 1, "Ada", "a\x00b\x1bc\ud800d"),))
+    read = from_xml(to_xml(record))
+    assert isinstance(read, TestRecord)
+    assert read.log[0].text == "a\ufffdb\ufffdc\ufffdd"
+
+
+# ---- XML, there and back ------------------------------------------------------------------------------------------
+
+TEXT = st.text(st.characters(codec="utf-8", exclude_categories=("Cs", "Cc"), exclude_characters="\ufffe\uffff") | st.sampled_from("\t\n\r<&\"'"), max_size=20)  # fmt: skip
+NAME = TEXT.filter(bool)
+COUNT = st.integers(0, 2**63 - 1)
+SCAN = st.none() | COUNT
+AT = (
+    st.datetimes()
+    .filter(lambda at: 1971 < at.year < 2200)
+    .map(lambda at: at.replace(tzinfo=timezone(timedelta(hours=9))))
+)
+VERDICT = st.sampled_from(["reacted", "no_effect", "never_read", "stopped"])
+READERS = st.builds(Reader, TEXT, COUNT, TEXT, st.sampled_from(["flag", "code", "detail"]), COUNT)
+REACTIONS = st.builds(
+    Reaction, VERDICT, COUNT, SCAN, SCAN, st.lists(READERS, max_size=3).map(tuple),
+    st.lists(st.builds(Difference, TEXT, TEXT, TEXT, st.just(True), COUNT), max_size=3).map(tuple), COUNT,
+    st.lists(st.builds(Line, TEXT, COUNT), max_size=3).map(tuple), TEXT,
+)  # fmt: skip
+ERRORS = st.builds(
+    RecordError, NAME, TEXT, TEXT, TEXT, TEXT, st.sampled_from(["fatal", "nonfatal"]),
+    st.sampled_from(["never", "generated", "cleared"]), TEXT, st.none() | AT, st.none() | AT, SCAN, SCAN, TEXT,
+    st.sampled_from([None, "simulator", "plc", "program"]), COUNT, st.none() | REACTIONS, TEXT,
+    st.lists(st.builds(RecordAccepted, TEXT, TEXT, TEXT, AT), max_size=2).map(tuple),
+)  # fmt: skip
+
+
+@st.composite
+def records(draw: st.DrawFn) -> TestRecord:
+    errors = draw(st.lists(ERRORS, max_size=4, unique_by=lambda error: error.id))
+    head = draw(st.builds(RecordHead, TEXT, TEXT, TEXT, COUNT, TEXT, AT, TEXT, TEXT))
+    states = draw(st.lists(TEXT, min_size=1, max_size=3, unique=True))
+    pairs = [(error.id, state) for error in errors for state in states]
+    cells = [
+        RecordCell(error, state, draw(st.none() | VERDICT), draw(SCAN), draw(TEXT))
+        for error, state in draw(st.lists(st.sampled_from(pairs), unique=True) if pairs else st.just([]))
+    ]
+    status = draw(st.sampled_from(["running", "done", "cancelled", "interrupted", "failed"]))
+    sweep = RecordSweep(draw(AT), draw(TEXT), draw(TEXT), status, draw(COUNT), tuple(states), tuple(cells))
+    log = draw(st.lists(st.builds(RecordLine, AT, COUNT, TEXT, TEXT), max_size=3))
+    return TestRecord(head, tuple(errors), (sweep,), tuple(log))
+
+
+@settings(max_examples=150, deadline=None)
+@given(records())
+def test_what_is_written_is_read_again(record: TestRecord) -> None:
+    assert from_xml(to_xml(record)) == record
+    to_html(record, "ja")
+    to_csv(record)
+
+
+@settings(max_examples=100, deadline=None)
+@given(REACTIONS)
+def test_reactions_as_json_and_back(reaction: Reaction) -> None:
+    assert from_json(to_json(reaction)) == reaction
+
+
+@pytest.mark.parametrize(
+    ("change", "says"),
+    [
+        ({"verdict": "fine"}, "verdict must be one of reacted, no_effect, never_read, stopped, not 'fine'"),
+        ({"window": "200"}, "window must be a whole number, not '200'"),
+        ({"window": True}, "window must be a whole number, not True"),
+        ({"readers": None}, "readers must be a list of objects"),
+        ({"lines": [{"file": 1, "line": 2}]}, "file must be a text, not 1"),
+        ({"differences": [{"output": "yes"}]}, "output must be true or false, not 'yes'"),
+    ],
+)
+def test_json_that_is_no_reaction(change: dict[str, object], says: str) -> None:
+    with pytest.raises(ValueError, match=says):
+        from_json({**to_json(REACTION), **change})
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "line", "says"),
+    [
+        ('Version="1"', 'Version="2"', 2, "Version"),
+        ('ProgramVersion="3"', 'ProgramVersion="three"', 2, "three"),
+        ('ProgramVersion="3"', 'ProgramVersion="-1"', 2, "-1"),
+        ('Status="cleared"', 'Status="mended"', None, "mended"),
+        ('Verdict="reacted" Window', 'Verdict="good" Window', None, "good"),
+        ('GeneratedAt="2026-11-21', 'GeneratedAt="2026-02-31', None, "2026-02-31"),
+        ('GeneratedAt="2026-11-21T12:00:00.123456+00:00"', 'GeneratedAt="2026-11-21T12:00:00"', None, "pattern"),
+        ('ExportedAt="2026-11-21T12:00:00.123456+00:00"', 'ExportedAt="0001-01-01T00:00:00+14:00"', 2, "no moment"),
+        ('Cell Error="fal"', 'Cell Error="fail"', None, "there is no Error with the Id 'fail'"),
+        ('State="empty" Verdict', 'State="full" Verdict', None, "no State with the Name 'full'"),
+        ('State="empty" Verdict', 'State="filled" Verdict', None, "two Cells for fal from 'filled'"),
+        ('Id="battery-error"', 'Id="fal"', None, "ErrorIds"),
+        ("<Line ", "<Lines ", None, "Lines"),
+        ("</TestRecord>", "", None, "not well-formed XML"),
+        ("<TestRecord", "<!DOCTYPE x [<!ENTITY y 'z'>]>\n<TestRecord", 2, "a test record has no DOCTYPE"),
+    ],
+)
+def test_a_broken_record_is_refused_with_its_line(old: str, new: str, line: int | None, says: str) -> None:
+    text = to_xml(made())
+    assert old in text
+    broken = text.replace(old, new, 1)
+    found = from_xml(broken)
+    assert isinstance(found, list)
+    assert any(says in problem.message for problem in found), found
+    place = next(problem.span for problem in found if says in problem.message)
+    wanted = line or text[: text.index(old)].count("\n") + 1
+    assert abs(place.line - wanted) <= 1
+    assert place.column >= 1
+
+
+def test_what_is_no_record_at_all() -> None:
+    for text, says in (
+        ("", "not well-formed"),
+        ("<Model/>", "here belongs <TestRecord>"),
+        ("<TestRecord" + " " * 5_000_000 + "/>", "larger than 4 MiB, a test record never is"),
+    ):
+        found = from_xml(text)
+        assert isinstance(found, list)
+        assert says in found[0].message

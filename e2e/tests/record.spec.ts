@@ -1,0 +1,98 @@
+import { readFile } from 'node:fs/promises';
+import { expect, test } from '../fixtures/test';
+import { History } from '../pages/history';
+
+const ERROR = 'Battery error';
+
+test('what was tested is filtered, printed, saved and read again', async ({ openAs }) => {
+  const mika = await openAs('Mika');
+  const history = new History(mika.page);
+  await mika.runs();
+  await mika.simulator.generate(ERROR);
+  await mika.simulator.recover(ERROR);
+  await mika.showPanel('History');
+  const row = mika.history(ERROR);
+
+  await test.step('the row tells when, who, how often, and what the program did', async () => {
+    await expect(row).toContainText(['Cleared']);
+    await expect(row).toContainText(['Mika']);
+    await expect(row).toContainText([/Reacted|No effect|Never read/]);
+  });
+
+  await test.step('filters leave what is wanted, and say when nothing is left', async () => {
+    const all = await history.rows().count();
+    expect(all).toBeGreaterThan(20);
+    await history.filter('State', 'Cleared');
+    await expect(history.rows()).toHaveCount(1);
+    await history.filter('State', 'Never');
+    await expect(history.rows()).toHaveCount(all - 1);
+    await history.filter('State', 'All states');
+    await history.search('battery');
+    await expect(history.rows()).toHaveCount(1);
+    await history.search('no such error');
+    await expect(mika.page.locator('[data-pane=history]')).toContainText('No row matches');
+    await history.search('');
+    await history.sortBy('By');
+    await expect(history.rows().first()).toContainText(ERROR);
+    await history.sortBy('By');
+    await history.sortBy('By');
+  });
+
+  await test.step('the printable record is a document with this row', async () => {
+    const tab = await history.print();
+    await expect(tab.getByRole('heading', { level: 1 })).toContainText('Test record');
+    await expect(tab.getByRole('row').filter({ hasText: ERROR }).first()).toContainText('cleared');
+    await expect(tab.getByText('Approved by')).toBeVisible();
+    await tab.close();
+  });
+
+  await test.step('CSV and XML are saved, and the XML is read again', async () => {
+    const csv = await history.save('Save as CSV');
+    expect(await readFile(await csv.path(), 'utf8')).toMatch(/battery-error.*,cleared,/);
+    const xml = await history.save('Save as XML');
+    expect(xml.suggestedFilename()).toBe('line-1-version-1-record.xml');
+    await history.importFile(await xml.path());
+    await expect(history.record).toContainText('An imported test record, to be read only');
+    await expect(history.record).toContainText('Brought in by Mika');
+    const imported = history.rows('Errors of the imported record').filter({ hasText: ERROR });
+    await expect(imported).toContainText(['Cleared']);
+    await expect(imported).toContainText(['Mika']);
+    await history.record.getByRole('button', { name: 'Delete', exact: true }).click();
+    await mika.page.getByRole('dialog').getByRole('button', { name: 'Delete' }).click();
+    await expect(history.record).toContainText('No test record was imported yet');
+    await mika.page.getByRole('tab', { name: 'Test record' }).press('Delete');
+  });
+
+  await test.step('a broken file is refused with its line', async () => {
+    await mika.showPanel('History');
+    const buffer = Buffer.from('<TestRecord Version="1">\n  <Error/>\n</TestRecord>\n');
+    await history.importFile({ name: 'broken.xml', mimeType: 'application/xml', buffer });
+    await expect(history.alert).toContainText('record.xml:2:');
+    await expect(history.alert).toContainText('nothing was kept');
+  });
+});
+
+test('every version of the program has a history of its own', async ({ openAs }) => {
+  const mika = await openAs('Mika');
+  const history = new History(mika.page);
+  await mika.runs();
+  await mika.simulator.generate(ERROR);
+  await mika.simulator.recover(ERROR);
+  const main = mika.editor('Main.st');
+  await main.open();
+  await main.addBelow('PROGRAM Main', '(* another version *)');
+  await main.build();
+  await mika.showPanel('History');
+
+  await test.step('the new version begins with nothing tested', async () => {
+    await expect(mika.history(ERROR)).toContainText(['Never']);
+  });
+
+  await test.step('the old one is shown as one that runs no more', async () => {
+    await history.showVersion(/^Version 1/);
+    await expect(mika.page.locator('[data-pane=history]')).toContainText('Version 1 does not run any more');
+    await expect(mika.history(ERROR)).toContainText(['Cleared']);
+    await mika.page.getByRole('button', { name: 'Show the version that runs' }).click();
+    await expect(mika.history(ERROR)).toContainText(['Never']);
+  });
+});
