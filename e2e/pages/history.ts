@@ -53,7 +53,10 @@ export class History {
   }
 
   async importFile(file: string | { name: string; mimeType: string; buffer: Buffer }): Promise<void> {
-    const [chooser] = await Promise.all([this.page.waitForEvent('filechooser'), this.chooseInMenu(/^Import a test record/)]);
+    const [chooser] = await Promise.all([
+      this.page.waitForEvent('filechooser'),
+      this.chooseInMenu(/^Import a test record/),
+    ]);
     await chooser.setFiles(file);
   }
 

@@ -5,6 +5,7 @@ import { Explorer } from './explorer';
 import { InstanceList } from './instances';
 import { Problems } from './problems';
 import { Simulator } from './simulator';
+import { Sweeps } from './sweep';
 import { Timeline } from './timeline';
 import { TopBar } from './topbar';
 import { Watch } from './watch';
@@ -15,6 +16,7 @@ export class Ide {
   readonly explorer: Explorer;
   readonly watch: Watch;
   readonly simulator: Simulator;
+  readonly sweeps: Sweeps;
   readonly problems: Problems;
   readonly diagnostics: Diagnostics;
   readonly timeline: Timeline;
@@ -25,6 +27,7 @@ export class Ide {
     this.explorer = new Explorer(page);
     this.watch = new Watch(page);
     this.simulator = new Simulator(page);
+    this.sweeps = new Sweeps(page);
     this.problems = new Problems(page);
     this.diagnostics = new Diagnostics(page);
     this.timeline = new Timeline(page);

@@ -1,7 +1,7 @@
 import { expect, test } from '../fixtures/test';
 import { History } from '../pages/history';
 
-for (const theme of ['dark', 'light', 'contrast'])
+for (const theme of ['dark', 'light', 'high contrast'])
   for (const [width, height] of [[1440, 900], [1024, 700]] as const)
     test(`${theme} ${width}`, async ({ openAs }) => {
       const mika = await openAs('Mika');

@@ -1,5 +1,6 @@
 import { readFileSync } from 'node:fs';
 import { resolve } from 'node:path';
+import AxeBuilder from '@axe-core/playwright';
 import { expect, test } from '../fixtures/test';
 import { UserErrors } from '../pages/usererrors';
 
@@ -37,6 +38,17 @@ test('errors of the own machine: defined in the browser, built, raised, recorded
     await own.field('Value 1').fill('2');
     await own.pane.getByRole('checkbox', { name: 'Added to the code 1' }).check();
     await expect(own.wrong(/./)).toHaveCount(0);
+  });
+
+  await test.step('it is there for keyboards and screen readers', async () => {
+    await own.list.focus();
+    await jo.page.keyboard.press('ArrowUp');
+    await expect(own.error('Pump overheated')).toHaveAttribute('aria-selected', 'true');
+    await expect(own.field('Name')).toHaveValue('Pump overheated');
+    await jo.page.keyboard.press('End');
+    await expect(own.field('Name')).toHaveValue('Guard open');
+    const { violations } = await new AxeBuilder({ page: jo.page }).include('[data-pane=usererrors]').analyze();
+    expect(violations.map(({ id, nodes }) => `${id}: ${nodes[0]?.html}`)).toEqual([]);
   });
 
   await test.step('what is not saved stays when the tab is closed, and the page is loaded anew', async () => {

@@ -68,7 +68,9 @@ def _programs(result: "Result") -> None:
         peers = result["peers"].get(name, {})
         others = "".join(f"{peers[peer]:>10,.2f}" if peer in peers else f"{'-':>10}" for peer in names)
         parts = "  ".join(f"{part} {ms:.0f}" for part, ms in result["compile"][name].items())
-        typer.echo(f"{name:16}{row['ns']:>12.1f}{c_text:>12}{ratio_text:>8}{row['observed_ratio']:>10.2f}{others}   {parts}")
+        typer.echo(
+            f"{name:16}{row['ns']:>12.1f}{c_text:>12}{ratio_text:>8}{row['observed_ratio']:>10.2f}{others}   {parts}"
+        )
     typer.echo("observed: code that notes statements and reads, as a ratio to the program's own.")
     if names:
         typer.echo("ratio: to the C of this run. Peers: their ratio to the same C, measured on another machine before.")

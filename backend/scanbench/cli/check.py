@@ -6,7 +6,7 @@ from pathlib import Path
 
 import typer
 
-from scanbench.check.build import check_sources
+from scanbench.check.build import check_sources, program_files
 from scanbench.cli.check_report import report_files, report_json, report_lines
 from scanbench.cli.inputs import find_model, problem_json, read_sources
 from scanbench.problems import Severity
@@ -32,7 +32,7 @@ def check(
     checked = check_sources(sources.texts, find_model(model, sources))
     errors = sum(problem.severity is Severity.ERROR for problem in checked.problems)
     if report:
-        files = report_files(sources.texts, checked.problems)
+        files = report_files(program_files(sources.texts), checked.problems)
         if format is Format.JSON:
             typer.echo(json.dumps({"files": report_json(files), "errors": errors}, ensure_ascii=False))
         else:

@@ -33,7 +33,7 @@ from scanbench.faults.sweep_report import (
 )
 from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity
 from scanbench.plcmodel.model import Model
-from scanbench.plcmodel.user_errors import model_for
+from scanbench.plcmodel.user_errors import extended
 from scanbench.runtime.clock import iso, wall_time
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.header import Header
@@ -70,12 +70,16 @@ def list_errors(
     model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else the project's, else GENERIC-IEC."),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
 ) -> None:  # fmt: skip
-    """List the errors that a model knows: id, code, flag, severity, details."""
+    """List the errors that a model knows: id, code, flag, severity, details. Exit 1: the project's own are not right."""
     if project is None:
         plc = find_model_named(model or DEFAULT_MODEL)
     else:
         sources = read_sources([project])
-        plc = model_for(find_model(model, sources), below(project, sources.texts))
+        plc, problems = extended(find_model(model, sources), below(project, sources.texts))
+        for problem in problems:
+            typer.echo(str(problem), err=True)
+        if problems:
+            raise typer.Exit(1)
     entries = list(_entries(plc))
     if as_json:
         told = {"model": plc.name, "errors": [_entry_json(group, entry) for group, entry in entries]}
@@ -111,7 +115,7 @@ def _entry_json(group: str, entry: ErrorEntry) -> dict[str, object]:
     return {
         "id": entry.id, "name": entry.name, "description": entry.description, "code": entry.code_text,
         "flag": entry.flag_text, "severity": entry.severity, "priority": entry.priority, "group": group,
-        "verified": entry.verified, "source": entry.source, "details": details,
+        "verified": entry.verified, "source": entry.source, "user": entry.user, "details": details,
     }  # fmt: skip
 
 

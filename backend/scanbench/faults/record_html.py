@@ -149,7 +149,7 @@ class _Document:
             verdict += f'<br><span class="faint">{escape(note)}</span>'
         return _row(
             f"{name}</th>", _mono(error.code), _mono(error.flag), _cell(self._words[error.severity]),
-            _cell(self._words[error.status]), f"<td>{self._when(error)}</td>", _number(error.count or None),
+            _cell(self._words[error.status]), f'<td class="when">{self._when(error)}</td>', _number(error.count or None),
             f"<td>{verdict}</td>", _number(finding.scans), f'<td class="mono places">{self._readers(reaction)}</td>',
             f'<td class="mono places">{self._outputs(() if reaction is None else reaction.differences)}</td>',
         )  # fmt: skip

@@ -3,6 +3,7 @@
 from collections.abc import Sequence
 
 from scanbench.faults.arm import Arm, Disarm, Missed
+from scanbench.faults.clear import ClearErrorLog
 from scanbench.faults.inject import Generate, Recover
 from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.command import Command, Entry
@@ -20,7 +21,7 @@ LIMIT = 5000
 """Marks that are kept to be shown."""
 _KINDS: dict[type, str] = {
     Write: "write", Force: "force", Release: "force", Generate: "error", Recover: "recover", SetMode: "mode",
-    ProgramChange: "build", Trapped: "system", ClearViolations: "run", Restart: "run",
+    ClearErrorLog: "recover", ProgramChange: "build", Trapped: "system", ClearViolations: "run", Restart: "run",
     Arm: "error", Disarm: "recover", Missed: "error",
 }  # fmt: skip
 _LONGEST = 200

@@ -275,6 +275,14 @@ class RecoverErrors(Wire):
     ids: list[str] | None = None
 
 
+class ClearErrors(Wire):
+    """The tool's own way, as FINS 2101: what the device lets go of. An error whose cause is still there stays."""
+
+    what: Literal["current", "all"] | int = Field(
+        default="current", description="`current` (the most serious), `all`, or an error code as a number"
+    )
+
+
 # ---- states and sweeps -----------------------------------------------------------------------------------------
 
 

@@ -2,6 +2,7 @@
 
 from fastapi import APIRouter, Request
 
+from scanbench.faults.clear import ClearErrorLog, ClearErrors
 from scanbench.faults.inject import Generate, Recover
 from scanbench.runtime.write import Write
 from scanbench.session.protocol import Ack
@@ -36,6 +37,20 @@ async def on_recover(
     """Recovers these errors, or all that are generated."""
     ids = None if wanted.ids is None else tuple(wanted.ids)
     return _result(await bench.session(instance).submit(Recover(user_of(request).name, ids)))
+
+
+@router.post("/errors/clear")
+async def on_clear(
+    bench: Bench, request: Request, instance: int, wanted: messages_errors.ClearErrors
+) -> messages_errors.CommandResult:
+    """Clears errors as a tool does it on the device (FINS 2101)."""
+    return _result(await bench.session(instance).submit(ClearErrors(user_of(request).name, wanted.what)))
+
+
+@router.post("/errors/log/clear")
+async def on_clear_log(bench: Bench, request: Request, instance: int) -> messages_errors.CommandResult:
+    """Empties the PLC's own error log, as a tool does it on the device (FINS 2103)."""
+    return _result(await bench.session(instance).submit(ClearErrorLog(user_of(request).name)))
 
 
 @router.post("/errors/preview")

@@ -221,3 +221,36 @@ def test_two_sweeps_compared(project: Path) -> None:
     assert changes["inner-board-error"] == "worse"
     assert changes["memory-error"] == "same"
     assert scanbench("errors", "compare", str(before), str(project / "project.json")).returncode == 2
+
+
+OWN = """<UserErrors>
+  <ErrorGroup>
+    <Name>Pumps</Name>
+    <Error Id="pump-hot" ErrorCode="C001" ErrorFlag="W10.00" Severity="nonfatal" Priority="50" Source="the project" Verified="no">
+      <Name>Pump too hot</Name><Description>The pump is too hot</Description>
+    </Error>
+  </ErrorGroup>
+</UserErrors>
+"""
+
+
+def test_the_projects_own_errors_are_swept_too(project: Path) -> None:
+    (project / "errors.xml").write_text(OWN, "utf-8")
+    source = SOURCE.replace("n : DINT;", "n : DINT; hot AT W10.00 : BOOL;").replace(
+        "IF inner THEN ;", "IF hot THEN n := 0;"
+    )
+    (project / "main.st").write_text(source, "utf-8")
+    (own,) = (
+        each
+        for each in json.loads(scanbench("errors", "list", str(project), "--json").stdout)["errors"]
+        if each["user"]
+    )
+    assert (own["id"], own["code"]) == ("pump-hot", "C001")
+    result = scanbench("errors", "sweep", str(project), "--only", "pump-hot", "--json")
+    assert result.returncode == 0, result.stderr
+    assert [(each["id"], each["verdict"]) for each in json.loads(result.stdout)["results"]] == [("pump-hot", "reacted")]
+    (project / "errors.xml").write_text(OWN.replace(' ErrorCode="C001"', ""), "utf-8")
+    for command in ("list", "sweep"):
+        broken = scanbench("errors", command, str(project))
+        assert broken.returncode == 1
+        assert broken.stderr.startswith("errors.xml:4:5: M002 ")

@@ -22,8 +22,9 @@ def test_every_state_comes_back(states: list[list[int]]) -> None:
 
 def test_it_is_full_when_its_limit_is_reached() -> None:
     trace = Trace(np.zeros(10, np.uint64), 100)
-    trace.add(np.zeros(10, np.uint64))
-    assert not trace.full
-    trace.add(np.ones(10, np.uint64))
-    assert trace.full
-    assert len(trace) == 2
+    full = []
+    for number in (0, 1, 1):
+        trace.add(np.full(10, number, np.uint64))
+        full.append(trace.full)
+    assert full == [False, True, True]
+    assert len(trace) == 3

@@ -37,7 +37,7 @@ def armed(browser: Browser) -> list[Message]:
 
 
 def test_a_plc_that_dies_goes_on_with_the_same_steps(server: Server) -> None:
-    instance = server.instance("shapes", "CJ1M-CPU63", main=SOURCE)
+    instance = server.instance("dying", "CJ1M-CPU63", main=SOURCE)
     with server.browser(instance) as browser:
         browser.watch("Main.seen")
         shape = {"kind": "intermittent", "scans": 5, "period": 20, "times": 12}
@@ -57,10 +57,10 @@ def test_a_plc_that_dies_goes_on_with_the_same_steps(server: Server) -> None:
 
 
 def test_a_line_that_is_reached_also_behind_an_edit_that_was_only_looked_at(server: Server) -> None:
-    instance = server.instance("lines", "CJ1M-CPU63", main=SOURCE)
+    instance = server.instance("armed lines", "CJ1M-CPU63", main=SOURCE)
     with server.browser(instance) as browser:
         browser.watch("Main.n", "Main.step", "Main.seen")
-        project = next(each for each in server.http.get("/api/projects").json() if each["name"] == "lines")["id"]
+        project = next(each for each in server.http.get("/api/projects").json() if each["name"] == "armed lines")["id"]
         edited = SOURCE.replace("  n := n", "\n\n  seen := seen;\n  n := n")
         reply = server.http.put(f"/api/projects/{project}/files/main.st", json={"text": edited, "version": 1})
         assert reply.status_code == 200, reply.text
@@ -89,7 +89,7 @@ def test_a_line_that_is_reached_also_behind_an_edit_that_was_only_looked_at(serv
 
 
 def test_the_past_shows_what_was_armed_and_a_branch_goes_on_with_it(server: Server) -> None:
-    instance = server.instance("branches", "CJ1M-CPU63", main=SOURCE)
+    instance = server.instance("armed branches", "CJ1M-CPU63", main=SOURCE)
     with server.browser(instance) as browser:
         browser.watch("Main.seen")
         begin = browser.ask(type="run", action="pause")["scan"]
@@ -108,7 +108,7 @@ def test_the_past_shows_what_was_armed_and_a_branch_goes_on_with_it(server: Serv
         reply = server.http.post(f"/api/instances/{instance}/errors/preview", json={"errors": BATTERY}).json()
         assert not reply["ok"]
         assert "this is the past" in reply["message"]
-        reply = server.http.post(f"/api/instances/{instance}/branch", json={"name": "twig", "scan": begin + 42})
+        reply = server.http.post(f"/api/instances/{instance}/branch", json={"name": "armed twig", "scan": begin + 42})
         assert reply.status_code == 201, reply.text
         twig = reply.json()["id"]
     with server.browser(twig) as browser:

@@ -213,3 +213,23 @@ def _last_armed(browser: Browser) -> list[Message]:
     told = [message["faults"] for message in browser.messages if message["type"] == "armed"]
     faults: list[Message] = told[-1] if told else [{"raised": 0}]
     return faults
+
+
+def test_a_tool_clears_as_on_the_device(server: Server) -> None:
+    """What somebody raised at the simulator has a cause that is still there: a tool cannot clear it."""
+    instance = server.instance(
+        "cleared",
+        MODEL,
+        main="PROGRAM Main\nVAR n : INT; END_VAR\n  n := n + 1;\n  IF n = 3 THEN FAL(7); END_IF;\nEND_PROGRAM\n",
+    )
+    base = f"/api/instances/{instance}/errors"
+    with server.browser(instance) as browser:
+        row_of(browser, "fal", status="generated", origin="program")
+        assert server.http.post(f"{base}/generate", json={"errors": [{"id": "basic-io-error"}]}).status_code == 200
+        assert server.http.post(f"{base}/clear", json={"what": "all"}).status_code == 200
+        row_of(browser, "fal", status="cleared")
+        held = server.http.post(f"{base}/clear", json={})
+        assert held.status_code == 422
+        assert "will not clear" in held.json()["message"]
+        assert server.http.post(f"{base}/clear", json={"what": 0x4107}).status_code == 422
+        assert server.http.post(f"{base}/log/clear").status_code == 200

@@ -61,15 +61,21 @@ export function Dock({ ref }: { ref: Ref<DockHandle> }) {
 
   useFilesOfProject(api, project);
 
-  // A tab cannot hold a close button for the keyboard; Delete closes the file or page instead.
+  // A tab cannot hold a close button for the keyboard; Delete closes the file or page instead. Before the dock itself
+  // takes the key: it knows neither the start page nor the room that a page took.
   function onKeyDown(event: KeyboardEvent): void {
     const tab = event.target instanceof HTMLElement ? event.target.closest(".dv-tab") : null;
     const panel = tab?.querySelector<HTMLElement>("[data-closes]")?.dataset.closes;
-    if (event.key === "Delete" && panel !== undefined && api.current) closeTab(api.current, panel);
+    if (!["Delete", "Backspace"].includes(event.key) || panel === undefined || !api.current) return;
+    event.preventDefault();
+    event.stopPropagation();
+    const strip = tab?.parentElement;
+    closeTab(api.current, panel);
+    strip?.querySelector<HTMLElement>(".dv-active-tab")?.focus();
   }
 
   return (
-    <div className="dock" onKeyDown={onKeyDown}>
+    <div className="dock" onKeyDownCapture={onKeyDown}>
       <DockviewReact
         theme={THEME}
         components={components}

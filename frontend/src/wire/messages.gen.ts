@@ -152,6 +152,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/errors/clear": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Clear
+         * @description Clears errors as a tool does it on the device (FINS 2101).
+         */
+        post: operations["on_clear_api_instances__instance__errors_clear_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/errors/generate": {
         parameters: {
             query?: never;
@@ -166,6 +186,26 @@ export interface paths {
          * @description Raises errors, all in one seam, or none of them.
          */
         post: operations["on_generate_api_instances__instance__errors_generate_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/errors/log/clear": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Clear Log
+         * @description Empties the PLC's own error log, as a tool does it on the device (FINS 2103).
+         */
+        post: operations["on_clear_log_api_instances__instance__errors_log_clear_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1225,6 +1265,18 @@ export interface components {
              * @enum {string}
              */
             type: "clear_diagnostics";
+        };
+        /**
+         * ClearErrors
+         * @description The tool's own way, as FINS 2101: what the device lets go of. An error whose cause is still there stays.
+         */
+        ClearErrors: {
+            /**
+             * What
+             * @description `current` (the most serious), `all`, or an error code as a number
+             * @default current
+             */
+            what: ("current" | "all") | number;
         };
         ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["SetMode"] | components["schemas"]["Run"] | components["schemas"]["Restart"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["ClearDiagnostics"];
         /**
@@ -3782,6 +3834,41 @@ export interface operations {
             };
         };
     };
+    on_clear_api_instances__instance__errors_clear_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ClearErrors"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
+                };
+            };
+        };
+    };
     on_generate_api_instances__instance__errors_generate_post: {
         parameters: {
             query?: never;
@@ -3796,6 +3883,37 @@ export interface operations {
                 "application/json": components["schemas"]["GenerateErrors"];
             };
         };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
+                };
+            };
+        };
+    };
+    on_clear_log_api_instances__instance__errors_log_clear_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
         responses: {
             /** @description Client Error */
             "4XX": {

@@ -100,6 +100,8 @@ export const options: editor.IStandaloneEditorConstructionOptions = {
   smoothScrolling: false,
   renderLineHighlight: "line",
   renderWhitespace: "none",
+  // Dimmed, as it is otherwise, its number cannot be read.
+  renderFinalNewline: "on",
   occurrencesHighlight: "singleFile",
   overviewRulerBorder: false,
   padding: { top: 4, bottom: 4 },

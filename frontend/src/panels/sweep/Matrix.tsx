@@ -1,6 +1,6 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, useEffect, useRef } from "react";
-import { type MatrixRow, stepIn } from "../../logic/sweep";
+import { type MatrixRow, type Place, stepIn } from "../../logic/sweep";
 import { t } from "../../logic/text";
 import type { CellRef, Sweep } from "../../wire/types";
 import { cellId, Row } from "./Row";
@@ -43,7 +43,7 @@ export function Matrix({ sweep, rows, selected, onSelect, onEnter }: Props) {
     if (place) virtual.scrollToIndex(row);
   }, []);
 
-  function bringIntoSight(to: { row: number; column: number }): void {
+  function bringIntoSight(to: Place): void {
     virtual.scrollToIndex(to.row);
     // The columns of names and codes cover what lies below them.
     const [names, , ...heads] = grid.current?.querySelectorAll<HTMLElement>("[role=columnheader]") ?? [];
@@ -62,10 +62,10 @@ export function Matrix({ sweep, rows, selected, onSelect, onEnter }: Props) {
     const page = Math.max(1, Math.floor((grid.current?.clientHeight ?? 0) / ROW) - 2);
     const key = `${event.ctrlKey ? "Ctrl+" : ""}${event.key}`;
     const to = stepIn(rows, states.length, place, key, page);
-    const target = to && rows[to.row];
-    const state = to && states[to.column];
+    const target = to ? rows[to.row] : undefined;
+    const state = to ? states[to.column] : undefined;
     if (key === "Enter") onEnter();
-    else if (target?.kind === "error" && state !== undefined && state !== null) {
+    else if (to && target?.kind === "error" && state !== undefined) {
       onSelect({ error: target.error.id, state });
       bringIntoSight(to);
     } else return;

@@ -1,0 +1,181 @@
+import { expect, test } from '../fixtures/test';
+
+test('every error from two states: what nobody handles is found, looked at, accepted, mended, and compared', async ({
+  openAs,
+}) => {
+  const ann = await openAs('Ann');
+  await ann.runs();
+  const sweeps = ann.sweeps;
+
+  await test.step('two states are kept: one now, one by going back to it', async () => {
+    const before = await ann.top.scan();
+    await ann.watch.set('start', 'TRUE');
+    await expect.poll(() => ann.watch.number('Main.parts.total')).toBeGreaterThan(0);
+    await sweeps.keepState('Running');
+    await ann.timeline.goTo(before);
+    await ann.timeline.banner.getByRole('button', { name: 'Keep this state…' }).click();
+    await sweeps.nameState('Idle');
+    await ann.timeline.returnToLive();
+  });
+
+  await test.step('the list teaches what a sweep is, and has both states', async () => {
+    await sweeps.showList();
+    await expect(sweeps.pane).toContainText('No sweep yet');
+    await expect(sweeps.states.getByRole('row')).toHaveCount(3);
+    await expect(sweeps.states.getByRole('row').filter({ hasText: 'Idle' })).toContainText('line-1');
+  });
+
+  await test.step('the dialog says how much work it will be', async () => {
+    await sweeps.ask({ errors: 'Non-fatal only', states: [] });
+    await expect(sweeps.dialog).toContainText('No state is chosen.');
+    await expect(sweeps.dialog.getByRole('button', { name: /^Run \d/ })).toBeDisabled();
+    await sweeps.dialog.getByRole('checkbox', { name: 'Idle' }).check();
+    await sweeps.dialog.getByRole('checkbox', { name: 'Running' }).check();
+    await expect(sweeps.dialog.getByRole('status')).toHaveText(/^\d+ errors from 2 states\.$/);
+    await sweeps.dialog.getByRole('button', { name: 'Cancel' }).click();
+  });
+
+  await test.step('it runs, and the PLC goes on meanwhile', async () => {
+    await sweeps.run({ errors: 'Non-fatal only', states: ['Running', 'Idle'] });
+    await expect(sweeps.tab).toHaveAccessibleName(/^Error sweep \d\d:\d\d/);
+    await ann.top.scansGoOn();
+    await sweeps.finishes();
+    const all = Number(await sweeps.progress.getAttribute('aria-valuemax'));
+    expect(all % 2).toBe(0);
+    await expect(sweeps.progress).toHaveAttribute('aria-valuenow', String(all));
+  });
+
+  await test.step('a forgotten handler is named, one that reacts says when', async () => {
+    for (const state of ['Running', 'Idle'])
+      await expect(await sweeps.cell('Battery error', state)).toContainText('Never read');
+    await expect(await sweeps.cell('Basic I/O Unit error', 'Running')).toContainText('1 scan');
+    await expect(sweeps.counts.getByRole('button', { name: /^Never read/ })).toBeEnabled();
+  });
+
+  await test.step('a cell tells who read what, and leads there', async () => {
+    await sweeps.choose('Basic I/O Unit error', 'Running');
+    await expect(sweeps.details).toContainText('Reacted');
+    await expect(sweeps.details.getByRole('listitem').filter({ hasText: 'motor' })).toContainText('TRUE → FALSE');
+    await sweeps.details
+      .getByRole('button', { name: /^ErrorHandler\.st:\d+$/ })
+      .first()
+      .click();
+    const handler = ann.editor('ErrorHandler.st');
+    await expect(handler.line('any := basicIoError')).toBeVisible();
+    await expect(ann.statusBar).toContainText('Ln 17');
+    await sweeps.tab.click();
+  });
+
+  await test.step('by keyboard: to the cell, to what can be done, and back', async () => {
+    await sweeps.choose('Battery error', 'Running');
+    await ann.page.keyboard.press('Home');
+    await ann.page.keyboard.press('End');
+    await expect(sweeps.details).toContainText('Battery error, while Idle');
+    await ann.page.keyboard.press('Enter');
+    await expect(sweeps.details.getByRole('button', { name: 'Open this run' })).toBeFocused();
+    await ann.page.keyboard.press('Escape');
+    await expect(sweeps.matrix).toBeFocused();
+  });
+
+  await test.step('a finding is accepted with a reason, which can be withdrawn', async () => {
+    await sweeps.choose('PLC Setup error', 'Idle');
+    await sweeps.details.getByRole('button', { name: 'Accept…' }).click();
+    const dialog = ann.page.getByRole('dialog', { name: /^Accept: PLC Setup error/ });
+    await dialog.getByRole('button', { name: 'Accept', exact: true }).click();
+    await expect(dialog.getByRole('alert')).toContainText('A reason is needed.');
+    await dialog.getByRole('textbox', { name: 'Reason' }).fill('Set up once, at the factory');
+    await dialog.getByRole('button', { name: 'Accept', exact: true }).click();
+    await expect(sweeps.details).toContainText('Accepted by Ann: Set up once, at the factory');
+    await expect(sweeps.counts.getByRole('button', { name: 'Accepted 1' })).toBeVisible();
+    await sweeps.details.getByRole('button', { name: 'Withdraw' }).click();
+    await expect(sweeps.details.getByRole('button', { name: 'Accept…' })).toBeVisible();
+  });
+
+  await test.step('only findings: what reacts is out of sight', async () => {
+    await sweeps.pane.getByRole('switch', { name: 'Only findings' }).check();
+    await expect(sweeps.row('Basic I/O Unit error')).toHaveCount(0);
+    await expect(sweeps.row('Battery error')).toBeVisible();
+    await sweeps.pane.getByRole('switch', { name: 'Only findings' }).uncheck();
+  });
+
+  await test.step('the handler is mended, the sweep run again from the same states', async () => {
+    await sweeps.narrow();
+    await ann.explorer.item('Globals.st').click();
+    await ann.editor('Globals.st').addBelow('cpuBusError', '  batteryError AT A402.04 : BOOL;');
+    const handler = ann.editor('ErrorHandler.st');
+    await handler.open();
+    await handler.line('any := basicIoError').click();
+    await ann.page.keyboard.press('End');
+    await ann.page.keyboard.press('Shift+Home');
+    await ann.page.keyboard.insertText('any := basicIoError OR cpuBusError OR specialIoError OR batteryError;');
+    await handler.build();
+    await expect(handler.outcome).toContainText('Built for line-1');
+    await sweeps.run({ errors: 'Non-fatal only', states: ['Running', 'Idle'] });
+    await sweeps.finishes();
+    await expect(await sweeps.cell('Battery error', 'Running')).toContainText('1 scan');
+  });
+
+  await test.step('compared, it is better there and the same elsewhere', async () => {
+    await sweeps.compareWith(0);
+    await expect(sweeps.change('Battery error', 'Idle')).toContainText(/Never read.*1 scan.*Better/);
+    await expect(sweeps.changes.getByRole('row')).toHaveCount(3);
+    await sweeps.pane.getByRole('switch', { name: 'Only changes' }).uncheck();
+    await expect(sweeps.change('Basic I/O Unit error', 'Idle')).toContainText('Same');
+  });
+
+  await test.step('the run of a cell is a PLC of its own, paused there with the error', async () => {
+    await sweeps.showList();
+    await sweeps.open(0);
+    await sweeps.choose('Basic I/O Unit error', 'Running');
+    await sweeps.details.getByRole('button', { name: 'Open this run' }).click();
+    await expect(ann.top.picker).toContainText('basic-io-error in Running');
+    await expect(ann.top.state).toContainText('Paused');
+    await expect(ann.simulator.error('Basic I/O Unit error')).toContainText('Generated');
+    await ann.watch.shows('Main.errors.hold', /FALSE/).catch(() => undefined);
+  });
+});
+
+test('a sweep is everybody’s: a colleague sees it, one cancels, the other goes on; it outlives the server', async ({
+  openAs,
+  server,
+}) => {
+  const ann = await openAs('Ann');
+  const ben = await openAs('Ben');
+  await ann.runs();
+  await ben.runs();
+
+  await test.step('Ben sees in his list what Ann began', async () => {
+    await ben.sweeps.showList();
+    await expect(ben.sweeps.pane).toContainText('No sweep yet');
+    await ann.sweeps.run({ errors: 'Non-fatal only', scans: 20_000 });
+    await expect(ann.sweeps.pane).toContainText(/now: /);
+    const line = ben.sweeps.list.locator('[data-sweep]').first();
+    await expect(line).toContainText('Ann');
+    await expect(line).toContainText(/Running, \d+ %/);
+    await expect(ben.statusBar).toContainText(/Sweep \d+ %/);
+  });
+
+  await test.step('Ben cancels it; what was found stays', async () => {
+    await ben.sweeps.open(0);
+    await expect.poll(async () => Number(await ben.sweeps.progress.getAttribute('aria-valuenow'))).toBeGreaterThan(0);
+    await ben.sweeps.press('Cancel');
+    await expect(ben.sweeps.pane).toContainText('Cancelled');
+    await expect(ann.sweeps.pane).toContainText('Cancelled');
+    await expect(ann.sweeps.pane).toContainText('Not run');
+  });
+
+  await test.step('Ann resumes it, and the server is killed while it runs', async () => {
+    await ann.sweeps.press('Resume');
+    await expect(ann.sweeps.pane.getByRole('button', { name: 'Cancel', exact: true })).toBeVisible();
+    await server.kill();
+    await server.startAgain();
+    await expect(ann.sweeps.pane).toContainText('Interrupted');
+  });
+
+  await test.step('resumed once more, it comes to its end for both', async () => {
+    await ann.sweeps.press('Resume');
+    await ann.sweeps.finishes();
+    await ben.sweeps.finishes();
+    await expect(await ben.sweeps.cell('Battery error', 'Now')).toContainText('Never read');
+  });
+});
