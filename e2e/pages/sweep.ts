@@ -24,7 +24,7 @@ export class Sweeps {
   }
 
   get details(): Locator {
-    return this.page.getByRole('complementary', { name: 'Result' });
+    return this.page.getByRole('region', { name: 'Result' });
   }
 
   get progress(): Locator {

@@ -56,20 +56,17 @@ test('every error from two states: what nobody handles is found, looked at, acce
     await sweeps.choose('Basic I/O Unit error', 'Running');
     await expect(sweeps.details).toContainText('Reacted');
     await expect(sweeps.details.getByRole('listitem').filter({ hasText: 'motor' })).toContainText('TRUE → FALSE');
-    await sweeps.details
-      .getByRole('button', { name: /^ErrorHandler\.st:\d+$/ })
-      .first()
-      .click();
-    const handler = ann.editor('ErrorHandler.st');
-    await expect(handler.line('any := basicIoError')).toBeVisible();
-    await expect(ann.statusBar).toContainText('Ln 17');
+    const reader = sweeps.details.getByRole('button', { name: /^ErrorHandler\.st:\d+$/ }).first();
+    const line = (await reader.textContent())?.split(':')[1];
+    await reader.click();
+    await expect(ann.editor('ErrorHandler.st').line('any := basicIoError')).toBeVisible();
+    await expect(ann.statusBar).toContainText(`Ln ${line},`);
     await sweeps.tab.click();
   });
 
   await test.step('by keyboard: to the cell, to what can be done, and back', async () => {
     await sweeps.choose('Battery error', 'Running');
     await ann.page.keyboard.press('Home');
-    await ann.page.keyboard.press('End');
     await expect(sweeps.details).toContainText('Battery error, while Idle');
     await ann.page.keyboard.press('Enter');
     await expect(sweeps.details.getByRole('button', { name: 'Open this run' })).toBeFocused();
@@ -131,7 +128,6 @@ test('every error from two states: what nobody handles is found, looked at, acce
     await expect(ann.top.picker).toContainText('basic-io-error in Running');
     await expect(ann.top.state).toContainText('Paused');
     await expect(ann.simulator.error('Basic I/O Unit error')).toContainText('Generated');
-    await ann.watch.shows('Main.errors.hold', /FALSE/).catch(() => undefined);
   });
 });
 

@@ -6,7 +6,8 @@ from collections.abc import Generator, Iterable, Iterator
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
 from scanbench.check.symbols import RAW_TYPES, Symbol, around, roots
-from scanbench.check.types import ELEMENTARY, Kind, Section
+from scanbench.check.types import ELEMENTARY, Kind, Record, Section, Type
+from scanbench.check.unread import name_of, unread
 from scanbench.plcmodel.areas import Area
 
 _SYSTEM = (
@@ -16,10 +17,12 @@ _SYSTEM = (
 
 
 class Holders:
-    """Names what a program keeps. What is only passed on (inputs of blocks, in-outs) and what the compiler made has no name here."""
+    """Names what a program keeps. What is only passed on (inputs of blocks, in-outs), what nothing reads (`unread`) and what the
+    compiler made has no name here."""
 
     def __init__(self, program: Program) -> None:
         self._layout = program.layout
+        self._unread = unread(program)
         every = [*_SYSTEM, *roots(program)]
         self._roots = sorted((each for each in every if not each.slots and not _in_area(each)), key=_offset)
         self._starts = [each.offset for each in self._roots]
@@ -40,7 +43,7 @@ class Holders:
             if area is not None:
                 left |= (yield from self._in_area(offset + index, part)) << 8 * index
             elif part and (root := bisect_right(self._starts, offset + index) - 1) >= 0:
-                yield from _down(self._roots[root], offset + index, part)
+                yield from self._down(self._roots[root], offset + index, part)
         if left and area is not None:
             yield self._raw(*area, offset, left)
 
@@ -55,9 +58,30 @@ class Holders:
             left &= ~(1 << symbol.bit) if symbol.bit is not None else 0xFF
         for symbol in known:
             if symbol.bit is None and left:
-                yield from _down(symbol, offset, mask)
+                yield from self._down(symbol, offset, mask)
                 left = 0
         return left
+
+    def _down(self, symbol: Symbol, offset: int, mask: int) -> Iterator[Symbol]:
+        """To the single values that have bits of the byte."""
+        if not symbol.offset <= offset < symbol.offset + symbol.type.size:
+            return
+        if not symbol.expandable:
+            if symbol.bit is None or mask >> symbol.bit & 1:
+                yield symbol
+            return
+        of_block = symbol.type.kind is Kind.BLOCK and symbol.section != "PROGRAM"
+        for each in around(symbol, offset):
+            if each.slots or _in_area(each) or "$" in each.name:
+                continue
+            if of_block and (each.section == Section.INPUT or self._is_unread(symbol.type, each)):
+                continue
+            yield from self._down(each, offset, mask)
+
+    def _is_unread(self, block: Type, member: Symbol) -> bool:
+        if not isinstance(block, Record):
+            return False
+        return name_of(block, block.members[member.name.upper()]) in self._unread
 
     def _raw(self, area: Area, byte: int, offset: int, mask: int) -> Symbol:
         if mask & (mask - 1) == 0:
@@ -92,22 +116,6 @@ def _located_below(symbol: Symbol, barren: set[int]) -> Iterator[Symbol]:
             yield each
     if not found:
         barren.add(id(type))
-
-
-def _down(symbol: Symbol, offset: int, mask: int) -> Iterator[Symbol]:
-    """To the single values that have bits of the byte."""
-    if not symbol.offset <= offset < symbol.offset + symbol.type.size:
-        return
-    if not symbol.expandable:
-        if symbol.bit is None or mask >> symbol.bit & 1:
-            yield symbol
-        return
-    of_block = symbol.type.kind is Kind.BLOCK and symbol.section != "PROGRAM"
-    for each in around(symbol, offset):
-        if each.slots or _in_area(each) or "$" in each.name:
-            continue
-        if not (of_block and each.section == Section.INPUT):
-            yield from _down(each, offset, mask)
 
 
 def _in_area(symbol: Symbol) -> bool:

@@ -34,7 +34,4 @@ def read_asked(memory: bytearray | bytes | memoryview) -> tuple[Asked, ...]:
     """What the program asked for in the last scan."""
     count = min(int.from_bytes(memory[Layout.ASKED_COUNT : Layout.ASKED_COUNT + 4], "little"), Layout.ASKED_LIMIT)
     starts = range(Layout.ASKED, Layout.ASKED + 8 * count, 8)
-    return tuple(
-        Asked(memory[at], int.from_bytes(memory[at + 4 : at + 8], "little"), memory[at + 1])
-        for at in starts
-    )
+    return tuple(Asked(memory[at], int.from_bytes(memory[at + 4 : at + 8], "little"), memory[at + 1]) for at in starts)

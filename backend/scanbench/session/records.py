@@ -29,7 +29,7 @@ from scanbench.store.store import Store
 
 LOG_LINES = 2000
 """Of a record, the last ones."""
-TOLD = 5
+TOLD = 3
 """Mistakes of a record that are told at once."""
 
 

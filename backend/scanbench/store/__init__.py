@@ -1,1 +1,1 @@
-"""The database: projects, files, accepted builds, instances, error history, log."""
+"""The database: projects, files, accepted builds, instances, error history, sweeps, test records, log."""

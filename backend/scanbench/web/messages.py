@@ -159,14 +159,6 @@ class Area(Wire):
     engine: Access
 
 
-
-
-
-
-
-
-
-
 class ModelSummary(Wire):
     name: str
     vendor: str
@@ -340,8 +332,6 @@ class Symbol(Wire):
     values: list[EnumValue] = Field(description="of an enumeration: the names of its numbers")
 
 
-
-
 class Violation(Wire):
     """A place and instance at which a value left its subrange."""
 
@@ -424,12 +414,6 @@ class Release(Wire):
     type: Literal["release"] = "release"
     ref: int
     path: str | None = Field(description="null releases all")
-
-
-
-
-
-
 
 
 class SetMode(Wire):

@@ -22,9 +22,7 @@ async def on_new_state(
 ) -> messages_errors.ProgramState:
     """Keeps the PLC as it was before a scan, or is now."""
     session = bench.session(instance)
-    return translate_sweeps.state(
-        await bench.states.keep(session, new.name.strip(), new.scan, user_of(request).name)
-    )
+    return translate_sweeps.state(await bench.states.keep(session, new.name.strip(), new.scan, user_of(request).name))
 
 
 @router.delete("/states/{state}", status_code=204)

@@ -98,7 +98,7 @@ def test_a_late_reaction_counts_from_its_first_effect(make: MakeObserved) -> Non
     assert (found.verdict, found.first_read) == ("reacted", 1)
     assert differing(found)["Main.late"] == ("FALSE", "TRUE", False, 11)
     assert differing(found)["Main.wait.Q"] == ("FALSE", "TRUE", False, 11)
-    assert found.first_effect == 1  # the timer began
+    assert found.first_effect == 11  # that the timer began is seen by nobody
 
 
 CODE = """

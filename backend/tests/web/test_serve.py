@@ -6,9 +6,10 @@ from pathlib import Path
 
 import pytest
 
-from scanbench.web import messages, openapi
+from scanbench.web import messages, messages_errors, messages_records, messages_user_errors, openapi
 from scanbench.web.claim import InUse, claimed
 from scanbench.web.kept_guests import kept_guests
+from scanbench.web.messages_base import Wire
 from scanbench.web.serve import CannotServe, serve
 
 
@@ -34,8 +35,9 @@ def test_every_message_is_in_the_openapi_document(tmp_path: Path) -> None:
     schemas = json.loads((tmp_path / "openapi.json").read_text())["components"]["schemas"]
     shapes = {
         name
-        for name, each in vars(messages).items()
-        if isinstance(each, type) and issubclass(each, messages.Wire) and each is not messages.Wire
+        for file in (messages, messages_errors, messages_records, messages_user_errors)
+        for name, each in vars(file).items()
+        if isinstance(each, type) and issubclass(each, Wire) and each is not Wire
     }
     assert shapes <= set(schemas)
     assert {"write", "run"} <= set(schemas["ClientMessage"]["discriminator"]["mapping"])

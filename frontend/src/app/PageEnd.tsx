@@ -6,11 +6,11 @@ import { IconButton } from "../ui/IconButton";
 
 /** At the end of the tabs that a page is among: the whole dock for them, or the other panels back. */
 export function PageEnd({ containerApi, panels, group }: IDockviewHeaderActionsProps) {
-  const [wide, setWide] = useState(() => containerApi.hasMaximizedGroup());
+  const [wide, setWide] = useState(() => group.api.isMaximized());
   useEffect(() => {
-    const change = containerApi.onDidMaximizedGroupChange(() => setWide(containerApi.hasMaximizedGroup()));
+    const change = containerApi.onDidMaximizedGroupChange(() => setWide(group.api.isMaximized()));
     return () => change.dispose();
-  }, [containerApi]);
+  }, [containerApi, group]);
   if (!wide && !panels.some((panel) => pageOf(panel.id))) return null;
   return (
     <span className="pageend">

@@ -11,7 +11,7 @@ import { StateWord } from "../../ui/StateWord";
 import { VERDICT_ICONS } from "../../ui/statuses";
 import type { CellRef, Reaction, Sweep, SweepCell, SweepError, Verdict } from "../../wire/types";
 import { Accept } from "./Accept";
-import { Found } from "./Found";
+import { Facts, Found } from "./Found";
 
 /** Who runs along a row with the arrow keys asks for nothing on the way. */
 const PAUSE = 120;
@@ -32,13 +32,13 @@ export function Details({ sweep, error, state, cell }: Props) {
         <span className="hint">
           {state === NOW ? t("sweep.asitwas", { error: error.name }) : t("sweep.while", { error: error.name, state })}
         </span>
-        <h3>
+        <h2>
           {cell?.verdict ? (
             <StateWord tone={cell.verdict} icon={VERDICT_ICONS[cell.verdict]} word={t(`verdict.${cell.verdict}`)} />
           ) : (
             <StateWord tone="never" icon={cell ? "never" : "wait"} word={t(cell ? "sweep.none" : "sweep.noresult")} />
           )}
-        </h3>
+        </h2>
       </div>
       {cell ? <Result sweep={sweep} error={error} cell={cell} /> : <p className="muted">{t("sweep.noresult.about")}</p>}
     </>
@@ -55,7 +55,7 @@ function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell:
       <p className="muted">{sentence(cell, cell.verdict, sweep.window)}</p>
       {cell.note && <p className="muted">{cell.note}</p>}
       {reaction ? (
-        <Found reaction={reaction} raised={cell.raised_scan} flag={flag} codeWord={codeWord} code={error.code} />
+        <Facts reaction={reaction} raised={cell.raised_scan} flag={flag} codeWord={codeWord} code={error.code} />
       ) : (
         <p className="hint">{refused ?? t("sweep.loading")}</p>
       )}
@@ -67,6 +67,7 @@ function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell:
           })}
         </p>
       )}
+      {reaction && <Found reaction={reaction} />}
     </>
   );
 }

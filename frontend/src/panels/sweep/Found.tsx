@@ -17,25 +17,30 @@ interface Props {
   code: string;
 }
 
-/** The facts of a reaction: who read what, what changed, which lines ran only with the error. */
-export function Found({ reaction, raised, flag, codeWord, code }: Props) {
-  const { readers, differences, lines, difference_count: count } = reaction;
-  const outputs = differences.filter(({ output }) => output);
-  const variables = differences.filter(({ output }) => !output);
-  const hidden = count - outputs.length;
+/** A reaction in numbers. */
+export function Facts({ reaction, raised, flag, codeWord, code }: Props) {
+  const { outputs, hidden } = changesOf(reaction);
+  return (
+    <dl className="facts">
+      <Fact name={t("sweep.fact.raised")} value={<span className="mono">{grouped(raised)}</span>} />
+      <Fact
+        name={flag ? t("sweep.fact.flag", { flag }) : t("errors.flag")}
+        value={reads(countReaders(reaction, "flag"))}
+      />
+      <Fact name={t("sweep.fact.code", { word: codeWord, code })} value={reads(countReaders(reaction, "code"))} />
+      <Fact name={t("sweep.fact.detail")} value={reads(countReaders(reaction, "detail"))} />
+      <Fact name={t("sweep.fact.outputs")} value={outputs.length === 0 ? t("sweep.fact.none") : outputs.length} />
+      <Fact name={t("sweep.fact.variables")} value={hidden === 0 ? t("sweep.fact.none") : hidden} />
+    </dl>
+  );
+}
+
+/** Who read what, what changed, which lines ran only with the error. */
+export function Found({ reaction }: { reaction: Reaction }) {
+  const { readers, lines } = reaction;
+  const { outputs, variables, hidden } = changesOf(reaction);
   return (
     <>
-      <dl className="facts">
-        <Fact name={t("sweep.fact.raised")} value={<span className="mono">{grouped(raised)}</span>} />
-        <Fact
-          name={flag ? t("sweep.fact.flag", { flag }) : t("errors.flag")}
-          value={reads(countReaders(reaction, "flag"))}
-        />
-        <Fact name={t("sweep.fact.code", { word: codeWord, code })} value={reads(countReaders(reaction, "code"))} />
-        <Fact name={t("sweep.fact.detail")} value={reads(countReaders(reaction, "detail"))} />
-        <Fact name={t("sweep.fact.outputs")} value={outputs.length === 0 ? t("sweep.fact.none") : outputs.length} />
-        <Fact name={t("sweep.fact.variables")} value={hidden === 0 ? t("sweep.fact.none") : hidden} />
-      </dl>
       <List title={t("sweep.list.readers")} items={readers} total={readers.length}>
         {({ file, line, pou, what, scan }) => (
           <>
@@ -56,6 +61,12 @@ export function Found({ reaction, raised, flag, codeWord, code }: Props) {
       </List>
     </>
   );
+}
+
+function changesOf({ differences, difference_count: count }: Reaction) {
+  const outputs = differences.filter(({ output }) => output);
+  const variables = differences.filter(({ output }) => !output);
+  return { outputs, variables, hidden: count - outputs.length };
 }
 
 const reads = (count: number) => (count === 1 ? t("sweep.reads.one") : t("sweep.reads", { count }));
@@ -106,7 +117,7 @@ function List<T extends object>({ title, items, total, children }: ListProps<T>)
   if (items.length === 0) return null;
   return (
     <section className="foundlist">
-      <h4>{title}</h4>
+      <h3>{title}</h3>
       <ul>
         {items.slice(0, MOST).map((item) => (
           <li key={JSON.stringify(item)}>{children(item)}</li>

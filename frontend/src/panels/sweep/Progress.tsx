@@ -73,7 +73,7 @@ export function Progress({ sweep }: { sweep: Sweep }) {
       <CompareWith id={id} />
       <a
         className="btn quiet sm"
-        href={instance ? recordAddress(instance.id) : undefined}
+        href={instance ? recordAddress(instance, sweep) : undefined}
         aria-disabled={instance === null}
         title={t("sweep.record.hint")}
         target="_blank"

@@ -13,7 +13,7 @@ import { Progress } from "./Progress";
 export function SweepView({ sweep }: { sweep: Sweep }) {
   const [view, setView] = useState<MatrixView>({ findings: false, verdict: null });
   const [chosen, setChosen] = useState<CellRef | null>(null);
-  const aside = useRef<HTMLElement>(null);
+  const details = useRef<HTMLElement>(null);
   const model = useBench((bench) => bench.model?.name);
   const { groups } = useCatalogue();
   const rows = useMemo(() => {
@@ -36,12 +36,12 @@ export function SweepView({ sweep }: { sweep: Sweep }) {
           rows={rows}
           selected={ref}
           onSelect={setChosen}
-          onEnter={() => aside.current?.querySelector<HTMLElement>(".btn, button")?.focus()}
+          onEnter={() => details.current?.querySelector<HTMLElement>(".btn, button")?.focus()}
         />
-        <aside
+        <section
           className="swside scroll"
           aria-label={t("sweep.details")}
-          ref={aside}
+          ref={details}
           onKeyDown={(event) => {
             if (event.key === "Escape") event.currentTarget.parentElement?.querySelector<HTMLElement>(".sw")?.focus();
           }}
@@ -57,7 +57,7 @@ export function SweepView({ sweep }: { sweep: Sweep }) {
           ) : (
             <p className="hint">{t("sweep.choose")}</p>
           )}
-        </aside>
+        </section>
       </div>
     </>
   );

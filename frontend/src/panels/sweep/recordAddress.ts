@@ -1,6 +1,9 @@
 import { usePrefs } from "../../store/prefs";
+import type { Instance, SweepSummary } from "../../wire/types";
 
-/** Where the printable test record of a PLC stands. */
-export function recordAddress(instance: number): string {
-  return `/api/instances/${instance}/record?format=html&lang=${usePrefs.getState().language}`;
+/** Where the printable test record stands: of the version that was swept, where this is the PLC that was. */
+export function recordAddress(instance: Instance, sweep: SweepSummary): string {
+  const query = new URLSearchParams({ format: "html", lang: usePrefs.getState().language });
+  if (instance.name === sweep.instance) query.set("version", String(sweep.program_version));
+  return `/api/instances/${instance.id}/record?${query}`;
 }
