@@ -143,7 +143,7 @@ test('a sweep is everybody’s: a colleague sees it, one cancels, the other goes
   await test.step('Ben sees in his list what Ann began', async () => {
     await ben.sweeps.showList();
     await expect(ben.sweeps.pane).toContainText('No sweep yet');
-    await ann.sweeps.run({ errors: 'Non-fatal only', scans: 20_000 });
+    await ann.sweeps.run({ errors: 'Non-fatal only', scans: 10_000 });
     await expect(ann.sweeps.pane).toContainText(/now: /);
     const line = ben.sweeps.list.locator('[data-sweep]').first();
     await expect(line).toContainText('Ann');

@@ -345,6 +345,7 @@ class Session:
                 self._on_ready(message)
             case protocol.NowRuns():
                 self._history.take_model(self.model)
+                self._publish_rows((), fresh=True)  # the errors that it has more
             case protocol.Watching():
                 self._on_watching(message)
 

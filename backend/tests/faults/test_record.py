@@ -11,15 +11,17 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from scanbench.faults.history import ErrorRow, RowReaction
-from scanbench.faults.reaction import Difference, Line, Reaction, Reader
+from scanbench.faults.reaction import Difference, Line, Reaction, Reader, Verdict
 from scanbench.faults.reaction_json import from_json, to_json
 from scanbench.faults.record import (
+    WORST_FIRST,
     RecordAccepted,
     RecordCell,
     RecordError,
     RecordHead,
     RecordLine,
     RecordSweep,
+    SweepStatus,
     TestRecord,
     make_record,
 )
@@ -175,7 +177,8 @@ AT = (
     .filter(lambda at: 1971 < at.year < 2200)
     .map(lambda at: at.replace(tzinfo=timezone(timedelta(hours=9))))
 )
-VERDICT = st.sampled_from(["reacted", "no_effect", "never_read", "stopped"])
+VERDICT: st.SearchStrategy[Verdict] = st.sampled_from(WORST_FIRST)
+SWEEP_STATUS: tuple[SweepStatus, ...] = ("running", "done", "cancelled", "interrupted", "failed")
 READERS = st.builds(Reader, TEXT, COUNT, TEXT, st.sampled_from(["flag", "code", "detail"]), COUNT)
 REACTIONS = st.builds(
     Reaction, VERDICT, COUNT, SCAN, SCAN, st.lists(READERS, max_size=3).map(tuple),
@@ -200,7 +203,7 @@ def records(draw: st.DrawFn) -> TestRecord:
         RecordCell(error, state, draw(st.none() | VERDICT), draw(SCAN), draw(TEXT))
         for error, state in draw(st.lists(st.sampled_from(pairs), unique=True) if pairs else st.just([]))
     ]
-    status = draw(st.sampled_from(["running", "done", "cancelled", "interrupted", "failed"]))
+    status = draw(st.sampled_from(SWEEP_STATUS))
     sweep = RecordSweep(draw(AT), draw(TEXT), draw(TEXT), status, draw(COUNT), tuple(states), tuple(cells))
     log = draw(st.lists(st.builds(RecordLine, AT, COUNT, TEXT, TEXT), max_size=3))
     return TestRecord(head, tuple(errors), (sweep,), tuple(log))

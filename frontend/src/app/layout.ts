@@ -4,10 +4,6 @@ import { type PageName, pageOf } from "../store/navigate";
 
 const FILE = "file:";
 
-export function filePanel(path: string): string {
-  return FILE + path;
-}
-
 export function fileOf(panel: string): string | undefined {
   return panel.startsWith(FILE) ? panel.slice(FILE.length) : undefined;
 }
