@@ -205,14 +205,15 @@ class Sweeps:
         made = await asyncio.to_thread(
             lambda: self._store.accept(whole.row.project, error=error, state=state, reason=reason.strip(), by=author)
         )
-        await self._tell(whole.row, "", [cell])
+        await self._tell(whole.row, self._now(id), [cell])
         return made
 
     async def withdraw(self, id: int, error: str, state: str) -> None:
         """The finding counts again."""
         whole = await self.whole(id)
         await asyncio.to_thread(lambda: self._store.withdraw(whole.row.project, error=error, state=state))
-        await self._tell(whole.row, "", [each for each in whole.cells if (each.error, each.state) == (error, state)])
+        cells = [each for each in whole.cells if (each.error, each.state) == (error, state)]
+        await self._tell(whole.row, self._now(id), cells)
 
     async def open(self, id: int, error: str, state: str, name: str, author: str) -> Session:
         """A new PLC in this state with this error raised, paused."""
@@ -307,6 +308,11 @@ class Sweeps:
         accepted = await self._accepted(row.project) if cells else {}
         for session in self._sessions_of(row.project):
             session.tell(SweepChanged(row, now, tuple(cells), accepted))
+
+    def _now(self, id: int) -> str:
+        """What a sweep tries now."""
+        running = self._running.get(id)
+        return "" if running is None else running.now
 
     @staticmethod
     def _name(row: SweepRow, error: str) -> str:

@@ -106,3 +106,18 @@ describe("same for all of this kind", () => {
     expect(takenOver(memory, { part: decimal("table") }, setup, {})).toEqual({});
   });
 });
+
+describe("a text", () => {
+  const message = detail({ name: "message", control: "Edit", base: 0, minimum: null, maximum: 8, default: "" });
+
+  it("is sent as it is typed, and begins empty", () => {
+    expect(defaultEntries(error("note", message))).toEqual({ message: { text: "", format: "text" } });
+    expect(readEntry(message, { text: "Pump 1", format: "text" })).toEqual({ value: "Pump 1", trouble: null });
+    expect(reformat(message, { text: "12", format: "text" }, "hex")).toEqual({ text: "12", format: "text" });
+  });
+
+  it("has a length, and the characters of the device", () => {
+    expect(readEntry(message, { text: "too long a text", format: "text" }).trouble?.key).toBe("entry.range");
+    expect(readEntry(message, { text: "Pumpe ü", format: "text" }).trouble?.key).toBe("entry.text");
+  });
+});

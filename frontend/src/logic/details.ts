@@ -28,7 +28,10 @@ export function needsDetails(error: ErrorInfo): boolean {
 
 export const isOpen = (detail: ErrorDetail): boolean => detail.control !== "List" || (detail.choices ?? []).length > 1;
 
-const formatOf = (detail: ErrorDetail): Format => (detail.base === 16 ? "hex" : "decimal");
+/** A text of at most `maximum` characters, which is sent as it is; other entries are numbers, however they are written. */
+export const isText = (detail: ErrorDetail): boolean => detail.base === 0;
+
+const formatOf = (detail: ErrorDetail): Format => (isText(detail) ? "text" : detail.base === 16 ? "hex" : "decimal");
 
 /** The entries as first shown: the default of each control, or its first choice, or its least number. */
 export function defaultEntries(error: ErrorInfo): Entries {
@@ -40,18 +43,26 @@ export function defaultEntries(error: ErrorInfo): Entries {
 function first(detail: ErrorDetail): string {
   if (detail.default) return detail.default;
   if (detail.control === "List") return detail.choices?.[0]?.id ?? "";
-  return (detail.minimum ?? 0).toString(detail.base).toUpperCase();
+  return isText(detail) ? "" : (detail.minimum ?? 0).toString(detail.base).toUpperCase();
 }
 
 /** What the server is told for an entry, or why it is refused. The server checks again. */
 export function readEntry(detail: ErrorDetail, entry: Entry): Reading {
   if (detail.control === "List") return { value: entry.text, trouble: null };
+  if (isText(detail)) return readText(detail, entry.text);
   const read = entry.format === "text" ? fromCharacters(entry.text) : fromDigits(entry.text, entry.format);
   if (typeof read !== "number") return refused(read.key, { ...read.values, ...limits(detail, entry.format) });
   const { minimum = null, maximum = null } = detail;
   if ((minimum !== null && read < minimum) || (maximum !== null && read > maximum))
     return refused("entry.range", { text: entry.text.trim(), ...limits(detail, entry.format) });
   return { value: read.toString(detail.base).toUpperCase(), trouble: null };
+}
+
+function readText(detail: ErrorDetail, text: string): Reading {
+  const wrong = [...text].find((sign) => !/[\x20-\x7e]/.test(sign));
+  if (wrong !== undefined) return refused("entry.text", { sign: wrong, ...limits(detail, "text") });
+  if (text.length > (detail.maximum ?? 0)) return refused("entry.range", { text, ...limits(detail, "text") });
+  return { value: text, trouble: null };
 }
 
 function refused(key: TextKey, values: Record<string, string>): Reading {
@@ -101,6 +112,7 @@ function characters(value: number): string {
 
 /** The same number in another format; what cannot be read stays as typed. */
 export function reformat(detail: ErrorDetail, entry: Entry, format: Format): Entry {
+  if (isText(detail)) return entry;
   const read = entry.format === "text" ? fromCharacters(entry.text) : fromDigits(entry.text, entry.format);
   if (typeof read !== "number") return { text: entry.text, format };
   const hex = () =>

@@ -1,5 +1,5 @@
 import { useId } from "react";
-import { type Entry, type Format, inWords, limits, reformat, type Trouble } from "../../logic/details";
+import { type Entry, type Format, inWords, isText, limits, reformat, type Trouble } from "../../logic/details";
 import { t } from "../../logic/text";
 import { Icon } from "../../ui/Icon";
 import type { ErrorDetail } from "../../wire/types";
@@ -13,6 +13,7 @@ export interface ControlProps {
 
 const FORMATS = ["hex", "decimal", "text"] as const;
 const labelOf = (detail: ErrorDetail) => detail.description || detail.name;
+const hasFormats = (detail: ErrorDetail) => detail.control === "Edit" && !isText(detail);
 const isSpin = (detail: ErrorDetail) => detail.control === "Spin" && detail.base === 10;
 
 /** One detail in place: a list to choose from, or a number beside its name. */
@@ -26,7 +27,7 @@ export function Control(props: ControlProps) {
         {labelOf(detail)}
       </label>
       <NumberInput {...props} id={id} small />
-      {detail.control === "Edit" && (
+      {hasFormats(detail) && (
         <select
           className="inp sm"
           aria-label={`${labelOf(detail)}: ${t("entry.format")}`}
@@ -85,6 +86,7 @@ function NumberInput({ id, detail, entry, trouble, onEntry, small }: NumberProps
       type={spin ? "number" : "text"}
       min={detail.minimum ?? undefined}
       max={detail.maximum ?? undefined}
+      maxLength={isText(detail) ? (detail.maximum ?? undefined) : undefined}
       value={entry.text}
       title={[range, detail.address].filter(Boolean).join(" · ")}
       spellCheck={false}
@@ -118,7 +120,7 @@ export function RoomyControl(props: ControlProps) {
       </label>
       <span className="row">
         <NumberInput {...props} id={id} />
-        {detail.control === "Edit" && (
+        {hasFormats(detail) && (
           <span className="seg" role="group" aria-label={`${labelOf(detail)}: ${t("entry.format")}`}>
             {FORMATS.map((format) => (
               <button
