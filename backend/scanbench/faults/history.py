@@ -23,6 +23,8 @@ class RowReaction:
     state: Literal["recording", "done", "failed"]
     found: Reaction | None = None
     message: str = ""
+    scan: int = 0
+    """In front of which the error was raised."""
 
     @property
     def verdict(self) -> Verdict | None:
@@ -54,6 +56,11 @@ class ErrorRow:
     count: int = 0
     reaction: RowReaction | None = None
     program_version: int = 0
+
+
+def comes_again(command: Generate) -> bool:
+    """Whether this is a later time of an armed fault."""
+    return command.arm is not None and command.step > 0
 
 
 class History:
@@ -160,9 +167,10 @@ class History:
         """What was found out of the reaction to an error that was raised before `scan` on this version, or why nothing
         was; the changed row, or None when it was raised anew in the meantime."""
         row = self._raised_by_version.get(version, {}).get(id)
-        if row is None or row.generated_scan != scan:
+        if row is None or row.reaction is None or row.reaction.scan != scan:
             return None
-        reaction = RowReaction("failed", None, found) if isinstance(found, str) else RowReaction("done", found)
+        text, seen = (found, None) if isinstance(found, str) else ("", found)
+        reaction = RowReaction("done" if seen is not None else "failed", seen, text, scan)
         changed = replace(row, reaction=reaction)
         self._raised_by_version[version][id] = changed
         return changed
@@ -179,11 +187,20 @@ class History:
         return [row.id for row in self._now.values() if row.status == "generated"]
 
     def _generated(self, entry: Entry, command: Generate) -> list[ErrorRow]:
-        reaction = RowReaction("recording") if command.origin == "simulator" else None
         changed = []
         for ref in command.errors:
+            reaction = self._reaction_to(entry, command, ref.id)
             changed += self._raised(ref, entry.at, entry.scan, command.author, command.origin, reaction)
         return changed
+
+    def _reaction_to(self, entry: Entry, command: Generate, id: str) -> RowReaction | None:
+        """A fault that comes again and again is compared once, from its first time on."""
+        if command.origin != "simulator":
+            return None
+        known = self._now.get(id)
+        if comes_again(command) and known is not None and known.reaction is not None:
+            return known.reaction
+        return RowReaction("recording", scan=entry.scan)
 
     def _raised(
         self, ref: ErrorRef, at: datetime, scan: int, by: str, origin: Origin, reaction: RowReaction | None

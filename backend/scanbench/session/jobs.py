@@ -14,9 +14,9 @@ DIED = "the process that computes it died: try again"
 
 
 class Job:
-    """One job process. `on_message` gets its answers in order; `on_end` is called once, when it is gone."""
+    """One job process. `on_message` gets its answers in order; `on_end` is called once with it, when it is gone."""
 
-    def __init__(self, cache: Path, on_message: Callable[[object], None], on_end: Callable[[], None]) -> None:
+    def __init__(self, cache: Path, on_message: Callable[[object], None], on_end: "Callable[[Job], None]") -> None:
         """`cache` is the directory where programs and their code are kept. To be made in the event loop."""
         self._waiting: list[bytes] = []
         self._process: asyncio.subprocess.Process | None = None
@@ -42,7 +42,9 @@ class Job:
             with suppress(ProcessLookupError):
                 self._process.kill()
 
-    async def _live(self, cache: Path, on_message: Callable[[object], None], on_end: Callable[[], None]) -> None:
+    async def _live(
+        self, cache: Path, on_message: Callable[[object], None], on_end: "Callable[[Job], None]"
+    ) -> None:  # fmt: skip
         try:
             process = await asyncio.create_subprocess_exec(
                 sys.executable, "-m", "scanbench.session.job", str(cache),
@@ -50,7 +52,7 @@ class Job:
             )  # fmt: skip
         except OSError:
             log.exception("a job process could not be started")
-            on_end()
+            on_end(self)
             return
         self._process = process
         assert process.stdin is not None
@@ -73,4 +75,4 @@ class Job:
         finally:
             self._kill()
             await process.wait()
-            on_end()
+            on_end(self)

@@ -84,7 +84,7 @@ def _reaction_of(kept: HistoryRow) -> RowReaction | None:
         except ValueError as error:
             return RowReaction("failed", None, f"the database has no reaction that can be read: {error}")
     if kept.reaction_state == "recording":
-        return RowReaction("recording")
+        return RowReaction("recording", scan=kept.generated_scan)
     return RowReaction("failed", None, kept.reaction_message)
 
 

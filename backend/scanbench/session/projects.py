@@ -38,11 +38,15 @@ class Projects:
         return await asyncio.to_thread(self._store.create_project, name, model, watch)
 
     async def delete(self, id: int) -> None:
-        """Deletes a project that no PLC runs."""
+        """Deletes a project that no PLC runs (`refuse_running`)."""
+        await self.refuse_running(id)
+        await asyncio.to_thread(self._store.delete_project, id)
+
+    async def refuse_running(self, id: int) -> None:
+        """A project that a PLC runs cannot be deleted."""
         project = await self.get(id)
         if running := self._sessions_of(id):
             raise Refused(f"{project.name} runs on {', '.join(each.name for each in running)}: delete that first")
-        await asyncio.to_thread(self._store.delete_project, id)
 
     def model(self, name: str) -> Model:
         """The model of this name."""

@@ -62,9 +62,10 @@ class Reactions:
             self._closing.add(task)
             task.add_done_callback(self._closing.discard)
 
-    def _on_end(self) -> None:
-        """It died, or was ended: whoever still waits learns it."""
-        if self._answers or self._job is not None:
-            self._job = None
+    def _on_end(self, job: Job) -> None:
+        """It died: whoever still waits learns it. One that was ended because it rested was not asked any more."""
+        if job is not self._job:
+            return
+        self._job = None
         for ref in list(self._answers):
             self._answer(job_protocol.Reacted(ref, None, DIED))

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from scanbench.check.violations import Violations
 from scanbench.faults.arm import ArmedInfo
-from scanbench.faults.history import ErrorRow, History
+from scanbench.faults.history import ErrorRow, History, comes_again
 from scanbench.faults.inject import Generate
 from scanbench.faults.reaction import Reaction
 from scanbench.faults.reference import ErrorRef
@@ -381,7 +381,7 @@ class Session:
         command = entry.command
         if entry.plan.effect is not None:
             self._reacting.ended(entry.scan)
-        elif isinstance(command, Generate) and command.origin == "simulator":
+        elif isinstance(command, Generate) and command.origin == "simulator" and not comes_again(command):
             for ref in command.errors:
                 self._reacting.raised(Raised(ref.id, entry.scan, self._history.version))
 

@@ -1,12 +1,15 @@
 """States of programs that somebody kept: run files that end there, for sweeps to begin from."""
 
 import asyncio
+import os
+import shutil
+from collections.abc import Sequence
 from pathlib import Path
 
 from scanbench.session.refused import Refused
 from scanbench.session.runs import discard
 from scanbench.session.session import Session
-from scanbench.store.records import StateRow
+from scanbench.store.records import StateRow, SweepRow
 from scanbench.store.store import Store
 
 NOW = "Now"
@@ -25,7 +28,7 @@ class States:
         known = set[Path]()
         for project in self._store.projects():
             known.update(self.path(row.id) for row in self._store.states(project.id))
-            known.update(self.now_path(row.id) for row in self._store.sweeps(project.id))
+            known.update(path for row in self._store.sweeps(project.id) for path in self.of_sweep(row).values())
         for path in self._directory.iterdir():
             if path not in known:
                 discard(path)
@@ -34,9 +37,22 @@ class States:
         """The run file of a kept state."""
         return self._directory / f"{id}.run"
 
-    def now_path(self, sweep: int) -> Path:
-        """The run file of a PLC as it was when a sweep began."""
-        return self._directory / f"sweep-{sweep}.run"
+    def of_sweep(self, row: SweepRow) -> dict[str, Path]:
+        """The run files in which a sweep begins, by the names of the states: its own, whatever becomes of the states."""
+        return {name: self._directory / f"sweep-{row.id}-{index}.run" for index, name in enumerate(row.states)}
+
+    async def give(self, row: SweepRow, kept: Sequence[StateRow]) -> None:
+        """Gives a sweep its own run files of kept states; `Refused` when one is gone."""
+        for state, path in zip(kept, self.of_sweep(row).values(), strict=True):
+            try:
+                await asyncio.to_thread(_share, self.path(state.id), path)
+            except OSError as error:
+                raise Refused(f"the state {state.name} cannot be used: {error.strerror}") from error
+
+    async def discard(self, row: SweepRow) -> None:
+        """Removes the run files of a sweep."""
+        for path in self.of_sweep(row).values():
+            await asyncio.to_thread(discard, path)
 
     async def of_project(self, project: int) -> list[StateRow]:
         """The states that somebody kept."""
@@ -74,3 +90,12 @@ class States:
         """Forgets a state."""
         await asyncio.to_thread(self._store.delete_state, id)
         await asyncio.to_thread(discard, self.path(id))
+
+
+def _share(path: Path, other: Path) -> None:
+    """The same file under another name: nobody writes into it any more. A copy where a disk knows no links."""
+    discard(other)
+    try:
+        os.link(path, other)
+    except OSError:
+        shutil.copyfile(path, other)

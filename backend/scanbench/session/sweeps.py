@@ -3,7 +3,9 @@
 import asyncio
 import logging
 from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from functools import partial
 from pathlib import Path
 from typing import get_args
 
@@ -20,7 +22,6 @@ from scanbench.session.job_protocol import CellFound, JobDone, RunSweep, StartPo
 from scanbench.session.jobs import DIED, Job
 from scanbench.session.protocol import Sources
 from scanbench.session.refused import Refused
-from scanbench.session.runs import discard
 from scanbench.session.session import Session
 from scanbench.session.states import NOW, States
 from scanbench.store.records import AcceptedRow, CellRow, NotFound, SweepRow, SweepStatus, SweptError
@@ -144,23 +145,27 @@ class Sweeps:
         swept = _swept(model, errors)
         async with self._beginning.setdefault(project, asyncio.Lock()):
             self._one_at_a_time(project)
-            kept = {row.id: row for row in await self._states.of_project(project)}
+            known = {row.id: row for row in await self._states.of_project(project)}
             for state in states:
-                if state not in kept:
+                if state not in known:
                     raise Refused(f"there is no state {state} in this project")
+            kept = [known[state] for state in dict.fromkeys(states)]
             row = await asyncio.to_thread(
                 lambda: self._store.create_sweep(
                     project, instance_id=session.id, instance=session.name, model=model.name,
                     program_version=sources.version, by=author, window=window,
-                    states=tuple(kept[state].name for state in states) or (NOW,), errors=swept,
+                    states=tuple(state.name for state in kept) or (NOW,), errors=swept,
                 )
             )  # fmt: skip
-            if not states:
-                try:
-                    await self._states.take(session, self._states.now_path(row.id), None, author)
-                except BaseException:
-                    await asyncio.to_thread(self._store.delete_sweep, row.id)
-                    raise
+            try:
+                if kept:
+                    await self._states.give(row, kept)
+                else:
+                    await self._states.take(session, self._states.of_sweep(row)[NOW], None, author)
+            except BaseException:
+                await self._states.discard(row)
+                await asyncio.to_thread(self._store.delete_sweep, row.id)
+                raise
             await self._run(row, sources, [])
         names = ", ".join(row.states)
         session.told(author, f"sweep begun: {len(swept)} error{'s' * (len(swept) != 1)} from {names}")
@@ -192,9 +197,17 @@ class Sweeps:
 
     async def delete(self, id: int) -> None:
         """Forgets a sweep."""
-        await self.cancel(id)
+        row = await self.cancel(id)
         await asyncio.to_thread(self._store.delete_sweep, id)
-        await asyncio.to_thread(discard, self._states.now_path(id))
+        await self._states.discard(row)
+
+    async def forget_project(self, project: int) -> None:
+        """Ends and forgets the sweeps and states of a project that is about to be deleted."""
+        async with self._beginning.setdefault(project, asyncio.Lock()):
+            for row in await self.of_project(project):
+                await self.delete(row.id)
+            for state in await self._states.of_project(project):
+                await self._states.delete(state.id)
 
     async def accept(self, id: int, error: str, state: str, reason: str, author: str) -> AcceptedRow:
         """Accepts a finding of this project, for later sweeps too."""
@@ -240,19 +253,16 @@ class Sweeps:
                 raise Refused(f"a sweep of this project runs, begun by {running.row.by}: wait for it, or cancel it")
 
     async def _points(self, row: SweepRow) -> list[StartPoint]:
-        kept = {state.name: state for state in await self._states.of_project(row.project)}
-        points = []
-        for name in row.states:
-            path = self._states.path(kept[name].id) if name in kept else self._states.now_path(row.id)
+        files = self._states.of_sweep(row)
+        for name, path in files.items():
             if not await asyncio.to_thread(path.exists):
-                raise Refused(f"the state {name} is gone: begin a new sweep")
-            points.append(StartPoint(name, str(path)))
-        return points
+                raise Refused(f"the state {name} of this sweep is gone: begin a new one")
+        return [StartPoint(name, str(path)) for name, path in files.items()]
 
     async def _run(self, row: SweepRow, sources: Sources, done: Sequence[CellRow]) -> None:
         points = await self._points(row)
         inbox: asyncio.Queue[object] = asyncio.Queue()
-        job = Job(self._cache, inbox.put_nowait, lambda: inbox.put_nowait(None))
+        job = Job(self._cache, inbox.put_nowait, lambda _: inbox.put_nowait(None))
         running = _Running(row, job, inbox, monotonic_ns(), row.seconds)
         self._running[row.id] = running
         pairs = tuple((cell.error, cell.state) for cell in done)
@@ -266,7 +276,24 @@ class Sweeps:
             await asyncio.gather(running.task, return_exceptions=True)
 
     async def _follow(self, running: _Running) -> None:
-        """Keeps and tells what comes, until it is over."""
+        """Keeps and tells what comes, until it is over, however it ends."""
+        id = running.row.id
+        status: SweepStatus = "failed"
+        message = "what it found could not be kept: the server's log says why"
+        try:
+            status, message = await self._hear(running)
+        except Exception:
+            log.exception("sweep %s could not be kept", id)
+        finally:
+            seconds = running.seconds
+            self._running.pop(id, None)
+            await running.job.end()
+        with suppress(NotFound):  # deleted meanwhile
+            change = partial(self._store.change_sweep, id, status=status, message=message, seconds=seconds)
+            await self._tell(await asyncio.to_thread(change), "", [])
+
+    async def _hear(self, running: _Running) -> tuple[SweepStatus, str]:
+        """Takes what the job says to its end; how it ended."""
         row, told = running.row, 0
         await self._tell(row, "", [])
         status: SweepStatus = "interrupted"
@@ -283,26 +310,17 @@ class Sweeps:
             if monotonic_ns() - told >= _TOLD_EVERY_NS and running.inbox.empty():
                 told = monotonic_ns()
                 await self._keep(running)
-        if running.cancelled:
-            status = "interrupted" if running.cancelled == STOPPED_SERVER else "cancelled"
-            message = STOPPED_SERVER if status == "interrupted" else ""
         await self._keep(running)
-        await self._finish(running, status, message)
+        if running.cancelled and status != "done":
+            stopped = running.cancelled == STOPPED_SERVER
+            return ("interrupted", STOPPED_SERVER) if stopped else ("cancelled", "")
+        return status, message
 
     async def _keep(self, running: _Running) -> None:
         fresh, running.fresh = running.fresh, []
         if fresh:
             await asyncio.to_thread(self._store.add_cells, running.row.id, fresh)
         await self._tell(await self.row(running.row.id), running.now, fresh)
-
-    async def _finish(self, running: _Running, status: SweepStatus, message: str) -> None:
-        id = running.row.id
-        await asyncio.to_thread(
-            lambda: self._store.change_sweep(id, status=status, message=message, seconds=running.seconds)
-        )
-        self._running.pop(id, None)
-        await running.job.end()
-        await self._tell(await self.row(id), "", [])
 
     async def _tell(self, row: SweepRow, now: str, cells: Sequence[CellRow]) -> None:
         accepted = await self._accepted(row.project) if cells else {}

@@ -94,6 +94,12 @@ class Workbench:
         await self._keeper.close()
         await self._checker.close()
 
+    async def delete_project(self, id: int) -> None:
+        """Deletes a project that no PLC runs, with its sweeps and states."""
+        await self.projects.refuse_running(id)
+        await self.sweeps.forget_project(id)
+        await self.projects.delete(id)
+
     # ---- instances ------------------------------------------------------------------------------------------------
 
     @property

@@ -26,7 +26,7 @@ async def on_new_project(bench: Bench, new: wire.NewProject) -> wire.Project:
 @router.delete("/{project}", status_code=204)
 async def on_delete_project(bench: Bench, project: int) -> None:
     """Deletes a project that no instance runs."""
-    await bench.projects.delete(project)
+    await bench.delete_project(project)
 
 
 @router.get("/{project}/files")

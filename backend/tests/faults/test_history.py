@@ -88,17 +88,17 @@ def test_back_to_a_version_that_ran_before() -> None:
 def test_reactions_belong_to_one_generation() -> None:
     history = History(model(), 1)
     (first,) = raise_(history, "battery-error", scan=7)
-    assert first.reaction == RowReaction("recording")
+    assert first.reaction == RowReaction("recording", scan=7)
     raise_(history, "battery-error", scan=9)
     assert history.set_reaction("battery-error", 1, 7, REACTED) is None  # raised anew since
-    assert row(history, "battery-error").reaction == RowReaction("recording")
+    assert row(history, "battery-error").reaction == RowReaction("recording", scan=9)
     done = history.set_reaction("battery-error", 1, 9, REACTED)
     assert done is not None
-    assert done.reaction == RowReaction("done", REACTED)
+    assert done.reaction == RowReaction("done", REACTED, scan=9)
     assert (done.reaction.verdict, done.reaction.scans) == ("reacted", 2)
     failed = history.set_reaction("battery-error", 1, 9, "it died")
     assert failed is not None
-    assert failed.reaction == RowReaction("failed", None, "it died")
+    assert failed.reaction == RowReaction("failed", None, "it died", 9)
     assert history.set_reaction("battery-error", 4, 9, REACTED) is None
     assert history.set_reaction("fal", 1, 9, REACTED) is None
 

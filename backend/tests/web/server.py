@@ -28,6 +28,7 @@ class Server:
     """`scanbench serve` without the command line."""
 
     def __init__(self, data: Path) -> None:
+        self.data = data
         script = data / "serve_main.py"
         data.mkdir(parents=True, exist_ok=True)
         script.write_text(_MAIN)

@@ -203,6 +203,9 @@ def test_a_fault_with_a_shape_comes_and_goes(server: Server) -> None:
             type="arm", errors=[{"id": "basic-io-error"}], shape={"kind": "intermittent", "scans": 2, "period": 10}
         )["ok"]
         browser.wait(lambda: any(fault["raised"] > 2 for fault in _last_armed(browser)), 20)
+        assert (
+            reaction_of(browser, "basic-io-error")["verdict"] == "reacted"
+        )  # of its first time, while it comes and goes
         assert browser.ask(type="disarm", ids=None)["ok"]
         browser.wait(lambda: _last_armed(browser) == [])
         rows = {row["id"]: row for row in server.http.get(f"/api/instances/{instance}/errors").json()}

@@ -94,7 +94,10 @@ def test_a_sweep_from_two_states_names_what_is_forgotten(server: Server) -> None
 def test_a_sweep_is_cancelled_and_resumed(server: Server) -> None:
     instance = server.instance("cancelled", MODEL, main=PROGRAM)
     with server.browser(instance) as browser:
-        begun = server.http.post(f"/api/instances/{instance}/sweeps", json={"window": 100_000})
+        kept = server.http.post(f"/api/instances/{instance}/states", json={"name": "Kept"}).json()["id"]
+        states = [kept, kept]  # once is enough
+        begun = server.http.post(f"/api/instances/{instance}/sweeps", json={"window": 100_000, "states": states})
+        assert begun.json()["states"] == ["Kept"]
         sweep = begun.json()["id"]
         second = server.http.post(f"/api/instances/{instance}/sweeps", json={})
         assert second.status_code == 422
@@ -105,6 +108,7 @@ def test_a_sweep_is_cancelled_and_resumed(server: Server) -> None:
         assert 0 < stopped["done"] < stopped["total"]
         first = {cell["error"] for cell in server.http.get(f"/api/sweeps/{sweep}").json()["cells"]}
         assert finished(browser, sweep)["status"] == "cancelled"
+        assert server.http.delete(f"/api/states/{kept}").status_code == 204  # the sweep has its own
         browser.messages.clear()
         assert server.http.post(f"/api/sweeps/{sweep}/resume").status_code == 200
         end = finished(browser, sweep)
@@ -114,6 +118,25 @@ def test_a_sweep_is_cancelled_and_resumed(server: Server) -> None:
         ]
         assert first.isdisjoint(told)
         assert server.http.post(f"/api/sweeps/{sweep}/resume").status_code == 422
+
+
+def test_a_deleted_project_takes_its_sweep_along(server: Server) -> None:
+    """Nothing of it goes on, and nothing is left on the disk."""
+    ghost = server.instance("ghost", MODEL, main=PROGRAM)
+    project = server.http.get(f"/api/instances/{ghost}").json()["project"]["id"]
+    begun = server.http.post(f"/api/instances/{ghost}/sweeps", json={"window": 100_000}).json()
+    assert server.http.delete(f"/api/instances/{ghost}").status_code == 204
+    assert server.http.get(f"/api/sweeps/{begun['id']}").json()["status"] == "running"  # it outlives its PLC
+    assert server.http.delete(f"/api/projects/{project}").status_code == 204
+    assert server.http.get(f"/api/sweeps/{begun['id']}").status_code == 404
+    assert not list(server.data.glob(f"states/sweep-{begun['id']}-*"))
+    other = server.instance("other", MODEL, main=PROGRAM)
+    with server.browser(other) as browser:
+        wanted = {"errors": ["battery-error", "plc-setup-error"], "window": 20}
+        sweep = server.http.post(f"/api/instances/{other}/sweeps", json=wanted).json()["id"]
+        end = finished(browser, sweep)
+        assert (end["done"], end["total"]) == (2, 2)
+        assert verdicts(server, sweep, "Now") == {"battery-error": "no_effect", "plc-setup-error": "never_read"}
 
 
 def test_what_cannot_be_swept_says_why(server: Server) -> None:
