@@ -1,6 +1,7 @@
 """The ST text of the vendor's instructions that raise and clear errors, made from a model.
 
-Programs call them in every scan. So they ask only for what is news: an error that is not there with this number yet.
+Programs call them in every scan. So they ask only for what is news: an error that is not there with this number yet. What is
+news of an error of the device, only the seam can tell: the code word may show another one, and its details lie anywhere.
 A number outside of what an instruction takes gives FALSE, and does nothing.
 """
 
@@ -72,12 +73,11 @@ def _system_error(model: Model, made: Instruction, entry: ErrorEntry) -> str:
     severity = entry.severity
     known = ", ".join(f"{code.start}..{code.stop - 1}" for code in _codes(model, severity))
     stops = f"{STOP} := TRUE; " if severity == "fatal" else ""
-    shown = "TRUE" if severity == "fatal" or model.code_word is None else f"{CODE} <> LINT_TO_UINT({made.selector})"
     return f"""\
 IF {stand_in(made)} <> 0 AND {made.parameter} = {stand_in(made)} THEN
   CASE {made.selector} OF
     {known}:
-      asks := {shown}; {stops}{made.name} := TRUE; form := {Form.SYSTEM * 256};
+      asks := TRUE; {stops}{made.name} := TRUE; form := {Form.SYSTEM * 256};
       asked := {made.selector} * 16#1_0000 + MAX({made.information}, 0) MOD 16#1_0000;
   END_CASE;"""
 

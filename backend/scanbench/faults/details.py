@@ -1,5 +1,6 @@
 """Details of an error: what was chosen or entered, checked, and the bits it stands for."""
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
@@ -7,6 +8,8 @@ from difflib import get_close_matches
 from scanbench.check.layout import Layout
 from scanbench.plcmodel.model import ErrorAddress, ErrorDetail, ErrorEntry, Location
 from scanbench.runtime.command import Refusal
+
+_WORD = re.compile(r"16#[0-9A-Fa-f]{1,4}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -24,7 +27,10 @@ class Chosen:
 
     error: ErrorEntry
     details: tuple[tuple[str, str], ...]
-    """(detail, chosen id or number as text), in the order of the catalogue."""
+    """(detail, chosen id or number as text), in the order of the catalogue.
+
+    Several bits of a List in one word, or others than its choices, are the word as a number: `16#0030`.
+    """
     code: int
     contents: tuple[Bits, ...]
     """What the details write."""
@@ -57,7 +63,15 @@ def choose(error: ErrorEntry, given: Mapping[str, str], layout: Layout) -> Chose
     contents: list[Bits] = []
     code = error.code
     for detail in error.details:
-        found = _decide(error, detail, given.get(detail.name))
+        text = given.get(detail.name)
+        word = None if text is None else _whole_word(detail, text)
+        if word is not None:
+            text = word_text(detail, word)
+            if detail.choice(text) is None:
+                decided.append((detail.name, text))
+                contents += _word_bits(detail, word, layout)
+                continue
+        found = _decide(error, detail, text)
         if isinstance(found, Refusal):
             return found
         address, number, text = found
@@ -71,6 +85,11 @@ def choose(error: ErrorEntry, given: Mapping[str, str], layout: Layout) -> Chose
         number = numbers.get(address.id, 1) if address.value is None else address.value
         marks += _bits(address, number, layout)
     return Chosen(error, tuple(decided), code & error.code_limit, tuple(contents), tuple(marks))
+
+
+def word_text(detail: ErrorDetail, word: int) -> str:
+    """What a List whose choices are bits of one word says when this is the word: the choice, or the word itself."""
+    return next((each.id for each in detail.addresses if 1 << _bit_in_word(each) == word), f"16#{word:04X}")
 
 
 def field_bits(location: Location, shift: int, width: int, value: int, layout: Layout) -> list[Bits]:
@@ -140,6 +159,23 @@ def _bits(address: ErrorAddress, number: int, layout: Layout) -> list[Bits]:
         return field_bits(address.location, 0, 8 * (address.maximum or 0), number, layout)
     value = int(str(number), 16) if address.kind == "BCD" else number
     return field_bits(address.location, address.shift, address.width, value, layout)
+
+
+def _whole_word(detail: ErrorDetail, text: str) -> int | None:
+    """The word that a List is given in place of a choice."""
+    return int(text.strip()[3:], 16) if detail.word is not None and _WORD.fullmatch(text.strip()) else None
+
+
+def _word_bits(detail: ErrorDetail, word: int, layout: Layout) -> list[Bits]:
+    """All choices, on or off, and what else is on in the word: bits beside them may be another's."""
+    assert detail.word is not None
+    bits = {_bit_in_word(each) for each in detail.addresses} | {bit for bit in range(16) if word >> bit & 1}
+    return [part for bit in sorted(bits) for part in field_bits(detail.word, bit, 1, word >> bit, layout)]
+
+
+def _bit_in_word(address: ErrorAddress) -> int:
+    assert address.location is not None
+    return address.location.byte % 2 * 8 + (address.location.bit or 0)
 
 
 def _highest(address: ErrorAddress) -> int:

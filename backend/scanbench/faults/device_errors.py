@@ -2,6 +2,7 @@
 
 from collections.abc import Iterator
 
+from scanbench.faults.details import word_text
 from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.model import ErrorAddress, ErrorDetail, ErrorEntry, Location, Model, Severity
 
@@ -32,7 +33,9 @@ def _said(detail: ErrorDetail, added: int, information: int, place: Location | N
     if detail.control == "List":
         choices = detail.addresses
         adding = [each.id for each in choices if added and each.add_to_code and each.value == added]
-        shown = [each.id for each in choices if _shows(each, information, place)]
+        if detail.word is not None and not adding:
+            return word_text(detail, information) if information and _is_in(detail.word, place) else None
+        shown = [each.id for each in choices if _number(each, information, place) == each.value]
         return next(iter(adding or shown), None)
     address = detail.addresses[0]
     number = added if address.add_to_code else _number(address, information, place)
@@ -42,20 +45,15 @@ def _said(detail: ErrorDetail, added: int, information: int, place: Location | N
     return f"{number:X}" if address.base == 16 else str(number)
 
 
-def _shows(address: ErrorAddress, information: int, place: Location | None) -> bool:
-    """Whether the word of information is what this choice would write there."""
-    if address.kind != "Bit":
-        return _number(address, information, place) == address.value
-    if address.location is None or place is None or address.location.word != place.word:
-        return False
-    return bool(information >> (address.location.byte % 2 * 8 + (address.location.bit or 0)) & 1)
-
-
 def _number(address: ErrorAddress, information: int, place: Location | None) -> int | None:
-    if address.location is None or place is None or address.location.word != place.word or address.is_text:
+    if address.location is None or not _is_in(address.location, place) or address.is_text:
         return None
     if address.kind == "BitArray":
         return (information & ~_SPECIAL_UNIT) + 16 if information & _SPECIAL_UNIT else information
     field = information >> address.shift & (1 << address.width) - 1
     digits = f"{field:X}"
     return (int(digits) if digits.isdigit() else None) if address.kind == "BCD" else field
+
+
+def _is_in(location: Location, word: Location | None) -> bool:
+    return word is not None and (location.area.name, location.word) == (word.area.name, word.word)

@@ -23,7 +23,7 @@ from scanbench.faults.observed import ObservedPrograms
 from scanbench.faults.reaction import Line, Reaction, Reader, Verdict, What
 from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.faults.trace import Trace
-from scanbench.runtime.command import Command, Entry, Refusal, Restarted, Swapped
+from scanbench.runtime.command import Command, Entry, Refusal, Swapped
 from scanbench.runtime.header import Halt
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.resource import Resource
@@ -273,7 +273,7 @@ def _following(
     for entry in following:
         if entry.scan >= end or isinstance(entry.command, Trapped):  # behind a trap nothing is compared
             break
-        if isinstance(entry.plan.effect, Swapped | Restarted):
+        if entry.plan.cuts:
             end = entry.scan
             note = "the program was changed" if isinstance(entry.plan.effect, Swapped) else "the program was restarted"
             break

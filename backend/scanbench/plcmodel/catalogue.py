@@ -79,6 +79,15 @@ class ErrorDetail:
         """The choice of a List with this id."""
         return next((address for address in self.addresses if address.id == id), None)
 
+    @property
+    def word(self) -> Location | None:
+        """The word of a List whose choices are all bits of this one: then several of them can be on together."""
+        places = [each.location for each in self.addresses if each.kind == "Bit" and each.location is not None]
+        words = {(place.area.name, place.word) for place in places}
+        if self.control != "List" or len(words) != 1 or len(places) != len(self.addresses):
+            return None
+        return places[0]._replace(byte=2 * places[0].word, bit=None, bits=16)
+
 
 def _additions(detail: ErrorDetail) -> list[range]:
     """What it can add to the code; nothing where it never does."""

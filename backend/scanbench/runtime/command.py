@@ -80,6 +80,11 @@ class Plan:
     effect: Effect | None = None
 
     @property
+    def cuts(self) -> bool:
+        """Whether what ran before cannot be compared with what runs behind it: a restart, another program."""
+        return isinstance(self.effect, Restarted | Swapped)
+
+    @property
     def starts_anew(self) -> bool:
         """Whether the program begins as if nothing had happened: no error is present behind it, no trap stops it."""
         return isinstance(self.effect, Restarted) or (isinstance(self.effect, Swapped) and self.effect.fresh)

@@ -1,67 +1,134 @@
-"""Writes history and log behind the back of the live path: a command never waits for the database."""
+"""Writes history and log behind the back of the live path: a command never waits for the database.
+
+A PLC can do more in a second than a database writes in one. So what waits is state, not jobs: of an error's row only the
+newest counts, and of lines only so many are kept anyway.
+"""
 
 import asyncio
 import logging
+from collections import deque
 from collections.abc import Callable, Sequence
+from typing import TypeVar
 
 from scanbench.faults.history import ErrorRow, RowReaction
 from scanbench.faults.reaction_json import from_json, to_json
 from scanbench.plcmodel.model import Model
 from scanbench.session.events import LogEntry
-from scanbench.store.records import HistoryRow, LogRow
+from scanbench.store.records import HistoryRow, LogRow, NotFound, StoreError
 from scanbench.store.store import Store
 
 log = logging.getLogger("scanbench")
 LOG_KEPT = 20_000
 """Lines of each instance; older ones go."""
 LOG_TRIMMED_EVERY = 1000
+_Rows = dict[int, dict[tuple[int, str], ErrorRow]]
+_Lines = dict[int, deque[LogRow]]
+_T = TypeVar("_T")
 
 
 class Keeper:
-    """One task that writes in the order in which things happened."""
+    """One task that writes what has changed since its last turn, over and over."""
 
     def __init__(self, store: Store) -> None:
         self._store = store
-        self._jobs: asyncio.Queue[Callable[[], object]] = asyncio.Queue()
+        self._rows: _Rows = {}
+        self._lines: _Lines = {}
+        self._untrimmed: dict[int, int] = {}
+        """Lines of an instance since old ones were deleted; only the thread that writes uses it."""
+        self._wake, self._written = asyncio.Event(), asyncio.Event()
         self._task: asyncio.Task[None] | None = None
-        self._lines: dict[int, int] = {}
 
     def start(self) -> None:
         """Begins to write."""
         self._task = asyncio.get_running_loop().create_task(self._work())
 
     async def flush(self) -> None:
-        """Waits until everything so far is written."""
-        await self._jobs.join()
+        """Waits until everything so far is written: for the turn that begins next, whatever comes meanwhile."""
+        if self._task is not None:
+            written = self._written
+            self._wake.set()
+            await written.wait()
 
     async def close(self) -> None:
         """Writes the rest, and ends."""
-        if self._task is not None:
-            await self.flush()
-            self._task.cancel()
-            await asyncio.gather(self._task, return_exceptions=True)
+        await self.flush()
+        task, self._task = self._task, None
+        if task is not None:
+            task.cancel()
+            await asyncio.gather(task, return_exceptions=True)
 
     def keep_rows(self, instance: int, rows: Sequence[ErrorRow]) -> None:
         """Error history rows that changed, of whatever version."""
-        for row in rows:
-            self._jobs.put_nowait(_row_job(self._store, instance, row))
+        if rows:
+            self._rows.setdefault(instance, {}).update(((row.program_version, row.id), row) for row in rows)
+            self._wake.set()
 
     def keep_line(self, instance: int, line: LogEntry, version: int) -> None:
         """A line of the log, while this version of the program runs."""
-        at, scan, author, kind, text = line.at, line.scan, line.author, line.kind, line.text
-        self._jobs.put_nowait(lambda: self._store.add_log(instance, at, scan, author, kind, text, version))
-        self._lines[instance] = self._lines.get(instance, 0) + 1
-        if self._lines[instance] % LOG_TRIMMED_EVERY == 0:
-            self._jobs.put_nowait(lambda: self._store.trim_log(instance, LOG_KEPT))
+        lines = self._lines.setdefault(instance, deque(maxlen=LOG_KEPT))
+        lines.append(LogRow(line.at, line.scan, line.author, line.kind, line.text, version))
+        self._wake.set()
 
     async def _work(self) -> None:
         while True:
-            jobs = [await self._jobs.get()]
-            while not self._jobs.empty():
-                jobs.append(self._jobs.get_nowait())
-            await asyncio.to_thread(_run_all, jobs)
-            for _ in jobs:
-                self._jobs.task_done()
+            await self._wake.wait()
+            self._wake.clear()
+            rows, lines, written = self._rows, self._lines, self._written
+            self._rows, self._lines, self._written = {}, {}, asyncio.Event()
+            await asyncio.to_thread(self._write, rows, lines)
+            written.set()
+
+    def _write(self, rows: _Rows, lines: _Lines) -> None:
+        for instance, changed in rows.items():
+            self._keep_rows(instance, list(changed.values()))
+        for instance, more in lines.items():
+            self._keep_lines(instance, list(more))
+
+    def _keep_rows(self, instance: int, rows: Sequence[ErrorRow]) -> None:
+        def write(some: Sequence[ErrorRow]) -> None:
+            self._store.keep_history(instance, list(map(_kept, some)))
+
+        _write_most(f"the error history of instance {instance}", rows, write)
+
+    def _keep_lines(self, instance: int, lines: Sequence[LogRow]) -> None:
+        untrimmed = self._untrimmed.get(instance, LOG_TRIMMED_EVERY) + len(lines)
+        due = untrimmed > LOG_TRIMMED_EVERY
+        self._untrimmed[instance] = 0 if due else untrimmed
+
+        def write(some: Sequence[LogRow]) -> None:
+            self._store.add_log(instance, some, LOG_KEPT if due else None)
+
+        _write_most(f"the log of instance {instance}", lines, write)
+
+
+def _write_most(what: str, items: Sequence[_T], write: Callable[[Sequence[_T]], None]) -> None:
+    """All of them at once; where one cannot be written, all others, in their order. The PLC goes on in any case."""
+    try:
+        write(items)
+    except (NotFound, StoreError) as error:  # deleted meanwhile, or no database: none of them can be written
+        log.error("%s could not be written, %d of it: %s", what, len(items), error)
+    except Exception:
+        if len(items) == 1:
+            log.exception("a line of %s could not be written: %r", what, items[0])
+            return
+        middle = len(items) // 2
+        _write_most(what, items[:middle], write)
+        _write_most(what, items[middle:], write)
+
+
+def _kept(row: ErrorRow) -> HistoryRow:
+    """A row for the store. Only errors that were raised have one."""
+    assert row.generated_at is not None
+    cleared = row.status == "cleared" and row.recovered_at is not None
+    reaction = row.reaction
+    found = None if reaction is None else reaction.found
+    return HistoryRow(
+        row.id, row.program_version, "cleared" if cleared else "generated", row.code, row.details, row.generated_at,
+        row.recovered_at if cleared else None, row.generated_scan or 0,
+        (row.recovered_scan or 0) if cleared else None, row.by or "", row.origin or "simulator", row.count,
+        None if reaction is None else reaction.state, None if found is None else to_json(found),
+        "" if reaction is None else reaction.message,
+    )  # fmt: skip
 
 
 def row_of(model: Model, kept: HistoryRow) -> ErrorRow:
@@ -91,33 +158,3 @@ def _reaction_of(kept: HistoryRow) -> RowReaction | None:
 def line_of(kept: LogRow) -> LogEntry:
     """A line as the store has it."""
     return LogEntry(kept.at, kept.scan, kept.author, kept.text, kept.kind)
-
-
-def _row_job(store: Store, instance: int, row: ErrorRow) -> Callable[[], object]:
-    def job() -> None:
-        assert row.generated_at is not None
-        version, reaction = row.program_version, row.reaction
-        store.record_generated(
-            instance, row.id, program_version=version, code=row.code, details=row.details,
-            at=row.generated_at, scan=row.generated_scan or 0, by=row.by or "", origin=row.origin or "simulator",
-            count=row.count,
-        )  # fmt: skip
-        if row.status == "cleared" and row.recovered_at is not None:
-            store.record_cleared(
-                instance, row.id, program_version=version, at=row.recovered_at, scan=row.recovered_scan or 0
-            )
-        store.set_reaction(
-            instance, version, row.id, state=None if reaction is None else reaction.state,
-            reaction=None if reaction is None or reaction.found is None else to_json(reaction.found),
-            message="" if reaction is None else reaction.message,
-        )  # fmt: skip
-
-    return job
-
-
-def _run_all(jobs: Sequence[Callable[[], object]]) -> None:
-    for job in jobs:
-        try:
-            job()
-        except Exception:  # the PLC goes on; the next lines may be written again
-            log.exception("a line of history or log could not be written")

@@ -43,6 +43,7 @@ class Reactions:
         if job is not None:
             await job.end()
         await asyncio.gather(*self._closing, return_exceptions=True)
+        self._give_up()
 
     def _on_message(self, message: object) -> None:
         if isinstance(message, job_protocol.Reacted):
@@ -67,5 +68,8 @@ class Reactions:
         if job is not self._job:
             return
         self._job = None
+        self._give_up()
+
+    def _give_up(self) -> None:
         for ref in list(self._answers):
             self._answer(job_protocol.Reacted(ref, None, DIED))

@@ -5,8 +5,7 @@ from pathlib import Path
 
 from scanbench.check.violations import Violations
 from scanbench.faults.arm import ArmedInfo
-from scanbench.faults.history import ErrorRow, History, comes_again
-from scanbench.faults.inject import Generate
+from scanbench.faults.history import ErrorRow, History
 from scanbench.faults.reaction import Reaction
 from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.model import Model
@@ -61,9 +60,7 @@ class Session:
         self._past_rows: list[ErrorRow] = []
         self._armed: tuple[ArmedInfo, ...] = ()
         self._reacting = Reacting(reactions, lambda: self.run_file, self._on_reaction)
-        for known in rows:  # the run goes on, so what was being recorded is found out yet
-            if known.reaction is not None and known.reaction.state == "recording" and known.generated_scan is not None:
-                self._reacting.raised(Raised(known.id, known.generated_scan, known.program_version))
+        self._compare(rows)  # the run goes on, so what was being recorded is found out yet
         self._timeline = Marks()
         self._instance = Instance(memory, self._on_state, self._on_message, cache)
         self._last_state = self._instance.state
@@ -361,8 +358,11 @@ class Session:
         rows: dict[tuple[int, str], ErrorRow] = {}
         version = self._history.version
         for entry in entries:
-            rows.update(((row.program_version, row.id), row) for row in self._history.fold(entry))
-            self._see_errors(entry)
+            changed = self._history.fold(entry)
+            rows.update(((row.program_version, row.id), row) for row in changed)
+            if entry.plan.cuts:
+                self._reacting.ended(entry.scan)
+            self._compare(changed, entry.scan)
             command = entry.command
             if isinstance(command, Write | Force):
                 forced = isinstance(command, Force)
@@ -376,14 +376,12 @@ class Session:
             last, more = entries[-1], len(entries) - LISTED
             self._add_line(LogEntry(last.at, last.scan, last.command.author, f"... and {more} more entries", "system"))
 
-    def _see_errors(self, entry: Entry) -> None:
-        """What may be reacted to, and where no reaction comes any more."""
-        command = entry.command
-        if entry.plan.effect is not None:
-            self._reacting.ended(entry.scan)
-        elif isinstance(command, Generate) and command.origin == "simulator" and not comes_again(command):
-            for ref in command.errors:
-                self._reacting.raised(Raised(ref.id, entry.scan, self._history.version))
+    def _compare(self, rows: Sequence[ErrorRow], scan: int | None = None) -> None:
+        """Has the reactions found out that are being recorded; of those that began in front of `scan`, if it is given."""
+        for row in rows:
+            reaction = row.reaction
+            if reaction is not None and reaction.state == "recording" and scan in (None, reaction.scan):
+                self._reacting.raised(Raised(row.id, reaction.scan, row.program_version))
 
     def _on_reaction(self, raised: Raised, found: Reaction | str) -> None:
         row = self._history.set_reaction(raised.error, raised.version, raised.scan, found)

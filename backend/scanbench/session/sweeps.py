@@ -162,11 +162,12 @@ class Sweeps:
                     await self._states.give(row, kept)
                 else:
                     await self._states.take(session, self._states.of_sweep(row)[NOW], None, author)
+                points = await self._points(row)
             except BaseException:
                 await self._states.discard(row)
                 await asyncio.to_thread(self._store.delete_sweep, row.id)
                 raise
-            await self._run(row, sources, [])
+            self._run(row, points, sources, [])
         names = ", ".join(row.states)
         session.told(author, f"sweep begun: {len(swept)} error{'s' * (len(swept) != 1)} from {names}")
         return row
@@ -181,11 +182,10 @@ class Sweeps:
             sources = await self._sources_of(row.project, row.program_version)
             if sources is None:
                 raise Refused(f"version {row.program_version} of the program is not kept any more: begin a new sweep")
+            points = await self._points(row)
             cells = await asyncio.to_thread(self._store.cells, id)
-            await asyncio.to_thread(
-                lambda: self._store.change_sweep(id, status="running", message="", seconds=row.seconds)
-            )
-            await self._run(replace(row, status="running", message=""), sources, cells)
+            change = partial(self._store.change_sweep, id, status="running", message="", seconds=row.seconds)
+            self._run(await asyncio.to_thread(change), points, sources, cells)
         return await self.row(id)
 
     async def cancel(self, id: int) -> SweepRow:
@@ -236,7 +236,7 @@ class Sweeps:
         if state not in points or sources is None:
             raise Refused(f"this sweep cannot be opened at {state}: it has no such state, or its program is gone")
         session = await self._open_state(row.project, Path(points[state].run), name, author)
-        if session.sources.files != sources.files:
+        if replace(session.sources, version=sources.version) != sources:
             ack = await session.build(sources, author)
             if not ack.ok:
                 raise Refused(f"{name} was made, but version {sources.version} does not run on it: {ack.message}")
@@ -259,8 +259,7 @@ class Sweeps:
                 raise Refused(f"the state {name} of this sweep is gone: begin a new one")
         return [StartPoint(name, str(path)) for name, path in files.items()]
 
-    async def _run(self, row: SweepRow, sources: Sources, done: Sequence[CellRow]) -> None:
-        points = await self._points(row)
+    def _run(self, row: SweepRow, points: Sequence[StartPoint], sources: Sources, done: Sequence[CellRow]) -> None:
         inbox: asyncio.Queue[object] = asyncio.Queue()
         job = Job(self._cache, inbox.put_nowait, lambda _: inbox.put_nowait(None))
         running = _Running(row, job, inbox, monotonic_ns(), row.seconds)

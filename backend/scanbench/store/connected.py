@@ -3,10 +3,11 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from sqlalchemy.exc import DataError, InterfaceError, OperationalError
 from sqlalchemy.orm import Session
 
 from scanbench.store.database import WRITING, open_database
-from scanbench.store.records import NotFound, NotStorable
+from scanbench.store.records import NotFound, NotStorable, StoreError
 from scanbench.store.tables import Instance, Project
 
 
@@ -24,13 +25,26 @@ class Connected:
 
     @contextmanager
     def _reading(self) -> Iterator[Session]:
-        with Session(self._engine) as session:
+        with _explained(), Session(self._engine) as session:
             yield session
 
     @contextmanager
     def _writing(self) -> Iterator[Session]:
-        with Session(self._writer) as session, session.begin():
+        with _explained(), Session(self._writer) as session, session.begin():
             yield session
+
+
+@contextmanager
+def _explained() -> Iterator[None]:
+    """What the database itself refuses, in our words."""
+    try:
+        yield
+    except (OperationalError, InterfaceError) as error:
+        raise StoreError(f"the database cannot be used now: {error.orig}; nothing was changed") from error
+    except DataError as error:
+        raise NotStorable(f"no database keeps this: {error.orig}") from error
+    except OverflowError as error:  # sqlite3's own, with a number of more than 64 bits
+        raise NotStorable(f"no database keeps this: {error}") from error
 
 
 def check(what: str, text: str, limit: int | None = None) -> None:

@@ -3,7 +3,7 @@
 import hashlib
 import json
 from collections.abc import Mapping, Sequence
-from datetime import datetime
+from dataclasses import asdict
 
 from sqlalchemy import delete, insert, select, update
 from sqlalchemy.exc import IntegrityError
@@ -217,19 +217,15 @@ class Store(Errors, Sweeps, ImportedRecords):
             of = (Log.instance_id == instance) & (Log.program_version == version) & Log.kind.in_(("error", "recover"))
             return [rows.log(entry) for entry in session.scalars(select(Log).where(of).order_by(Log.id))]
 
-    def add_log(
-        self, instance: int, at: datetime, scan: int, author: str, kind: str, text: str, version: int | None = None
-    ) -> None:
-        """One more line; `version` is that of the program that ran."""
-        line = {"at": at, "scan": scan, "author": author[:AUTHOR], "kind": kind, "text": text}
+    def add_log(self, instance: int, lines: Sequence[LogRow], keep: int | None = None) -> None:
+        """More lines, in their order; with `keep` only the last so many lines of the instance stay."""
         with self._writing() as session:
             the_instance(session, instance)
-            session.add(Log(instance_id=instance, program_version=version, **line))
-
-    def trim_log(self, instance: int, keep: int) -> None:
-        """Deletes all but the last `keep` lines."""
-        ids = select(Log.id).where(Log.instance_id == instance).order_by(Log.id.desc())
-        with self._writing() as session:
-            first = session.scalars(ids.offset(keep).limit(1)).first()
-            if first is not None:
-                session.execute(delete(Log).where(Log.instance_id == instance, Log.id <= first))
+            if lines:
+                told = [{**asdict(line), "author": line.author[:AUTHOR], "instance_id": instance} for line in lines]
+                session.execute(insert(Log), told)
+            if keep is not None:
+                ids = select(Log.id).where(Log.instance_id == instance).order_by(Log.id.desc())
+                last = session.scalars(ids.offset(keep).limit(1)).first()
+                if last is not None:
+                    session.execute(delete(Log).where(Log.instance_id == instance, Log.id <= last))

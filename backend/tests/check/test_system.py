@@ -128,6 +128,6 @@ def test_the_same_model_makes_the_same_text_once() -> None:
 
 
 def test_an_instruction_with_what_it_does_not_take() -> None:
-    source = "PROGRAM Main\nFAL(M := 5);\nFAL();\nFAL(1.5);\nFALS(1, 2);\nEND_PROGRAM"
+    source = "PROGRAM Main\nFAL(M := 5);\nFAL();\nFAL(1.5);\nFALS(1, 2, 3);\nFALS(1, 2, 3, 4);\nEND_PROGRAM"
     problems = check_sources({"main.st": source}, MODELS["CJ1M-CPU63"]).problems
-    assert [(each.code, each.span.line) for each in problems] == [("T004", 2), ("T004", 3), ("T002", 4), ("T004", 5)]
+    assert [(each.code, each.span.line) for each in problems] == [("T004", 2), ("T004", 3), ("T002", 4), ("T004", 6)]

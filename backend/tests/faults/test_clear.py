@@ -213,7 +213,9 @@ def test_fal_raises_an_error_of_the_system(
 @pytest.mark.parametrize(
     ("code", "information", "memory"),
     [
-        (0x80F1, 1 << 5, {"A401": 1 << 15, "A403": 1 << 5}),
+        (0x80F1, 1 << 5, {"A401": 1 << 15, "A403": 1 << 5, "A101": 1 << 5}),
+        (0x80F1, 0x0030, {"A401": 1 << 15, "A403": 0x0030, "A101": 0x0030}),
+        (0x80F1, 0x8002, {"A401": 1 << 15, "A403": 0x8002, "A101": 0x8002}),  # bits that no choice has
         (0x80C1, 0x0103, {"A401": 1 << 14, "A404": 0x0103}),
         (0x80CE, 0x0E0E, {"A401": 1 << 14, "A404": 0x0E0E}),
         (0x80E9, 0x000F, {"A401": 1 << 13, "A410": 1 << 15, "A411": 0}),
@@ -222,6 +224,7 @@ def test_fal_raises_an_error_of_the_system(
         (0x80E1, 0xA007, {"A401": 1 << 11, "A407": 0xA007}),
         (0x80E0, 0, {"A401": 1 << 10}),
         (0x80F0, 1 << 11, {"A401": 1 << 9, "A295": 1 << 11}),
+        (0x80F0, 0x3000, {"A401": 1 << 9, "A295": 0x3000, "A294": 0}),
         (0x809F, 0, {"A401": 1 << 8}),
     ],
 )
@@ -239,6 +242,33 @@ def test_fals_raises_a_fatal_error_of_the_system(
     assert (value(resource, "motor"), value(resource, "Main.work")) == (False, 0)  # not as with FALS
     done(resource, ClearErrors("tool", "all"))
     assert (resource.header.mode, value(resource, "A400")) == (Mode.PROGRAM, 0)
+    assert [value(resource, word) for word in memory if word != "A101"] == [0] * sum(word != "A101" for word in memory)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+@pytest.mark.parametrize("hidden", [False, True])
+def test_the_same_code_with_other_details_is_another_error_of_the_system(engine: EngineFactory, hidden: bool) -> None:
+    resource = plc(OMRON, engine)
+    if hidden:
+        raise_(resource, "fal:number=9")  # more serious: A400 does not show what the program asks for
+    done(resource, Write("Ada", "A529", "100"))
+    for count, information in enumerate((0x0102, 0x0203), 1):
+        set_to(resource, number=100, m=0x009A, m1=information)
+        go(resource, 20)
+        assert value(resource, "A408") == information
+        assert len(generated(resource)) == count + hidden
+    set_to(resource, m=0x0305, m1=0)
+    go(resource, 2)
+    set_to(resource, m=0x0306)
+    go(resource, 2)
+    assert value(resource, "A418") == 0b110_0000
+    again = plc(OMRON, engine)
+    replay(again, resource.journal, resource.header.scan)
+    assert again.state == resource.state
+    raised = len(generated(resource))
+    done(resource, Recover("tool", None))
+    go(resource, 2)  # the program asks on, so it shows again
+    assert (value(resource, "A418"), len(generated(resource))) == (1 << 6, raised + 1)
 
 
 def test_the_number_in_a529_is_only_for_codes_of_its_severity() -> None:

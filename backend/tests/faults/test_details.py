@@ -38,6 +38,14 @@ BODY = """
 <Error Id="text" ErrorCode="0600" ErrorFlag="S1.03" Severity="fatal" Priority="4"><Name>n</Name><ErrorDetailPattern>
   <ErrorControl Name="name" Type="Edit"><ErrorAddress Address="S16" Type="Word" Base="text" Max="5"/></ErrorControl>
 </ErrorDetailPattern></Error>
+<Error Id="parts" ErrorCode="0700" ErrorFlag="S19.09" Severity="fatal" Priority="5" AddToErrorCode="true"><Name>n</Name><ErrorDetailPattern>
+  <ErrorControl Name="part" Type="List">
+    <ErrorAddress Id="a" Address="S19.00" Type="Bit" Value="1"/><ErrorAddress Id="b" Address="S19.08" Type="Bit" Value="2"/>
+  </ErrorControl>
+  <ErrorControl Name="far" Type="List">
+    <ErrorAddress Id="a" Address="S6.00" Type="Bit" Value="0"/><ErrorAddress Id="b" Address="S7.00" Type="Bit" Value="0"/>
+  </ErrorControl>
+</ErrorDetailPattern></Error>
 """
 FILE = f"""<?xml version="1.0" encoding="UTF-8"?>
 <Model Name="KINDS" Vendor="maker"><Memory><Area Name="S" Words="20" Aliases="SR"/></Memory>
@@ -97,6 +105,10 @@ def memory(found: Chosen | Refusal, before: int = 0xFF) -> dict[int, int]:
         ("text", {"name": "A.B"}, 0x600, {1: 8, 16: 0x2E41, 17: 0x0042}),
         ("text", {"name": "Pump!"}, 0x600, {1: 8, 16: 0x7550, 17: 0x706D, 18: 0x0021}),
         ("text", {"name": " x"}, 0x600, {1: 8, 16: 0x7820}),
+        ("parts", {"part": "b"}, 0x702, {6: 1, 19: 0x0300}),
+        ("parts", {"part": "16#0101"}, 0x700, {6: 1, 19: 0x0301}),  # several bits of its word at once
+        ("parts", {"part": "16#3"}, 0x700, {6: 1, 19: 0x0203}),
+        ("parts", {"part": "16#0100"}, 0x702, {6: 1, 19: 0x0300}),  # which is choice b
     ],
 )
 def test_to_the_bit(kinds: Model, id: str, details: dict[str, str], code: int, words: dict[int, int]) -> None:
@@ -113,6 +125,7 @@ def test_to_the_bit(kinds: Model, id: str, details: dict[str, str], code: int, w
         ("fields", {"rest": "1"}, {1: 0xFFFF, 3: 0x0085, 4: 0xC001}),
         ("text", {"name": "A"}, {1: 0xFFFF, 16: 0x0041, 17: 0, 18: 0xFF00}),
         ("units", {"unit": "3"}, {11: 0, 12: 3, 13: 3, 15: 0xF5AF}),
+        ("parts", {"part": "16#0000"}, {19: 0xFEFE}),
     ],
 )
 def test_only_its_own_bits_are_written(
@@ -136,6 +149,11 @@ def test_only_its_own_bits_are_written(
         ("byte", {"middle": "1"}, "has no detail middle: its details are low, high"),
         ("fields", {"bcd": "1000"}, "is outside of 0 to 999"),
         ("fields", {"three": "c"}, "it is one of a, b"),
+        ("parts", {"part": "16#1_0000"}, "part cannot be '16#1_0000'; it is one of a, b"),
+        ("parts", {"part": "16#10000"}, "it is one of a, b"),
+        ("parts", {"part": "257"}, "it is one of a, b"),
+        ("parts", {"far": "16#0001"}, "it is one of a, b"),
+        ("fields", {"three": "16#0001"}, "it is one of a, b"),
         ("units", {"unit": "96"}, "is outside of 0 to 95"),
         ("text", {"name": "sixsix"}, "name has 6 characters, at most 5 fit"),
         ("text", {"name": "\u00e9"}, "takes ASCII characters"),
@@ -182,3 +200,11 @@ def test_every_text_of_the_example_is_written_as_the_vendor_does(kinds: Model) -
     found = chosen(kinds, "units", {"unit": "16#A"})
     assert isinstance(found, Chosen)
     assert (found.code_text, str(found)) == ("030A", "unit=10, rank=0, kind=none")
+
+
+@pytest.mark.parametrize(("text", "written"), [("16#101", "16#0101"), ("16#8", "16#0008"), ("16#1", "a"), ("b", "b")])
+def test_bits_of_a_list_have_one_notation(kinds: Model, text: str, written: str) -> None:
+    found = chosen(kinds, "parts", {"part": text})
+    assert isinstance(found, Chosen)
+    assert str(found) == f"part={written}, far=a"
+    assert chosen(kinds, "parts", dict(found.details)) == found

@@ -1,10 +1,11 @@
 """What the store promises, on SQLite and on PostgreSQL alike."""
 
+from dataclasses import replace
 from datetime import UTC, datetime, timedelta, timezone
 
 import pytest
 
-from scanbench.store.records import Conflict, HistoryRow, Limits, NameTaken, NotFound, NotStorable
+from scanbench.store.records import Conflict, HistoryRow, Limits, LogRow, NameTaken, NotFound, NotStorable
 from scanbench.store.store import Store
 
 NOON = datetime(2026, 11, 21, 12, 0, 0, 123456, tzinfo=UTC)
@@ -115,97 +116,106 @@ def test_an_instance_changes(store: Store) -> None:
         store.change_instance(999, powered=True)
 
 
-def generate(store: Store, instance: int, error: str, **changes: object) -> HistoryRow:
-    told: dict[str, object] = {
-        "program_version": 3,
-        "code": "80F4",
-        "details": "location=io-table-checksum",
-        "at": NOON,
-        "scan": 4711,
-        "by": "ada",
-        "origin": "simulator",
-    }
-    return store.record_generated(instance, error, **{**told, **changes})  # type: ignore[arg-type]
+ROW = HistoryRow(
+    error="memory-error",
+    program_version=3,
+    status="generated",
+    code="80F4",
+    details="location=io-table-checksum",
+    generated_at=NOON,
+    recovered_at=None,
+    generated_scan=4711,
+    recovered_scan=None,
+    by="ada",
+    origin="simulator",
+    count=1,
+)
 
 
-def test_one_row_for_an_error_counts(store: Store) -> None:
-    instance = store.create_instance(store.create_project("p", "CJ1M-CPU63").id, "i").id
+def lines(*texts: str, author: str = "ada") -> list[LogRow]:
+    return [LogRow(NOON + timedelta(seconds=at), at, author, "write", text, 3) for at, text in enumerate(texts)]
+
+
+def test_a_row_of_the_history_takes_the_place_of_the_one_before(store: Store) -> None:
+    project = store.create_project("p", "CJ1M-CPU63").id
+    instance, other = store.create_instance(project, "i").id, store.create_instance(project, "j").id
     assert store.history(instance) == []
-    assert store.record_cleared(instance, "memory-error", program_version=3, at=NOON, scan=1) is None
-    row = generate(store, instance, "memory-error")
-    assert row == HistoryRow(
-        error="memory-error",
-        program_version=3,
-        status="generated",
-        code="80F4",
-        details="location=io-table-checksum",
-        generated_at=NOON,
-        recovered_at=None,
-        generated_scan=4711,
-        recovered_scan=None,
-        by="ada",
-        origin="simulator",
-        count=1,
-    )
-    later = NOON + timedelta(minutes=1)
-    cleared = store.record_cleared(instance, "memory-error", program_version=3, at=later, scan=5000)
-    assert cleared is not None
-    assert (cleared.status, cleared.recovered_at, cleared.recovered_scan, cleared.count) == ("cleared", later, 5000, 1)
-    again = generate(store, instance, "memory-error", scan=2**40, by="bob", origin="program")
-    assert (again.status, again.recovered_at, again.generated_scan, again.count) == ("generated", None, 2**40, 2)
-    generate(store, instance, "battery-error")
-    assert [row.error for row in store.history(instance)] == ["battery-error", "memory-error"]
-    assert store.history(instance)[1] == again
+    store.keep_history(instance, [])
+    store.keep_history(instance, [ROW])
+    assert store.history(instance) == [ROW]
+    cleared = replace(ROW, status="cleared", recovered_at=NOON + timedelta(minutes=1), recovered_scan=5000)
+    battery = replace(ROW, error="battery-error", generated_scan=2**40, by="bob", origin="program", count=7)
+    store.keep_history(other, [battery])
+    store.keep_history(instance, [cleared, battery])
+    assert store.history(instance) == [battery, cleared]
+    again = replace(ROW, code="80F5", details="", generated_scan=9000, count=2)
+    store.keep_history(instance, [again])
+    assert store.history(instance) == [battery, again]
+    assert store.history(other) == [battery]
+    with pytest.raises(NotFound, match="no instance 4711"):
+        store.keep_history(4711, [ROW])
 
 
 def test_every_version_of_the_program_has_rows_of_its_own(store: Store) -> None:
     instance = store.create_instance(store.create_project("p", "CJ1M-CPU63").id, "i").id
-    old = generate(store, instance, "battery-error")
-    new = generate(store, instance, "battery-error", program_version=4, by="bob")
-    assert (old.count, new.count) == (1, 1)
-    assert store.history(instance, 3) == [old]
-    assert store.history(instance, 4) == [new]
-    assert store.history(instance, 5) == []
-    assert store.history(instance) == [old, new]
-    assert store.history_versions(instance) == [3, 4]
-    store.record_cleared(instance, "battery-error", program_version=4, at=NOON, scan=5)
-    assert store.history(instance, 3) == [old]
+    new = replace(ROW, program_version=4, by="bob")
+    store.keep_history(instance, [new, ROW])
+    assert store.history(instance) == [ROW, new]
+    cleared = replace(new, status="cleared", recovered_at=NOON, recovered_scan=5)
+    store.keep_history(instance, [cleared])
+    assert store.history(instance) == [ROW, cleared]
 
 
 def test_reactions_are_kept_as_they_came(store: Store) -> None:
     instance = store.create_instance(store.create_project("p", "CJ1M-CPU63").id, "i").id
-    assert store.set_reaction(instance, 3, "battery-error", state="recording") is None
-    generate(store, instance, "battery-error")
     told = {"verdict": "reacted", "differences": [{"path": "Main.灯", "output": True}], "first_read": None}
-    kept = store.set_reaction(instance, 3, "battery-error", state="done", reaction=told)
-    assert kept is not None
-    assert (kept.reaction_state, kept.reaction) == ("done", told)
-    assert store.history(instance) == [kept]
-    failed = store.set_reaction(instance, 3, "battery-error", state="failed", message="it died")
-    assert failed is not None
-    assert (failed.reaction_state, failed.reaction, failed.reaction_message) == ("failed", None, "it died")
+    done = replace(ROW, reaction_state="done", reaction=told)
+    failed = replace(ROW, reaction_state="failed", reaction_message="it died")
+    for row in (replace(ROW, reaction_state="recording"), done, failed, done, ROW):
+        store.keep_history(instance, [row])
+        assert store.history(instance) == [row]
+
+
+def test_of_a_batch_with_a_row_that_cannot_be_kept_nothing_is(store: Store) -> None:
+    instance = store.create_instance(store.create_project("p", "CJ1M-CPU63").id, "i").id
+    bad = replace(ROW, error="battery-error", generated_at=NOON.replace(tzinfo=None))
+    with pytest.raises(Exception, match="has no time zone"):
+        store.keep_history(instance, [ROW, bad])
+    assert store.history(instance) == []
 
 
 def test_moments_are_utc_whatever_they_came_as(store: Store) -> None:
     instance = store.create_instance(store.create_project("p", "CJ1M-CPU63").id, "i").id
-    tokyo = NOON.astimezone(timezone(timedelta(hours=9)))
-    generate(store, instance, "battery-error", at=tokyo)
+    store.keep_history(instance, [replace(ROW, generated_at=NOON.astimezone(timezone(timedelta(hours=9))))])
     assert store.history(instance)[0].generated_at == NOON
     assert store.history(instance)[0].generated_at.utcoffset() == timedelta(0)
-    with pytest.raises(Exception, match="has no time zone"):
-        generate(store, instance, "battery-error", at=NOON.replace(tzinfo=None))
 
 
 def test_the_log_gives_the_last_lines(store: Store) -> None:
     project = store.create_project("p", "CJ1M-CPU63").id
     instance, other = store.create_instance(project, "i").id, store.create_instance(project, "j").id
-    for number in range(10):
-        store.add_log(instance, NOON + timedelta(seconds=number), number, "ada", "write", f"line {number}")
-        store.add_log(other, NOON, number, "bob", "mode", "RUN")
-    assert [line.text for line in store.log(instance, 3)] == ["line 7", "line 8", "line 9"]
-    assert len(store.log(instance, 100)) == 10
-    assert store.log(instance, 1)[0].at == NOON + timedelta(seconds=9)
-    assert {line.author for line in store.log(other, 100)} == {"bob"}
+    told = lines(*(f"line {number}" for number in range(10)))
+    store.add_log(instance, told[:4])
+    store.add_log(other, lines("RUN", "PROGRAM", author="b" * 300))
+    store.add_log(instance, told[4:])
+    assert store.log(instance, 3) == told[7:]
+    assert store.log(instance, 100) == told
+    assert {line.author for line in store.log(other, 100)} == {"b" * 100}
+    with pytest.raises(NotFound, match="no instance 4711"):
+        store.add_log(4711, told)
+
+
+def test_the_log_keeps_so_many_lines(store: Store) -> None:
+    project = store.create_project("p", "CJ1M-CPU63").id
+    instance, other = store.create_instance(project, "i").id, store.create_instance(project, "j").id
+    store.add_log(other, lines("RUN"))
+    store.add_log(instance, lines("a", "b", "c"), keep=5)
+    assert [line.text for line in store.log(instance, 100)] == ["a", "b", "c"]
+    store.add_log(instance, lines("d", "e", "f"), keep=5)
+    assert [line.text for line in store.log(instance, 100)] == ["b", "c", "d", "e", "f"]
+    store.add_log(instance, [], keep=2)
+    assert [line.text for line in store.log(instance, 100)] == ["e", "f"]
+    assert len(store.log(other, 100)) == 1
 
 
 def test_deleting_a_project_takes_everything_with_it(store: Store) -> None:
@@ -213,8 +223,8 @@ def test_deleting_a_project_takes_everything_with_it(store: Store) -> None:
     store.save_file(project, "main.st", "text", 0, "ada")
     store.accept_build(project, {"main.st": "text"}, "ada")
     instance = store.create_instance(project, "i").id
-    generate(store, instance, "battery-error")
-    store.add_log(instance, NOON, 1, "ada", "write", "x")
+    store.keep_history(instance, [ROW])
+    store.add_log(instance, lines("x"))
     store.delete_project(project)
     assert store.instances() == []
     again = store.create_project("p", "CJ1M-CPU63").id
@@ -235,6 +245,9 @@ def test_what_no_database_keeps_is_refused_with_words(store: Store) -> None:
     with pytest.raises(NotStorable, match="the name has 101 characters"):
         store.create_instance(project, "x" * 101)
     assert store.save_file(project, "a.st", "", 0, "x" * 300).author == "x" * 100
+    for number in (2**31, 2**64, 10**400):
+        with pytest.raises((NotFound, NotStorable)):
+            store.project(number)
     assert store.create_project("日" * 100, "CJ1M-CPU63").name == "日" * 100
 
 

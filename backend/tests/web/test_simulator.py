@@ -236,3 +236,15 @@ def test_a_tool_clears_as_on_the_device(server: Server) -> None:
         assert "will not clear" in held.json()["message"]
         assert server.http.post(f"{base}/clear", json={"what": 0x4107}).status_code == 422
         assert server.http.post(f"{base}/log/clear").status_code == 200
+
+
+def test_arming_a_fault_leaves_the_window_of_another_error_alone(server: Server) -> None:
+    instance = server.instance("two windows", MODEL, main=PROGRAM)
+    with server.browser(instance) as browser:
+        assert browser.ask(type="generate", errors=[{"id": "plc-setup-error"}])["ok"]
+        assert browser.ask(
+            type="arm", errors=[{"id": "battery-error"}], start={"kind": "scan", "scan": 1_000_000_000}
+        )["ok"]
+        assert reaction_of(browser, "plc-setup-error")["state"] == "done"
+        told = server.http.get(f"/api/instances/{instance}/errors/plc-setup-error/reaction").json()
+        assert (told["verdict"], told["window"]) == ("never_read", 200)
