@@ -125,7 +125,8 @@ def _tasks(
         single = wiring.event(task.single) if task.single is not None else None
         previous = placing.flag(f"{task.name}.previous") if single is not None else None
         every = task.interval_ns // interval
-        made.append(Task(task.name, task.interval_ns, task.priority, every, tuple(runs), single, previous))
+        span = task.single.span if task.single is not None else None
+        made.append(Task(task.name, task.interval_ns, task.priority, every, tuple(runs), single, previous, span))
     return tuple(made), interval
 
 

@@ -2,12 +2,14 @@
 
 from bisect import bisect_right
 from collections.abc import Generator, Iterable, Iterator
+from typing import NamedTuple
 
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
+from scanbench.check.standard.library import in_library
 from scanbench.check.symbols import RAW_TYPES, Symbol, around, roots
-from scanbench.check.types import ELEMENTARY, Kind, Record, Section, Type
-from scanbench.check.unread import name_of, unread
+from scanbench.check.types import ELEMENTARY, Kind, Record, Section
+from scanbench.check.unread import Owner, Reads
 from scanbench.plcmodel.areas import Area
 
 _SYSTEM = (
@@ -16,13 +18,35 @@ _SYSTEM = (
 )
 
 
+class Held(NamedTuple):
+    """A variable that has a byte."""
+
+    symbol: Symbol
+    block: str = ""
+    """The path of the library's block whose state it is: no statement reads it, but one reads an output of that block."""
+
+
+class _Inside(NamedTuple):
+    """Where a variable is, on the way down to it."""
+
+    owners: tuple[Owner, ...] = ()
+    private: bool = False
+    """Whether it is nobody's business unless a statement reads it."""
+    block: str = ""
+    """See `Held`."""
+
+
 class Holders:
-    """Names what a program keeps. What is only passed on (inputs of blocks, in-outs), what nothing reads (`unread`) and what the
-    compiler made has no name here."""
+    """Names what a program keeps. What is only passed on (inputs of blocks, in-outs), private variables of blocks that nothing
+    reads, blocks of the library of which nothing reads an output, and what the compiler made have no name here.
+
+    Variables of programs and outputs of the user's blocks are always named: people and panels look at them by their paths.
+    """
 
     def __init__(self, program: Program) -> None:
         self._layout = program.layout
-        self._unread = unread(program)
+        self._reads = Reads(program)
+        self._library = {pou.instance.name for pou in program.pous if in_library(pou.span)}
         every = [*_SYSTEM, *roots(program)]
         self._roots = sorted((each for each in every if not each.slots and not _in_area(each)), key=_offset)
         self._starts = [each.offset for each in self._roots]
@@ -31,7 +55,7 @@ class Holders:
             for byte in range(symbol.offset, symbol.offset + symbol.type.size):
                 self._located.setdefault(byte, []).append(symbol)
 
-    def at(self, offset: int, mask: int) -> Iterator[Symbol]:
+    def at(self, offset: int, mask: int) -> Iterator[Held]:
         """The variables that have any of these bits of the two bytes from an even offset on, in the order of the bytes.
 
         Addresses of the model where no variable is: of the bit when it is one, else of the word.
@@ -43,45 +67,56 @@ class Holders:
             if area is not None:
                 left |= (yield from self._in_area(offset + index, part)) << 8 * index
             elif part and (root := bisect_right(self._starts, offset + index) - 1) >= 0:
-                yield from self._down(self._roots[root], offset + index, part)
+                yield from self._down(self._roots[root], offset + index, part, _Inside())
         if left and area is not None:
-            yield self._raw(*area, offset, left)
+            yield Held(self._raw(*area, offset, left))
 
-    def _in_area(self, offset: int, mask: int) -> Generator[Symbol, None, int]:
+    def _in_area(self, offset: int, mask: int) -> Generator[Held, None, int]:
         """Variables of one bit come first: a word around them says less. Returns the bits that no variable has."""
         known = self._located.get(offset, [])
         for symbol in known:
             if symbol.bit is not None and mask >> symbol.bit & 1:
-                yield symbol
+                yield Held(symbol)
         left = mask
         for symbol in known:
             left &= ~(1 << symbol.bit) if symbol.bit is not None else 0xFF
         for symbol in known:
             if symbol.bit is None and left:
-                yield from self._down(symbol, offset, mask)
+                yield from self._down(symbol, offset, mask, _Inside())
                 left = 0
         return left
 
-    def _down(self, symbol: Symbol, offset: int, mask: int) -> Iterator[Symbol]:
+    def _down(self, symbol: Symbol, offset: int, mask: int, inside: _Inside) -> Iterator[Held]:
         """To the single values that have bits of the byte."""
         if not symbol.offset <= offset < symbol.offset + symbol.type.size:
             return
         if not symbol.expandable:
             if symbol.bit is None or mask >> symbol.bit & 1:
-                yield symbol
+                if not inside.private or self._reads.has(inside.owners, symbol.offset, symbol.type):
+                    yield Held(symbol)
+                elif inside.block:
+                    yield Held(symbol, inside.block)
             return
+        inside = self._into(symbol, inside)
         of_block = symbol.type.kind is Kind.BLOCK and symbol.section != "PROGRAM"
         for each in around(symbol, offset):
             if each.slots or _in_area(each) or "$" in each.name:
                 continue
-            if of_block and (each.section == Section.INPUT or self._is_unread(symbol.type, each)):
+            if of_block and each.section == Section.INPUT:
                 continue
-            yield from self._down(each, offset, mask)
+            private = inside.private or (of_block and each.section == Section.VAR)
+            yield from self._down(each, offset, mask, inside._replace(private=private))
 
-    def _is_unread(self, block: Type, member: Symbol) -> bool:
-        if not isinstance(block, Record):
-            return False
-        return name_of(block, block.members[member.name.upper()]) in self._unread
+    def _into(self, symbol: Symbol, inside: _Inside) -> _Inside:
+        """What is known of the members of a block or structure; of the elements of an array as much as of it."""
+        if not isinstance(symbol.type, Record):
+            return inside
+        owners = (*inside.owners, (symbol.type, symbol.offset))
+        if symbol.type.name not in self._library:
+            return inside._replace(owners=owners)
+        outputs = (each for each in symbol.type.members.values() if each.section is Section.OUTPUT)
+        used = any(self._reads.has(owners, symbol.offset + each.offset, each.type) for each in outputs)
+        return _Inside(owners, True, symbol.path if used else "")
 
     def _raw(self, area: Area, byte: int, offset: int, mask: int) -> Symbol:
         if mask & (mask - 1) == 0:

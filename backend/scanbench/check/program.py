@@ -488,6 +488,8 @@ class Task:
     programs: tuple[ProgramInstance, ...]
     single: Place | None = None
     previous: Place | None = None
+    single_span: Span | None = None
+    """Where SINGLE stands."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -35,7 +35,7 @@ def _said(detail: ErrorDetail, added: int, information: int, place: Location | N
         adding = [each.id for each in choices if added and each.add_to_code and each.value == added]
         if detail.word is not None and not adding:
             return word_text(detail, information) if information and _is_in(detail.word, place) else None
-        shown = [each.id for each in choices if _number(each, information, place) == each.value]
+        shown = [each.id for each in choices if _shows(each, information, place)]
         return next(iter(adding or shown), None)
     address = detail.addresses[0]
     number = added if address.add_to_code else _number(address, information, place)
@@ -43,6 +43,15 @@ def _said(detail: ErrorDetail, added: int, information: int, place: Location | N
     if number is None or not low <= number <= high:
         return None
     return f"{number:X}" if address.base == 16 else str(number)
+
+
+def _shows(address: ErrorAddress, information: int, place: Location | None) -> bool:
+    """Whether the word of information is what this choice would write there."""
+    if address.kind != "Bit":
+        return _number(address, information, place) == address.value
+    if address.location is None or not _is_in(address.location, place):
+        return False
+    return bool(information >> (address.location.byte % 2 * 8 + (address.location.bit or 0)) & 1)
 
 
 def _number(address: ErrorAddress, information: int, place: Location | None) -> int | None:

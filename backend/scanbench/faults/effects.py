@@ -1,10 +1,14 @@
-"""What differs between two runs, by variable, and since when."""
+"""What differs between two runs, by variable, and since when.
+
+That a timer runs or a counter counts is no effect by itself: what comes of it is one. It is kept apart, for when nothing else
+differs.
+"""
 
 from collections.abc import Iterator
 
 import numpy as np
 
-from scanbench.check.holding import Holders
+from scanbench.check.holding import Held, Holders
 from scanbench.check.program import Program
 from scanbench.check.symbols import Symbol
 from scanbench.check.values import format_value
@@ -44,10 +48,14 @@ class Effects:
         """Bits that never differed until now."""
         self._buffer = np.empty_like(kept)
         self._found: dict[str, Difference] = {}
+        self._inside: dict[str, Difference] = {}
+        """Those inside of blocks of the library."""
+        self._blocks: dict[str, int] = {}
+        """Such blocks by their paths, and since when they differ."""
         self._words: set[int] = set()
         """Offsets of words of the model that were named as a whole."""
         self.first: int | None = None
-        """The first scan behind which something differed."""
+        """The first scan behind which something differed, but for what is inside of blocks of the library."""
 
     def compare(self, scan: int, without: Words, value: Words) -> None:
         """The states behind a scan."""
@@ -58,32 +66,41 @@ class Effects:
             return
         where = np.flatnonzero(buffer)
         self._fresh[where] &= ~buffer[where]
-        for symbol in self._named(where.tolist(), buffer[where].tolist()):
+        for held in self._named(where.tolist(), buffer[where].tolist()):
+            symbol = held.symbol
+            found = self._inside if held.block else self._found
             raw = symbol.section == "address"
-            if symbol.path in self._found or (raw and symbol.offset & ~1 in self._words) or not self.complete:
+            if symbol.path in found or (raw and symbol.offset & ~1 in self._words) or not self.complete:
                 continue
-            self._found[symbol.path] = self._difference(scan, symbol, without, value)
+            found[symbol.path] = self._difference(scan, symbol, without, value)
             if raw and symbol.bit is None:
                 self._words.add(symbol.offset)
-            if self.first is None:
+            if held.block:
+                self._blocks.setdefault(held.block, scan)
+            elif self.first is None:
                 self.first = scan
 
     @property
     def complete(self) -> bool:
         """Whether all that differs was named."""
-        return len(self._found) < _NAMED
+        return len(self._found) + len(self._inside) < _NAMED
+
+    @property
+    def under_way(self) -> dict[str, int]:
+        """Blocks of the library that differ inside, the first to do so first, and since when."""
+        return self._blocks
 
     @property
     def count(self) -> int:
-        """So many variables differed."""
-        return len(self._found)
+        """So many variables differed; inside of blocks of the library where no other did."""
+        return len(self._found or self._inside)
 
     def shown(self) -> tuple[Difference, ...]:
         """The first of them, outputs first."""
-        ordered = sorted(self._found.values(), key=lambda each: (not each.output, each.scan))
+        ordered = sorted((self._found or self._inside).values(), key=lambda each: (not each.output, each.scan))
         return tuple(ordered[:SHOWN])
 
-    def _named(self, where: list[int], bits: list[int]) -> Iterator[Symbol]:
+    def _named(self, where: list[int], bits: list[int]) -> Iterator[Held]:
         for index, word in zip(where, bits, strict=True):
             if not self.complete:
                 return

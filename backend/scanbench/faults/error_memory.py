@@ -39,10 +39,7 @@ def kept_bits(program: Program) -> Words:
             bits = special.location.bits if special.role != "clock" else 8 * len(special.fields)
             _clear(mask, field_bits(special.location, 0, bits, 0, layout))
     _clear(mask, code_bits(program))
-    if model.log is not None:
-        log = model.log
-        _clear(mask, field_bits(log.first, 0, 16 * log.words * log.records, 0, layout))
-        _clear(mask, field_bits(log.counter, 0, log.counter.bits, 0, layout))
+    _clear(mask, log_bits(program))
     return np.frombuffer(bytes(mask), np.uint64).copy()
 
 
@@ -62,6 +59,15 @@ def code_bits(program: Program) -> list[Bits]:
     return [] if word is None else field_bits(word, 0, word.bits, 0, program.layout)
 
 
+def log_bits(program: Program) -> list[Bits]:
+    """The model's own error log with its counter; nothing where it has none."""
+    log, layout = program.layout.model.log, program.layout
+    if log is None:
+        return []
+    records = field_bits(log.first, 0, 16 * log.words * log.records, 0, layout)
+    return [*records, *field_bits(log.counter, 0, log.counter.bits, 0, layout)]
+
+
 def _clear(mask: bytearray, parts: Iterable[Bits]) -> None:
     for part in parts:
         mask[part.offset] &= ~part.mask
@@ -74,6 +80,7 @@ class Watched:
     flag: dict[int, int]
     code: dict[int, int]
     detail: dict[int, int]
+    log: dict[int, int]
 
     @staticmethod
     def of(program: Program, chosen: Chosen) -> "Watched":
@@ -81,12 +88,12 @@ class Watched:
         single = {(part.offset, part.mask) for part in chosen.marks if part.mask & (part.mask - 1) == 0}
         flags = [part for part in chosen.marks if (part.offset, part.mask) in single]
         details = [*chosen.contents, *(part for part in chosen.marks if part not in flags)]
-        return Watched(_by_byte(flags), _by_byte(code_bits(program)), _by_byte(details))
+        return Watched(_by_byte(flags), _by_byte(code_bits(program)), _by_byte(details), _by_byte(log_bits(program)))
 
     @property
     def bits(self) -> Iterator[tuple[int, int]]:
         """For `Observer.watch`."""
-        for part in (self.flag, self.code, self.detail):
+        for part in (self.flag, self.code, self.detail, self.log):
             yield from part.items()
 
     def kinds(self, offset: int, mask: int) -> Iterator[What]:
@@ -97,6 +104,8 @@ class Watched:
             yield "code"
         if self.detail.get(offset, 0) & mask:
             yield "detail"
+        if self.log.get(offset, 0) & mask:
+            yield "log"
 
 
 def _by_byte(parts: Iterable[Bits]) -> dict[int, int]:

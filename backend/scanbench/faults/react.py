@@ -22,7 +22,9 @@ from scanbench.faults.inject import ACTIVE, Generate, Recover
 from scanbench.faults.observed import ObservedPrograms
 from scanbench.faults.reaction import Line, Reaction, Reader, Verdict, What
 from scanbench.faults.reference import ErrorRef, find_error
+from scanbench.faults.tasks import Turns, triggers
 from scanbench.faults.trace import Trace
+from scanbench.problems import Span
 from scanbench.runtime.command import Command, Entry, Refusal, Swapped
 from scanbench.runtime.header import Halt
 from scanbench.runtime.journal import Journal
@@ -31,6 +33,8 @@ from scanbench.runtime.trap import TrapInfo, Trapped
 
 TRACE_LIMIT = 128 << 20
 """Bytes that the run without the error may take: what it changed, scan by scan."""
+_NAMED = 3
+"""Blocks that a note names."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -73,7 +77,7 @@ def react(
 
 @dataclass(frozen=True, slots=True)
 class Twin:
-    """The run without the error."""
+    """The run without the error. Its last state is that of the trap where one ended it."""
 
     trace: Trace
     reached: frozenset[int]
@@ -95,8 +99,7 @@ def run_twin(
         while waiting and waiting[0][0] <= resource.header.scan:
             resource.submit(waiting.pop(0)[1])
         _advance(resource)
-        if resource.trap is None:
-            trace.add(state_words(resource))
+        trace.add(state_words(resource))
     return Twin(trace, observer.take().reached, resource.trap)
 
 
@@ -137,18 +140,24 @@ class Comparison:
             return Reaction("stopped", 0, note="" if could_run else "the program did not run before either")
         own = [generate, *(each.entry for each in given if _is_about(each.entry.command, ref.id))]
         kept = without_patches(self._prepared.kept, (patch for entry in own for patch in entry.plan.patches))
-        run = _Run(resource, twin, Effects(self._prepared.names, kept), chosen)
+        run = _Run(resource, twin, Effects(self._prepared.names, kept), chosen, ref)
         return run.through(self._programs.observer(self._point.version), given)
 
 
 class _Run:
     """The run with the error, compared with its twin."""
 
-    def __init__(self, resource: Resource, twin: Twin, effects: Effects, chosen: Chosen) -> None:
-        self._resource, self._twin, self._effects, self._chosen = resource, twin, effects, chosen
+    def __init__(
+        self, resource: Resource, twin: Twin, effects: Effects, chosen: Chosen, ref: ErrorRef
+    ) -> None:  # fmt: skip
+        self._resource, self._twin, self._effects, self._chosen, self._ref = resource, twin, effects, chosen, ref
         self._watched = Watched.of(resource.program, chosen)
         self._readers: dict[tuple[int, What], int] = {}
+        self._triggered: dict[tuple[str, Span, What], int] = {}
         self._reached: set[int] = set()
+        self._turns = Turns(resource.program)
+        self._recovered: int | None = None
+        """The scan behind which the program itself took the error back."""
         self._ran = False
 
     def through(self, observer: Observer, given: Sequence[Given]) -> Reaction | Refusal:
@@ -156,12 +165,19 @@ class _Run:
         resource, waiting, scan = self._resource, list(given), 0
         observer.watch(self._watched.bits)
         observer.take()
+        looking = tuple(triggers(resource.program, self._watched))
         for without in self._twin.trace.states():
             _enter(resource, waiting)
             shown = self._kinds_shown()
-            self._ran = self._ran or resource.runnable
-            _advance(resource)
             scan += 1
+            if resource.runnable:
+                self._ran = True
+                self._turns.ran(resource.header.scan)
+                self._look(looking, scan, shown)
+            entered = len(resource.journal)
+            _advance(resource)
+            if self._recovered is None and any(_takes_back(each, self._ref) for each in resource.journal[entered:]):
+                self._recovered = scan
             seen = observer.take()
             self._reached |= seen.reached
             self._read(seen.reads, scan, shown)
@@ -173,14 +189,20 @@ class _Run:
         return self._reaction(scan, observer.sites.statements)
 
     def _kinds_shown(self) -> frozenset[What]:
-        """What of the error can be read in this scan: nothing once it was recovered; its code unless another is more serious."""
+        """What of the error can be read in this scan: once it was recovered only its record in the log; its code unless another
+        is more serious."""
         if self._chosen.error.id not in self._resource.journal.derived(ACTIVE):
-            return frozenset()
+            return frozenset(("log",))
         code = sum(
             self._resource.memory[part.offset] << 8 * index
             for index, part in enumerate(code_bits(self._resource.program))
         )
-        return frozenset(("flag", "detail", "code") if code == self._chosen.code else ("flag", "detail"))
+        return frozenset(("flag", "detail", "log", *(("code",) if code == self._chosen.code else ())))
+
+    def _look(self, looking: Iterable[tuple[str, Span, What]], scan: int, shown: frozenset[What]) -> None:
+        for task, span, what in looking:
+            if what in shown:
+                self._triggered.setdefault((task, span, what), scan)
 
     def _read(self, reads: Iterable[ReadAt], scan: int, shown: frozenset[What]) -> None:
         for read in reads:
@@ -189,36 +211,78 @@ class _Run:
                     self._readers.setdefault((read.site, what), scan)
 
     def _reaction(self, scans: int, sites: Sequence[StatementSite]) -> Reaction:
-        effects, trap = self._effects, self._resource.trap
-        readers: dict[tuple[str, int, str, What], int] = {}
-        for (number, what), scan in self._readers.items():
-            site = sites[number]
-            readers.setdefault((site.span.file, site.span.line, site.pou, what), scan)
+        effects, readers = self._effects, self._places(sites)
         reached = {(sites[each].span.file, sites[each].span.line) for each in self._reached - self._twin.reached}
-        first_effect = effects.first if effects.first is not None or trap is None else scans
+        seen = (effects.first, self._recovered, scans if self._stops_otherwise(scans) else None)
+        first = min((each for each in seen if each is not None), default=None)
+        only_inside = first is None and bool(effects.under_way)
+        if only_inside:
+            first = min(effects.under_way.values())
         verdict: Verdict = "no_effect" if readers else "never_read"
         return Reaction(
-            "reacted" if first_effect is not None else verdict,
+            verdict if first is None else "reacted",
             scans,
             min(readers.values(), default=None),
-            first_effect,
+            first,
             tuple(Reader(*place, scan) for place, scan in sorted(readers.items(), key=lambda each: each[1])),
             effects.shown(),
             effects.count,
             tuple(Line(*place) for place in sorted(reached)),
-            "; ".join(self._notes(trap)),
+            "; ".join((*self._notes(scans), *self._more(scans, first is None, only_inside))),
         )
 
-    def _notes(self, trap: TrapInfo | None) -> Iterator[str]:
-        twin = self._twin
-        if trap is not None:
+    def _places(self, sites: Sequence[StatementSite]) -> dict[tuple[str, int, str, What], int]:
+        """Who read what, and in which scan first."""
+        found: dict[tuple[str, int, str, What], int] = {}
+        for (number, what), scan in self._readers.items():
+            site = sites[number]
+            found.setdefault((site.span.file, site.span.line, site.pou, what), scan)
+        for (task, span, what), scan in self._triggered.items():
+            found.setdefault((span.file, span.line, task, what), scan)
+        return found
+
+    def _traps(self, scans: int) -> tuple[TrapInfo | None, TrapInfo | None]:
+        """What stopped the program in the last scan, with the error and without it."""
+        return self._resource.trap, self._twin.trap if scans == len(self._twin.trace) else None
+
+    def _stops_otherwise(self, scans: int) -> bool:
+        trap, without = self._traps(scans)
+        return trap != without
+
+    def _notes(self, scans: int) -> Iterator[str]:
+        trap, without = self._traps(scans)
+        if trap is not None and without is not None and trap != without:
+            yield f"the program stopped with it: {trap}; and without it: {without}"
+        elif trap is not None and without is None:
             yield f"the program stopped with it: {trap}"
-        elif twin.trap is not None:
-            yield f"the program stops without it too: {twin.trap}"
-        elif twin.trace.full:
-            yield f"only {len(twin.trace)} scans were compared: the program changes too much memory for more"
+        elif trap is not None:
+            yield f"the program stops without it too: {trap}"
+        elif without is not None:
+            yield f"the program goes on with it, and stops without it: {without}"
+        elif self._twin.trace.full:
+            yield f"only {scans} scans were compared: the program changes too much memory for more"
         if not self._effects.complete:
             yield f"more than {self._effects.count} variables differ"
+
+    def _more(self, scans: int, nothing: bool, only_inside: bool) -> Iterator[str]:
+        if self._recovered is not None:
+            yield f"the program recovered it itself, in scan {self._recovered}"
+        if only_inside:
+            blocks = list(self._effects.under_way)
+            named = ", ".join(blocks[:_NAMED]) + (" and others" if len(blocks) > _NAMED else "")
+            yield (
+                f"only a timer or counter of the library is under way: {named}; its output did not change in the window"
+            )
+        if nothing:
+            yield from self._turns.notes(scans)
+
+
+def _takes_back(entry: Entry, ref: ErrorRef) -> bool:
+    """Whether an entry that the program made takes this error back."""
+    command = entry.command
+    if not isinstance(command, Recover):
+        return False
+    return command.ids is None or ref.id in command.ids or any(each.id == ref.id for each in command.numbers)
 
 
 # ---- steps of a run ------------------------------------------------------------------------------------------------

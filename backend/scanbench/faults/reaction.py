@@ -5,7 +5,8 @@ from typing import Literal
 
 Verdict = Literal["reacted", "no_effect", "never_read", "stopped"]
 """stopped: a fatal error, the PLC stopped as the model says, so no program could react."""
-What = Literal["flag", "code", "detail"]
+What = Literal["flag", "code", "detail", "log"]
+"""log: the PLC's own error log or its counter, where a record of the error is."""
 WINDOW = 200
 """Scans that a program gets to react."""
 
@@ -53,9 +54,12 @@ class Reaction:
     window: int
     """Scans that were compared; fewer where something ended them."""
     first_read: int | None = None
-    """Scan of the window in which flag, code or detail was first read, from 1."""
+    """Scan of the window in which flag, code, detail or log was first read, from 1."""
     first_effect: int | None = None
-    """Scan of the window in which something outside of error memory first differed, from 1."""
+    """Scan of the window in which something outside of error memory first differed, from 1.
+
+    That a timer or counter of the library is under way counts where nothing else differs only.
+    """
     readers: tuple[Reader, ...] = ()
     differences: tuple[Difference, ...] = ()
     """The first 200, outputs first."""

@@ -1,8 +1,10 @@
 """A test record from its XML. Whatever is wrong with the file is told with its place."""
 
+from collections.abc import Iterator
 from datetime import UTC, datetime
 from functools import cache
 from importlib.resources import files
+from itertools import chain
 from typing import cast
 
 from lxml import etree
@@ -20,7 +22,7 @@ from scanbench.faults.record import (
     SweepStatus,
     TestRecord,
 )
-from scanbench.plcmodel.document import Document, parse
+from scanbench.plcmodel.document import Document, first_of, parse
 from scanbench.plcmodel.model import Severity
 from scanbench.problems import Problem
 
@@ -33,8 +35,7 @@ def from_xml(text: str, file: str = FILE) -> TestRecord | list[Problem]:
     if not isinstance(document, Document):
         return document
     root = document.root
-    wrong = [*_bad_moments(document), *_bad_cells(document)]
-    if wrong:
+    if wrong := first_of(chain(_bad_moments(document), _bad_cells(document))):
         return wrong
     head = RecordHead(
         project=_text(root, "Project"), model=_text(root, "Model"), instance=_text(root, "Instance"),
@@ -55,9 +56,8 @@ def from_xml(text: str, file: str = FILE) -> TestRecord | list[Problem]:
     )
 
 
-def _bad_moments(document: Document) -> list[Problem]:
+def _bad_moments(document: Document) -> Iterator[Problem]:
     """The schema's moments know more days than there are."""
-    found = []
     for node in document.root.iter():
         for name in ("At", "ExportedAt", "GeneratedAt", "RecoveredAt"):
             value = node.get(name)
@@ -66,12 +66,10 @@ def _bad_moments(document: Document) -> list[Problem]:
             try:
                 datetime.fromisoformat(value).astimezone(UTC)
             except (ValueError, OverflowError) as error:
-                found.append(Problem("M002", f"{name} {value!r} is no moment: {error}", document.span(node, name)))
-    return found
+                yield Problem("M002", f"{name} {value!r} is no moment: {error}", document.span(node, name))
 
 
-def _bad_cells(document: Document) -> list[Problem]:
-    found = []
+def _bad_cells(document: Document) -> Iterator[Problem]:
     errors = {node.get("Id") for node in document.root.findall("Error")}
     for sweep in document.root.findall("Sweep"):
         states, told = {node.get("Name") for node in sweep.findall("State")}, set()
@@ -79,15 +77,14 @@ def _bad_cells(document: Document) -> list[Problem]:
             error, state = cell.get("Error"), cell.get("State")
             if error not in errors:
                 message = f"there is no Error with the Id {error!r} in this record"
-                found.append(Problem("M002", message, document.span(cell, "Error")))
+                yield Problem("M002", message, document.span(cell, "Error"))
             if state not in states:
                 message = f"this Sweep has no State with the Name {state!r}"
-                found.append(Problem("M002", message, document.span(cell, "State")))
+                yield Problem("M002", message, document.span(cell, "State"))
             if (error, state) in told:
                 message = f"this Sweep has two Cells for {error} from {state!r}: one error has one Cell for each State"
-                found.append(Problem("M002", message, document.span(cell)))
+                yield Problem("M002", message, document.span(cell))
             told.add((error, state))
-    return found
 
 
 def _error(node: etree._Element) -> RecordError:

@@ -1,15 +1,14 @@
 """A test record as XML (`record.xsd`), for archives and other tools; `record_read.py` reads it again."""
 
-import re
 from datetime import UTC, datetime
 
 from lxml import etree
 
 from scanbench.faults.reaction import Reaction
 from scanbench.faults.record import RecordError, RecordSweep, TestRecord
+from scanbench.plcmodel.document import xml_text
 
 VERSION = "1"
-_UNWRITABLE = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 Told = str | int | datetime | None
 
 
@@ -84,4 +83,4 @@ def _set(node: etree._Element, **told: Told) -> None:
     for name, value in told.items():
         if value is not None:
             text = value.astimezone(UTC).isoformat() if isinstance(value, datetime) else str(value)
-            node.set(name, _UNWRITABLE.sub("\ufffd", text))
+            node.set(name, xml_text(text))

@@ -1,7 +1,12 @@
 """A model file as text and tree: read without any of XML's dangers, and able to say where an element stands."""
 
 import re
+import threading
+from bisect import bisect_right
 from collections.abc import Iterable, Iterator
+from dataclasses import replace
+from functools import cached_property
+from itertools import islice
 from pathlib import Path
 from typing import cast
 
@@ -12,6 +17,15 @@ from scanbench.problems import Problem, Span
 SCHEMA = "model.xsd"
 SIZE_LIMIT = 4 * 1024 * 1024
 """Bytes; the largest file we ship has a hundredth of it."""
+TOLD = 50
+"""Problems of a file that are told at once: nobody mends more before the next try."""
+_WIDE = 1000
+"""Children of one element up to which `libxml2` may be asked for the place of a violation: it counts them for each."""
+_PIECE = 1 << 16
+_NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
+_NO_ELEMENT = r"<!--.*?-->|<!\[CDATA\[.*?\]\]>|<\?.*?\?>"
+_START_TAG = re.compile(rf"{_NO_ELEMENT}|(<[^\s<>/!?]+)(?:[^<>\"']++|\"[^\"]*\"|'[^']*')*+>", re.DOTALL)
+_ATTRIBUTE = re.compile(r"\s([^\s=]+)\s*=\s*(?:\"([^\"]*)\"|'([^']*)')")
 
 
 class Document:
@@ -21,43 +35,41 @@ class Document:
         self.file = file
         self.root = root
         self._text = text
-        self._starts = [0, *(match.end() for match in re.finditer("\n", text))]
+        self._lines = [0, *(match.end() for match in re.finditer("\n", text))]
 
     def span(self, node: etree._Element, attribute: str = "") -> Span:
         """Where the element, or the value of its attribute, stands in the file."""
-        start = self._tag_start(node)
-        end = start + 1 + len(node.tag)
-        if attribute:
-            tag_end = self._text.find(">", start)
-            pattern = re.compile(rf"\s{re.escape(attribute)}\s*=\s*([\"'])(.*?)\1", re.DOTALL)
-            if found := pattern.search(self._text, start, tag_end + 1 if tag_end >= 0 else len(self._text)):
-                start, end = found.span(2)
-        line, column = self._position(start)
-        end_line, end_column = self._position(end)
-        return Span(self.file, line, column, end_line, end_column)
+        tag = self._tags[node]
+        start, end = tag.span(1)
+        for each in _ATTRIBUTE.finditer(self._text, end, tag.end()) if attribute else ():
+            if each[1] == attribute:
+                start, end = each.span(3 if each[2] is None else 2)
+        return Span(self.file, *self._position(start), *self._position(end))
 
-    def _tag_start(self, node: etree._Element) -> int:
-        """libxml2 keeps the line on which a start tag ends, and no column: look for the tag from there upward."""
-        line = line_of(node)
-        pattern = re.compile(rf"<{re.escape(node.tag)}(?=[\s/>])")
-        before = sum(1 for _ in self._same_line(node, line))
-        end = self._starts[line] if line < len(self._starts) else len(self._text)
-        on_line = [match.start() for match in pattern.finditer(self._text, self._starts[line - 1], end)]
-        if before < len(on_line):
-            return on_line[before]
-        starts = [match.start() for match in pattern.finditer(self._text, 0, end)]
-        return starts[-1] if starts else self._starts[line - 1]
-
-    def _same_line(self, node: etree._Element, line: int) -> Iterator[etree._Element]:
-        for other in self.root.iter(node.tag):
-            if other is node:
-                return
-            if line_of(other) == line:
-                yield other
+    @cached_property
+    def _tags(self) -> dict[etree._Element, re.Match[str]]:
+        """libxml2 keeps of a start tag only the line on which it ends; but tags and elements come in the same order."""
+        tags = (match for match in _START_TAG.finditer(self._text) if match[1])
+        return dict(zip(self.root.iter(etree.Element), tags, strict=True))
 
     def _position(self, offset: int) -> tuple[int, int]:
-        line = self._text.count("\n", 0, offset) + 1
-        return line, offset - self._starts[line - 1] + 1
+        line = bisect_right(self._lines, offset)
+        return line, offset - self._lines[line - 1] + 1
+
+
+def xml_text(text: str) -> str:
+    """The text with U+FFFD for what XML has no character for."""
+    return _NOT_XML.sub("\ufffd", text)
+
+
+def first_of(problems: Iterable[Problem]) -> list[Problem]:
+    """The first ones, and that there are more. A file of megabytes may have one in every line: the rest is not looked for."""
+    found = iter(problems)
+    told = list(islice(found, TOLD))
+    more = next(found, None)
+    if more is not None:
+        told.append(replace(more, message="there are more problems from here on: mend those above first"))
+    return told
 
 
 def line_of(node: etree._Element) -> int:
@@ -109,7 +121,16 @@ def parse(
     document = Document(file, text, root)
     if root.tag != root_tag:
         return [Problem("M002", f"this is <{root.tag}>, here belongs <{root_tag}>", document.span(root))]
-    return document if schema.validate(root) else list(_violations(document, schema))
+    if any(len(node) > _WIDE for node in root.iter()):
+        return first_of(_violations_by_line(file, text, schema)) or document
+    with _validating:
+        if schema.validate(root):
+            return document
+        entries = list(cast("Iterable[etree._LogEntry]", schema.error_log))
+    return first_of(_violations(document, entries))
+
+
+_validating = threading.Lock()  # a schema tells of its last validation only
 
 
 def _where(text: str, offset: int) -> tuple[int, int]:
@@ -121,9 +142,9 @@ def _unreadable(file: str, message: str, line: int = 1, column: int = 1) -> Prob
     return Problem("M001", message, Span(file, line, column, line, column + 1))
 
 
-def _violations(document: Document, schema: etree.XMLSchema) -> Iterator[Problem]:
+def _violations(document: Document, entries: Iterable[etree._LogEntry]) -> Iterator[Problem]:
     told = set()
-    for entry in cast("Iterable[etree._LogEntry]", schema.error_log):
+    for entry in entries:
         # libxml2 reports a bad value twice, the second time only that it is "not a valid value": the first says more.
         attribute = match[1] if (match := re.search(r"attribute '(\w+)'", entry.message)) else ""
         place = (entry.path, attribute)
@@ -134,6 +155,20 @@ def _violations(document: Document, schema: etree.XMLSchema) -> Iterator[Problem
         node = found[0] if isinstance(found, list) and found else None
         element = node if isinstance(node, etree._Element) else document.root
         yield Problem("M002", entry.message, document.span(element, attribute))
+
+
+def _violations_by_line(file: str, text: str, schema: etree.XMLSchema) -> Iterator[Problem]:
+    """Reads line by line, and sees what each adds to the log: that takes no longer for a file that is wrong throughout."""
+    parser = etree.XMLParser(encoding="utf-8", schema=schema, resolve_entities=False, no_network=True)
+    seen = 0
+    for number, match in enumerate(re.finditer(".*\n?", text), 1):
+        line = match[0]
+        for start in range(0, len(line), _PIECE):
+            parser.feed(line[start : start + _PIECE].encode())
+            log = parser.feed_error_log
+            new, seen = list(cast("Iterable[etree._LogEntry]", log))[seen:], len(log)
+            for entry in new:
+                yield Problem("M002", entry.message, Span(file, number, 1, number, 2))
 
 
 def _doctype(text: str) -> int | None:

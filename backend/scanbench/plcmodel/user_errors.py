@@ -14,11 +14,13 @@ from functools import cache
 from lxml import etree
 
 from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Wording
-from scanbench.plcmodel.document import Document, parse, schema_of
+from scanbench.plcmodel.document import Document, first_of, parse, schema_of
 from scanbench.plcmodel.load import model_directory
 from scanbench.plcmodel.model import Model
+from scanbench.plcmodel.overlaps import Stretch, stretch, stretches
 from scanbench.plcmodel.read_catalogue import read_catalogue
 from scanbench.plcmodel.reading import Reader
+from scanbench.plcmodel.system_words import addresses_of, taken, who_has
 from scanbench.problems import Problem, Span
 
 USER_ERRORS = "errors.xml"
@@ -55,16 +57,17 @@ def extended(model: Model, files: Mapping[str, str]) -> tuple[Model, list[Proble
 
 def with_user_errors(model: Model, text: str, file: str = USER_ERRORS) -> Extended:
     """The model with the errors of this text, or everything that is wrong with it. Thread-safe."""
+    key = (file, text)
     with _lock:
-        key = (file, text)
         known, made = _known.get(key, (None, None))
-        if made is None or not (known is model or known == model):
-            made = _extend(model, text, file)
+    if made is None or not (known is model or known == model):
+        made = _extend(model, text, file)  # it may take a while: those who know theirs do not wait for it
+    with _lock:
         _known[key] = model, made
         _known.move_to_end(key)
         while len(_known) > _REMEMBERED:
             _known.popitem(last=False)
-        return made[0], list(made[1])
+    return made[0], list(made[1])
 
 
 def device_of(model: Model) -> Model:
@@ -78,7 +81,7 @@ def document_of(text: str, file: str = USER_ERRORS) -> Document | list[Problem]:
     return parse(text, file, _schema(), ROOT)
 
 
-_lock = threading.RLock()  # a schema tells of its last validation only
+_lock = threading.Lock()
 _known: OrderedDict[tuple[str, str], tuple[Model | None, Extended | None]] = OrderedDict()
 
 
@@ -98,24 +101,45 @@ def _extend(model: Model, text: str, file: str) -> Extended:
     groups = read_catalogue((reader,))
     _compare(reader, device, groups)
     if reader.problems:
-        return None, sorted(dict.fromkeys(reader.problems), key=lambda each: (each.span.line, each.span.column))
+        found = sorted(dict.fromkeys(reader.problems), key=lambda each: (each.span.line, each.span.column))
+        return None, first_of(found)
     mine = ErrorGroup(GROUP, tuple(map(_mine, groups)), (), _WORDINGS)
     return (replace(device, catalogue=(*device.catalogue, mine)) if groups else device), []
 
 
 def _compare(reader: Reader, device: Model, groups: Sequence[ErrorGroup]) -> None:
-    """What the device has is not defined a second time."""
+    """What the device has is not defined a second time, and not written."""
     pairs = {_pair(error): error for error in device.errors()}
-    nodes = {node.get("Id", ""): node for node in reader.root.iter("Error")}
+    nodes: dict[str, etree._Element] = {}
+    for node in reader.root.iter("Error"):
+        nodes.setdefault(node.get("Id", ""), node)  # of two with one Id the first is read
     for id, node in nodes.items():
         if (own := device.error(id)) is not None:
             message = f"{device.name} has an error {id!r} itself ({own.name}): give yours another Id"
             reader.problem("M004", message, node, "Id")
+    known = tuple(taken(device))
     for error in _all(groups):
-        twin = pairs.get(_pair(error))
+        node, twin = nodes[error.id], pairs.get(_pair(error))
         if twin is not None:
             message = f"code {error.code_text} with flag {error.flag_text} is {twin.id!r} of the {device.name} itself"
-            reader.problem("M005", message, nodes[error.id], "ErrorCode")
+            reader.problem("M005", message, node, "ErrorCode")
+        for at, attribute, bits in _written(error, node):
+            purpose = who_has(known, bits)
+            if purpose and (twin is None or attribute != "ErrorFlag"):
+                message = (
+                    f"{at.get(attribute)} is {purpose} ({device.name}): an error of a project must not write there; "
+                    "take an address that only your program uses"
+                )
+                reader.problem("M003", message, at, attribute)
+
+
+def _written(error: ErrorEntry, node: etree._Element) -> Iterator[tuple[etree._Element, str, Stretch]]:
+    """What an error writes, with the element and attribute that say so."""
+    yield node, "ErrorFlag", stretch(error.flag)
+    places = [*node.iterchildren("Also"), *node.iter("ErrorAddress")]
+    for place, address in zip(places, addresses_of(error), strict=True):
+        for bits in stretches((address,)):
+            yield place, "Address", bits
 
 
 def _pair(error: ErrorEntry) -> tuple[int, str, int, int | None]:

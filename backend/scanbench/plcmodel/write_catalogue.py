@@ -8,11 +8,11 @@ import re
 from collections.abc import Iterable, Mapping
 from dataclasses import dataclass, field
 
+from scanbench.plcmodel.document import xml_text
 from scanbench.plcmodel.drafts import ADDRESS, ALSO, DETAIL, ERROR, DraftDetail, DraftError, Drafts, Texts
 
 _CONTROLS = 16
 """So many stand in one ErrorDetailPattern."""
-_NOT_XML = re.compile("[^\t\n\r\x20-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]")
 _ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\t": "&#9;", "\n": "&#10;", "\r": "&#13;"}
 _ESCAPED = re.compile('[&<>"\t\n\r]')
 
@@ -155,4 +155,4 @@ def _write_detail(writer: _Writer, detail: DraftDetail, path: str) -> None:
 
 def _escaped(text: str) -> str:
     """As content and as a value; what XML has no character for becomes the replacement character."""
-    return _ESCAPED.sub(lambda match: _ENTITIES[match[0]], _NOT_XML.sub("\ufffd", text))
+    return _ESCAPED.sub(lambda match: _ENTITIES[match[0]], xml_text(text))

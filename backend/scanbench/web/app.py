@@ -15,7 +15,7 @@ from scanbench import __version__
 from scanbench.session.instance import Unavailable
 from scanbench.session.refused import Refused
 from scanbench.session.workbench import Workbench
-from scanbench.store.records import Conflict, NameTaken, NotFound, StoreError
+from scanbench.store.records import Conflict, NameTaken, NotFound, NotStorable, StoreError
 from scanbench.web import messages as wire
 from scanbench.web import (
     routes_errors,
@@ -31,7 +31,7 @@ from scanbench.web.auth import Gate, Guard
 from scanbench.web.pages import frontend_directory, not_built_page
 
 _STATUS: dict[type[Exception], int] = {
-    NotFound: 404, NameTaken: 409, Refused: 422, Unavailable: 503, StoreError: 503,
+    NotFound: 404, NameTaken: 409, NotStorable: 422, Refused: 422, Unavailable: 503, StoreError: 503,
 }  # fmt: skip
 
 

@@ -8,7 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from scanbench.web.messages_base import Scan, Wire
+from scanbench.web.messages_base import Id, Scan, Version, Wire
 from scanbench.web.messages_errors import (
     Arm,
     Armed,
@@ -64,7 +64,7 @@ class SaveFile(Wire):
     """Optimistic save: `version` is the one the edit began from (0 for a new file)."""
 
     text: str
-    version: int
+    version: Version
 
 
 class SaveConflict(Wire):
@@ -129,7 +129,7 @@ class Build(Wire):
     """`agreed`: variables may be initialised anew; without it a build that would do so only reports what it would do."""
 
     agreed: bool = False
-    instances: list[int] | None = Field(default=None, description="which PLCs are to be changed; null is all of them")
+    instances: list[Id] | None = Field(default=None, description="which PLCs are to be changed; null is all of them")
 
 
 class BuildResult(Wire):
@@ -254,7 +254,7 @@ class Instance(Wire):
 
 
 class NewInstance(Wire):
-    project: int
+    project: Id
     name: str = Field(min_length=1, max_length=100)
 
 

@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from scanbench.web.messages_base import Scan, Wire
+from scanbench.web.messages_base import Id, Scan, Wire
 
 Severity = Literal["fatal", "nonfatal"]
 Verdict = Literal["reacted", "no_effect", "never_read", "stopped"]
@@ -174,7 +174,7 @@ class FaultStart(Wire):
     scan: Scan | None = None
     condition: str = Field(default="", max_length=2000)
     file: str = ""
-    line: int = 0
+    line: Annotated[int, Field(ge=0, lt=1 << 31)] = 0
 
 
 class FaultShape(Wire):
@@ -206,7 +206,7 @@ class Disarm(Wire):
 
     type: Literal["disarm"] = "disarm"
     ref: int
-    ids: list[int] | None = Field(description="null is all of them")
+    ids: list[Id] | None = Field(description="null is all of them")
 
 
 class ArmedFault(Wire):
@@ -278,7 +278,7 @@ class RecoverErrors(Wire):
 class ClearErrors(Wire):
     """The tool's own way, as FINS 2101: what the device lets go of. An error whose cause is still there stays."""
 
-    what: Literal["current", "all"] | int = Field(
+    what: Literal["current", "all"] | Annotated[int, Field(ge=0, le=0xFFFF_FFFF)] = Field(
         default="current", description="`current` (the most serious), `all`, or an error code as a number"
     )
 
@@ -308,7 +308,7 @@ class NewSweep(Wire):
     """Every error alone, from every state. `states`: numbers of kept states; none: from the PLC as it is now."""
 
     errors: list[str] | None = Field(default=None, description="ids; null is the whole catalogue")
-    states: list[int] = Field(default_factory=list)
+    states: list[Id] = Field(default_factory=list)
     window: Annotated[int, Field(ge=1, le=100_000)] = 200
 
 
@@ -318,6 +318,7 @@ SweepStatus = Literal["running", "done", "cancelled", "interrupted", "failed"]
 class SweepSummary(Wire):
     id: int
     project: int
+    instance_id: int | None = Field(description="null: that PLC is gone")
     instance: str
     model: str
     program_version: int

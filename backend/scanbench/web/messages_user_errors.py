@@ -4,7 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from scanbench.web.messages_base import Wire
+from scanbench.web.messages_base import Version, Wire
 
 Typed = Annotated[str, Field(max_length=1000)]
 Told = Annotated[str, Field(max_length=20_000)]
@@ -89,7 +89,7 @@ class UserErrorsDraft(Wire):
 class SaveUserErrors(UserErrorsDraft):
     """`version` is that of errors.xml which the edit began from (0: there was none)."""
 
-    version: Annotated[int, Field(ge=0, lt=1 << 31)]
+    version: Version
 
 
 class UserProblem(Wire):

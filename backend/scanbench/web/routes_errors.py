@@ -10,20 +10,21 @@ from scanbench.session.refused import Refused
 from scanbench.web import messages as wire
 from scanbench.web import messages_errors, translate, translate_errors
 from scanbench.web.auth import user_of
+from scanbench.web.messages_base import Id
 from scanbench.web.reach import Bench
 
 router = APIRouter(prefix="/api/instances/{instance}", tags=["errors"])
 
 
 @router.get("/model")
-async def on_model(bench: Bench, instance: int) -> wire.ModelInfo:
+async def on_model(bench: Bench, instance: Id) -> wire.ModelInfo:
     """The model with the errors that the project added, as the program that runs knows it."""
     return translate.model_info(bench.session(instance).model)
 
 
 @router.post("/errors/generate")
 async def on_generate(
-    bench: Bench, request: Request, instance: int, wanted: messages_errors.GenerateErrors
+    bench: Bench, request: Request, instance: Id, wanted: messages_errors.GenerateErrors
 ) -> messages_errors.CommandResult:
     """Raises errors, all in one seam, or none of them."""
     refs = translate_errors.refs(wanted.errors)
@@ -32,7 +33,7 @@ async def on_generate(
 
 @router.post("/errors/recover")
 async def on_recover(
-    bench: Bench, request: Request, instance: int, wanted: messages_errors.RecoverErrors
+    bench: Bench, request: Request, instance: Id, wanted: messages_errors.RecoverErrors
 ) -> messages_errors.CommandResult:
     """Recovers these errors, or all that are generated."""
     ids = None if wanted.ids is None else tuple(wanted.ids)
@@ -41,21 +42,21 @@ async def on_recover(
 
 @router.post("/errors/clear")
 async def on_clear(
-    bench: Bench, request: Request, instance: int, wanted: messages_errors.ClearErrors
+    bench: Bench, request: Request, instance: Id, wanted: messages_errors.ClearErrors
 ) -> messages_errors.CommandResult:
     """Clears errors as a tool does it on the device (FINS 2101)."""
     return _result(await bench.session(instance).submit(ClearErrors(user_of(request).name, wanted.what)))
 
 
 @router.post("/errors/log/clear")
-async def on_clear_log(bench: Bench, request: Request, instance: int) -> messages_errors.CommandResult:
+async def on_clear_log(bench: Bench, request: Request, instance: Id) -> messages_errors.CommandResult:
     """Empties the PLC's own error log, as a tool does it on the device (FINS 2103)."""
     return _result(await bench.session(instance).submit(ClearErrorLog(user_of(request).name)))
 
 
 @router.post("/errors/preview")
 async def on_preview(
-    bench: Bench, instance: int, wanted: messages_errors.PreviewErrors
+    bench: Bench, instance: Id, wanted: messages_errors.PreviewErrors
 ) -> messages_errors.PreviewedErrors:
     """What raising these would write now; nothing is changed."""
     refs = translate_errors.refs(wanted.errors)
@@ -64,14 +65,14 @@ async def on_preview(
 
 @router.post("/write")
 async def on_write(
-    bench: Bench, request: Request, instance: int, wanted: messages_errors.WriteValue
+    bench: Bench, request: Request, instance: Id, wanted: messages_errors.WriteValue
 ) -> messages_errors.CommandResult:
     """Writes a variable or an address, with the rights of a tool: error memory is read-only here."""
     return _result(await bench.session(instance).submit(Write(user_of(request).name, wanted.path, wanted.value)))
 
 
 @router.get("/errors/{error}/reaction")
-async def on_reaction(bench: Bench, instance: int, error: str) -> messages_errors.Reaction:
+async def on_reaction(bench: Bench, instance: Id, error: str) -> messages_errors.Reaction:
     """How the program reacted to an error the last time it was raised here."""
     found = bench.session(instance).reaction(error)
     if found is None:

@@ -14,7 +14,7 @@ from scanbench.store.records import Limits, NotFound
 from scanbench.web import messages as wire
 from scanbench.web import translate
 from scanbench.web.auth import user_of
-from scanbench.web.messages_base import Scan
+from scanbench.web.messages_base import Id, Scan
 from scanbench.web.messages_errors import ErrorHistoryRow
 from scanbench.web.reach import Bench, SocketBench
 from scanbench.web.socket import Client
@@ -49,14 +49,14 @@ async def on_new_instance(bench: Bench, new: wire.NewInstance) -> wire.Instance:
 
 
 @router.get("/instances/{instance}")
-async def on_instance(bench: Bench, instance: int) -> wire.Instance:
+async def on_instance(bench: Bench, instance: Id) -> wire.Instance:
     """One instance."""
     return await _instance(bench, bench.session(instance))
 
 
 @router.patch("/instances/{instance}")
 async def on_change_instance(
-    bench: Bench, request: Request, instance: int, change: wire.ChangeInstance
+    bench: Bench, request: Request, instance: Id, change: wire.ChangeInstance
 ) -> wire.Instance:
     """Renames it, switches it on or off, limits what it may cost."""
     limits = None if change.limits is None else Limits(**change.limits.model_dump())
@@ -66,14 +66,14 @@ async def on_change_instance(
 
 
 @router.post("/instances/{instance}/branch", status_code=201)
-async def on_branch(bench: Bench, request: Request, instance: int, branch: wire.Branch) -> wire.Instance:
+async def on_branch(bench: Bench, request: Request, instance: Id, branch: wire.Branch) -> wire.Instance:
     """A new PLC that begins as this one was before a scan, or is now."""
     session = await bench.branch(instance, branch.name.strip(), branch.scan, user_of(request).name)
     return await _instance(bench, session)
 
 
 @router.get("/instances/{instance}/export", response_class=FileResponse)
-async def on_export(bench: Bench, request: Request, instance: int, scan: Scan | None = None) -> FileResponse:
+async def on_export(bench: Bench, request: Request, instance: Id, scan: Scan | None = None) -> FileResponse:
     """The run as one file, which replays byte for byte elsewhere; it ends before `scan`, or now."""
     name = f"{bench.session(instance).name}.scanrun"
     path = await bench.export(instance, scan, user_of(request).name)
@@ -106,13 +106,13 @@ async def on_import(bench: Bench, request: Request, name: str) -> wire.Instance:
 
 
 @router.delete("/instances/{instance}", status_code=204)
-async def on_delete_instance(bench: Bench, instance: int) -> None:
+async def on_delete_instance(bench: Bench, instance: Id) -> None:
     """Ends a PLC, and forgets it."""
     await bench.delete_instance(instance)
 
 
 @router.get("/instances/{instance}/symbols")
-async def on_symbols(bench: Bench, instance: int, path: str = "") -> list[wire.Symbol]:
+async def on_symbols(bench: Bench, instance: Id, path: str = "") -> list[wire.Symbol]:
     """The members below a path; programs and globals below ''."""
     found = await bench.session(instance).look_up("members", path)
     if found.message:
@@ -121,20 +121,20 @@ async def on_symbols(bench: Bench, instance: int, path: str = "") -> list[wire.S
 
 
 @router.get("/instances/{instance}/complete")
-async def on_complete(bench: Bench, instance: int, text: str = "") -> list[wire.Symbol]:
+async def on_complete(bench: Bench, instance: Id, text: str = "") -> list[wire.Symbol]:
     """At most 50 symbols whose path begins with the text."""
     found = await bench.session(instance).look_up("complete", text)
     return list(map(translate.symbol, found.symbols))
 
 
 @router.get("/instances/{instance}/errors")
-async def on_errors(bench: Bench, instance: int) -> list[ErrorHistoryRow]:
+async def on_errors(bench: Bench, instance: Id) -> list[ErrorHistoryRow]:
     """The error history, in the order of the catalogue."""
     return list(map(translate.error_row, bench.session(instance).rows))
 
 
 @router.websocket("/instances/{instance}/socket")
-async def on_socket(bench: SocketBench, socket: WebSocket, instance: int) -> None:
+async def on_socket(bench: SocketBench, socket: WebSocket, instance: Id) -> None:
     """Live values, events and commands."""
     try:
         session = bench.session(instance)

@@ -5,6 +5,7 @@ from fastapi import APIRouter, Request
 from scanbench.web import messages as wire
 from scanbench.web import translate
 from scanbench.web.auth import user_of
+from scanbench.web.messages_base import Id
 from scanbench.web.reach import Bench
 
 router = APIRouter(prefix="/api/projects", tags=["projects"])
@@ -24,43 +25,43 @@ async def on_new_project(bench: Bench, new: wire.NewProject) -> wire.Project:
 
 
 @router.delete("/{project}", status_code=204)
-async def on_delete_project(bench: Bench, project: int) -> None:
+async def on_delete_project(bench: Bench, project: Id) -> None:
     """Deletes a project that no instance runs."""
     await bench.delete_project(project)
 
 
 @router.get("/{project}/files")
-async def on_files(bench: Bench, project: int) -> list[wire.FileInfo]:
+async def on_files(bench: Bench, project: Id) -> list[wire.FileInfo]:
     """The files of a project."""
     return [translate.file_info(row) for row in await bench.projects.files(project)]
 
 
 @router.get("/{project}/files/{path:path}")
-async def on_file(bench: Bench, project: int, path: str) -> wire.FileText:
+async def on_file(bench: Bench, project: Id, path: str) -> wire.FileText:
     """One file with its text."""
     return translate.file_text(await bench.projects.file(project, path))
 
 
 @router.put("/{project}/files/{path:path}", responses={409: {"model": wire.SaveConflict}})
-async def on_save_file(bench: Bench, request: Request, project: int, path: str, save: wire.SaveFile) -> wire.FileInfo:
+async def on_save_file(bench: Bench, request: Request, project: Id, path: str, save: wire.SaveFile) -> wire.FileInfo:
     """Saves a file, if nobody else did since it was read."""
     row = await bench.projects.save(project, path, save.text, save.version, user_of(request).name)
     return translate.file_info(row)
 
 
 @router.delete("/{project}/files/{path:path}", status_code=204)
-async def on_delete_file(bench: Bench, request: Request, project: int, path: str) -> None:
+async def on_delete_file(bench: Bench, request: Request, project: Id, path: str) -> None:
     """Deletes a file."""
     await bench.projects.delete_file(project, path, user_of(request).name)
 
 
 @router.post("/{project}/check")
-async def on_check(bench: Bench, project: int, edited: wire.CheckRequest) -> wire.CheckResult:
+async def on_check(bench: Bench, project: Id, edited: wire.CheckRequest) -> wire.CheckResult:
     """Checks the project with texts that are not saved yet; stores nothing."""
     return translate.check_result(await bench.projects.check(project, edited.files))
 
 
 @router.post("/{project}/build")
-async def on_build(bench: Bench, request: Request, project: int, how: wire.Build = _PLAIN_BUILD) -> wire.BuildResult:
+async def on_build(bench: Bench, request: Request, project: Id, how: wire.Build = _PLAIN_BUILD) -> wire.BuildResult:
     """Builds what is saved, and swaps it into the project's instances; asks first where variables would begin anew."""
     return translate.build_result(await bench.projects.build(project, user_of(request).name, how.agreed, how.instances))

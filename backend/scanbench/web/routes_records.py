@@ -16,6 +16,7 @@ from scanbench.session.refused import Refused
 from scanbench.web import messages_records as wire
 from scanbench.web import translate, translate_records
 from scanbench.web.auth import user_of
+from scanbench.web.messages_base import Id, Version
 from scanbench.web.reach import Bench
 
 router = APIRouter(prefix="/api", tags=["records"])
@@ -25,13 +26,13 @@ _STYLE_ONLY = {"Content-Security-Policy": "default-src 'none'; style-src 'unsafe
 
 
 @router.get("/instances/{instance}/history/versions")
-async def on_versions(bench: Bench, instance: int) -> list[wire.HistoryVersion]:
+async def on_versions(bench: Bench, instance: Id) -> list[wire.HistoryVersion]:
     """The versions of the program that have an error history here, the newest first."""
     return list(map(translate_records.version, await bench.records.versions(bench.session(instance))))
 
 
 @router.get("/instances/{instance}/history")
-async def on_history(bench: Bench, instance: int, version: int | None = None) -> wire.HistoryOfVersion:
+async def on_history(bench: Bench, instance: Id, version: Version | None = None) -> wire.HistoryOfVersion:
     """The error history of a version, or of the one that runs."""
     session = bench.session(instance)
     rows = await bench.records.rows(session, version)
@@ -43,7 +44,7 @@ async def on_history(bench: Bench, instance: int, version: int | None = None) ->
 
 @router.get("/instances/{instance}/record", response_model=wire.TestRecord)
 async def on_record(
-    bench: Bench, request: Request, instance: int, version: int | None = None, format: Format = "json",
+    bench: Bench, request: Request, instance: Id, version: Version | None = None, format: Format = "json",
     lang: Language = "en",
 ) -> Response | wire.TestRecord:  # fmt: skip
     """The test record of a version, or of the one that runs: as a file, or as JSON."""
@@ -52,13 +53,13 @@ async def on_record(
 
 
 @router.get("/projects/{project}/records")
-async def on_records(bench: Bench, project: int) -> list[wire.RecordInfo]:
+async def on_records(bench: Bench, project: Id) -> list[wire.RecordInfo]:
     """The test records that were brought in, the newest first."""
     return list(map(translate_records.info, await bench.records.imported(project)))
 
 
 @router.post("/projects/{project}/records", status_code=201)
-async def on_import(bench: Bench, request: Request, project: int) -> wire.RecordInfo:
+async def on_import(bench: Bench, request: Request, project: Id) -> wire.RecordInfo:
     """Keeps a test record from elsewhere; the body is its XML."""
     body = bytearray()
     async for chunk in request.stream():
@@ -74,7 +75,7 @@ async def on_import(bench: Bench, request: Request, project: int) -> wire.Record
 
 @router.get("/projects/{project}/records/{record}", response_model=wire.ImportedRecord)
 async def on_imported(
-    bench: Bench, project: int, record: int, format: Format = "json", lang: Language = "en"
+    bench: Bench, project: Id, record: Id, format: Format = "json", lang: Language = "en"
 ) -> Response | wire.ImportedRecord:
     """A test record that was brought in: as a file, or as JSON."""
     info, found = await bench.records.one(project, record)
@@ -84,7 +85,7 @@ async def on_imported(
 
 
 @router.delete("/projects/{project}/records/{record}", status_code=204)
-async def on_delete(bench: Bench, project: int, record: int) -> None:
+async def on_delete(bench: Bench, project: Id, record: Id) -> None:
     """Forgets a test record that was brought in."""
     await bench.records.delete(project, record)
 

@@ -5,20 +5,21 @@ from fastapi import APIRouter, Request
 from scanbench.web import messages as wire
 from scanbench.web import messages_errors, translate, translate_errors, translate_sweeps
 from scanbench.web.auth import user_of
+from scanbench.web.messages_base import Id
 from scanbench.web.reach import Bench
 
 router = APIRouter(prefix="/api", tags=["sweeps"])
 
 
 @router.get("/projects/{project}/states")
-async def on_states(bench: Bench, project: int) -> list[messages_errors.ProgramState]:
+async def on_states(bench: Bench, project: Id) -> list[messages_errors.ProgramState]:
     """The states that somebody kept."""
     return list(map(translate_sweeps.state, await bench.states.of_project(project)))
 
 
 @router.post("/instances/{instance}/states", status_code=201)
 async def on_new_state(
-    bench: Bench, request: Request, instance: int, new: messages_errors.NewProgramState
+    bench: Bench, request: Request, instance: Id, new: messages_errors.NewProgramState
 ) -> messages_errors.ProgramState:
     """Keeps the PLC as it was before a scan, or is now."""
     session = bench.session(instance)
@@ -26,20 +27,20 @@ async def on_new_state(
 
 
 @router.delete("/states/{state}", status_code=204)
-async def on_delete_state(bench: Bench, state: int) -> None:
+async def on_delete_state(bench: Bench, state: Id) -> None:
     """Forgets a state; sweeps that began there keep their results."""
     await bench.states.delete(state)
 
 
 @router.get("/projects/{project}/sweeps")
-async def on_sweeps(bench: Bench, project: int) -> list[messages_errors.SweepSummary]:
+async def on_sweeps(bench: Bench, project: Id) -> list[messages_errors.SweepSummary]:
     """The sweeps of a project, the newest first."""
     return list(map(translate_sweeps.summary, await bench.sweeps.of_project(project)))
 
 
 @router.post("/instances/{instance}/sweeps", status_code=201)
 async def on_new_sweep(
-    bench: Bench, request: Request, instance: int, new: messages_errors.NewSweep
+    bench: Bench, request: Request, instance: Id, new: messages_errors.NewSweep
 ) -> messages_errors.SweepSummary:
     """Begins a sweep; progress comes by the WebSockets of the project's PLCs."""
     session = bench.session(instance)
@@ -48,38 +49,38 @@ async def on_new_sweep(
 
 
 @router.get("/sweeps/{sweep}")
-async def on_sweep(bench: Bench, sweep: int) -> messages_errors.Sweep:
+async def on_sweep(bench: Bench, sweep: Id) -> messages_errors.Sweep:
     """A sweep with all its cells."""
     return translate_sweeps.whole(await bench.sweeps.whole(sweep))
 
 
 @router.delete("/sweeps/{sweep}", status_code=204)
-async def on_delete_sweep(bench: Bench, sweep: int) -> None:
+async def on_delete_sweep(bench: Bench, sweep: Id) -> None:
     """Forgets a sweep; one that runs is cancelled."""
     await bench.sweeps.delete(sweep)
 
 
 @router.post("/sweeps/{sweep}/cancel")
-async def on_cancel(bench: Bench, sweep: int) -> messages_errors.SweepSummary:
+async def on_cancel(bench: Bench, sweep: Id) -> messages_errors.SweepSummary:
     """Stops a sweep; what it found is kept, and it can be resumed."""
     return translate_sweeps.summary(await bench.sweeps.cancel(sweep))
 
 
 @router.post("/sweeps/{sweep}/resume")
-async def on_resume(bench: Bench, sweep: int) -> messages_errors.SweepSummary:
+async def on_resume(bench: Bench, sweep: Id) -> messages_errors.SweepSummary:
     """Goes on with the cells that are missing."""
     return translate_sweeps.summary(await bench.sweeps.resume(sweep))
 
 
 @router.post("/sweeps/{sweep}/reaction")
-async def on_cell(bench: Bench, sweep: int, cell: messages_errors.CellRef) -> messages_errors.Reaction:
+async def on_cell(bench: Bench, sweep: Id, cell: messages_errors.CellRef) -> messages_errors.Reaction:
     """All that was found out about one cell."""
     return translate_errors.reaction(await bench.sweeps.reaction(sweep, cell.error, cell.state))
 
 
 @router.post("/sweeps/{sweep}/accept")
 async def on_accept(
-    bench: Bench, request: Request, sweep: int, finding: messages_errors.AcceptFinding
+    bench: Bench, request: Request, sweep: Id, finding: messages_errors.AcceptFinding
 ) -> messages_errors.Accepted:
     """Accepts a finding with a reason, for this and later sweeps of the project; it stands in the test record."""
     made = await bench.sweeps.accept(sweep, finding.error, finding.state, finding.reason, user_of(request).name)
@@ -87,19 +88,19 @@ async def on_accept(
 
 
 @router.post("/sweeps/{sweep}/withdraw", status_code=204)
-async def on_withdraw(bench: Bench, sweep: int, cell: messages_errors.CellRef) -> None:
+async def on_withdraw(bench: Bench, sweep: Id, cell: messages_errors.CellRef) -> None:
     """The finding is accepted no more."""
     await bench.sweeps.withdraw(sweep, cell.error, cell.state)
 
 
 @router.post("/sweeps/{sweep}/open", status_code=201)
-async def on_open(bench: Bench, request: Request, sweep: int, cell: messages_errors.OpenCell) -> wire.Instance:
+async def on_open(bench: Bench, request: Request, sweep: Id, cell: messages_errors.OpenCell) -> wire.Instance:
     """A new PLC in this state with this error raised, paused: to look at what the sweep saw."""
     session = await bench.sweeps.open(sweep, cell.error, cell.state, cell.name.strip(), user_of(request).name)
     return translate.instance(session, await bench.projects.get(session.project_id))
 
 
 @router.get("/sweeps/{before}/compare/{after}")
-async def on_compare(bench: Bench, before: int, after: int) -> messages_errors.SweepComparison:
+async def on_compare(bench: Bench, before: Id, after: Id) -> messages_errors.SweepComparison:
     """What became better or worse from one sweep to another: of two versions, or of two models."""
     return translate_sweeps.comparison(await bench.sweeps.compare(before, after))

@@ -13,19 +13,20 @@ from scanbench.session.refused import Refused
 from scanbench.web import messages as shared
 from scanbench.web import messages_user_errors as wire
 from scanbench.web.auth import user_of
+from scanbench.web.messages_base import Id, Version
 from scanbench.web.reach import Bench
 
 router = APIRouter(prefix="/api/projects/{project}/user-errors", tags=["user errors"])
 
 
 @router.get("")
-async def on_user_errors(bench: Bench, project: int) -> wire.UserErrors:
+async def on_user_errors(bench: Bench, project: Id) -> wire.UserErrors:
     """The project's own errors."""
     return _shown(await user_errors.read(bench.projects, project))
 
 
 @router.post("/check")
-async def on_check_user_errors(bench: Bench, project: int, draft: wire.UserErrorsDraft) -> wire.UserErrorsChecked:
+async def on_check_user_errors(bench: Bench, project: Id, draft: wire.UserErrorsDraft) -> wire.UserErrorsChecked:
     """What is wrong with errors that are being edited; stores nothing."""
     found = await user_errors.check(bench.projects, project, _drafts(draft))
     return wire.UserErrorsChecked(problems=list(map(_problem, found)))
@@ -33,7 +34,7 @@ async def on_check_user_errors(bench: Bench, project: int, draft: wire.UserError
 
 @router.put("", responses={409: {"model": shared.SaveConflict}})
 async def on_save_user_errors(
-    bench: Bench, request: Request, project: int, save: wire.SaveUserErrors
+    bench: Bench, request: Request, project: Id, save: wire.SaveUserErrors
 ) -> wire.UserErrors:
     """Writes them all to errors.xml, if nothing is wrong with them and nobody else saved since they were read."""
     author = user_of(request).name
@@ -42,7 +43,7 @@ async def on_save_user_errors(
 
 @router.post("/import", responses={409: {"model": shared.SaveConflict}})
 async def on_import_user_errors(
-    bench: Bench, request: Request, project: int, version: int, how: wire.ImportHow = "replace"
+    bench: Bench, request: Request, project: Id, version: Version, how: wire.ImportHow = "replace"
 ) -> wire.UserErrors:
     """Takes the errors of a file, which is the body, in place of the project's own or in addition to them."""
     body = bytearray()
@@ -59,7 +60,7 @@ async def on_import_user_errors(
 
 
 @router.get("/export", response_class=Response)
-async def on_export_user_errors(bench: Bench, project: int) -> Response:
+async def on_export_user_errors(bench: Bench, project: Id) -> Response:
     """The file errors.xml."""
     text = await user_errors.export(bench.projects, project)
     return Response(

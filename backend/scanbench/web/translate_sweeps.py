@@ -68,8 +68,9 @@ def comparison(found: Comparison) -> wire.SweepComparison:
 
 def _summary(row: SweepRow) -> dict[str, object]:
     return {
-        "id": row.id, "project": row.project, "instance": row.instance, "model": row.model,
-        "program_version": row.program_version, "by": row.by, "at": iso(row.at), "status": row.status,
+        "id": row.id, "project": row.project, "instance_id": row.instance_id, "instance": row.instance,
+        "model": row.model, "program_version": row.program_version, "by": row.by, "at": iso(row.at),
+        "status": row.status,
         "message": row.message, "done": row.done, "total": row.total, "window": row.window,
         "states": list(row.states), "seconds": round(row.seconds, 1),
         "counts": {verdict: row.counts.get(verdict, 0) for verdict in get_args(wire.Verdict)},

@@ -271,6 +271,14 @@ def test_the_same_code_with_other_details_is_another_error_of_the_system(engine:
     assert (value(resource, "A418"), len(generated(resource))) == (1 << 6, raised + 1)
 
 
+def test_a_choice_among_bits_of_two_words_is_one_of_the_first() -> None:
+    resource = plc(OMRON, model_name="CS1D-CPU65H")
+    done(resource, Write("Ada", "A529", "100"))
+    set_to(resource, number=100, m=0x0003, m1=1 << 2)
+    go(resource, 2)
+    assert words(resource, "A400", "A316", "A319", "A320") == [3, 1 << 2, 1 << 2, 0]
+
+
 def test_the_number_in_a529_is_only_for_codes_of_its_severity() -> None:
     resource = plc(OMRON)
     done(resource, Write("Ada", "A529", "100"))

@@ -109,6 +109,114 @@ def test_every_way_to_be_wrong(cj1m: Model, name: str, line: int, column: int, c
     assert first.code in TABLE
 
 
+SYSTEM = [
+    ("CJ1M-CPU63", "A400.00", "the error code"),
+    ("CJ1M-CPU63", "A100.00", "in the error log"),
+    ("CJ1M-CPU63", "A199.15", "in the error log"),
+    ("CJ1M-CPU63", "A300.00", "the counter of the error log"),
+    ("CJ1M-CPU63", "A200.11", "first-cycle of the system"),
+    ("CJ1M-CPU63", "CF102", "pulse-1s of the system"),
+    ("CJ1M-CPU63", "A265.15", "present-cycle-time of the system"),
+    ("CJ1M-CPU63", "A351.00", "clock-second-minute of the system"),
+    ("CJ1M-CPU63", "A354.15", "clock-weekday of the system"),
+    ("CJ1M-CPU63", "A500.12", "the hold bit"),
+    ("CJ1M-CPU63", "A500.13", "forced-hold-bit of the system"),
+    ("CJ1M-CPU63", "A500.14", "log-reset of the system"),
+    ("CJ1M-CPU63", "A500.15", "output-off of the system"),
+    ("CJ1M-CPU63", "A529.00", "the number that makes FAL raise errors of the device"),
+    ("CJ1M-CPU63", "A402.12", "the flag of 'basic-io-error'"),
+    ("CJ1M-CPU63", "A401.15", "the flag of 'memory-error'"),
+    ("CJ1M-CPU63", "A403.01", "in a word that 'memory-error' writes its detail location to"),
+    ("CJ1M-CPU63", "A391.15", "in a word that 'fal' writes its detail number to"),
+    ("CP1H-XA40D", "A315.14", "what 'built-in-analog-error' writes too"),
+    ("GENERIC-IEC", "%MX8600.0", "clock of the system"),
+    ("GENERIC-IEC", "%MX8607.7", "clock of the system"),
+    ("Q03UD", "SM50", "the bit that clears errors"),
+    ("Q03UD", "SD50.0", "the code of the error to clear"),
+    ("Q03UD", "SD3.F", "the time of the latest error"),
+    ("NJ501-1300", "SV21.15", "the error code"),
+    ("NJ501-1300", "_PLC_ErrSta.07", "the flag of 'user-program-transfer-error'"),
+]
+FREE = [
+    ("CJ1M-CPU63", "CIO 0.00"),
+    ("CJ1M-CPU63", "CIO 100.00"),
+    ("CJ1M-CPU63", "A200.10"),
+    ("CJ1M-CPU63", "A402.11"),
+    ("CJ1M-CPU63", "A448.00"),
+    ("CJ1M-CPU63", "D0.00"),
+    ("CP1H-XA40D", "A315.12"),
+    ("NJ501-1300", "_PLC_ErrSta.03"),
+]
+CODES = {"NJ501-1300": "77770000", "Q03UD": "7777"}
+
+
+def one_error(model: str, flag: str, inside: str = "") -> str:
+    return f"""\
+<UserErrors><ErrorGroup><Name>Pumps</Name>
+<Error Id="pump-hot" ErrorCode="{CODES.get(model, "7777")}" ErrorFlag="{flag}" Severity="nonfatal" Priority="300"><Name>Pump hot</Name>
+{inside}
+</Error></ErrorGroup></UserErrors>"""
+
+
+@pytest.mark.parametrize(("name", "address", "purpose"), SYSTEM)
+def test_the_words_of_the_system_are_not_theirs(
+    models: dict[str, Model], name: str, address: str, purpose: str
+) -> None:
+    model, problems = with_user_errors(models[name], one_error(name, address))
+    assert model is None
+    (problem,) = problems
+    column = one_error(name, address).splitlines()[1].index(address) + 1
+    assert (problem.code, problem.span.line, problem.span.column) == ("M003", 2, column)
+    assert problem.message.startswith(f"{address} is {purpose} ({name}): ")
+
+
+@pytest.mark.parametrize(("name", "address"), FREE)
+def test_everything_else_is(models: dict[str, Model], name: str, address: str) -> None:
+    assert with_user_errors(models[name], one_error(name, address))[1] == []
+
+
+CONTROL = '<ErrorDetailPattern><ErrorControl Name="d" Type="{}">{}</ErrorControl></ErrorDetailPattern>'
+
+
+@pytest.mark.parametrize(
+    ("inside", "address"),
+    [
+        ('<Also Address="D1.00" Type="Bit"/><Also Address="A402.04" Type="Bit"/>', "A402.04"),
+        ('<Also Address="A401" Type="Word" Value="1"/>', "A401"),
+        (CONTROL.format("Spin", '<ErrorAddress Address="A400" Type="Word" Min="0" Max="9"/>'), "A400"),
+        (CONTROL.format("Spin", '<ErrorAddress Address="A299" Type="BitArray" Min="0" Max="16"/>'), "A299"),
+        (CONTROL.format("Edit", '<ErrorAddress Address="A98" Type="Word" Base="text" Max="5"/>'), "A98"),
+        (
+            CONTROL.format(
+                "List",
+                '<ErrorAddress Id="a" Address="D1.00" Type="Bit"/><ErrorAddress Id="b" Address="A351.01" Type="Bit"/>',
+            ),
+            "A351.01",
+        ),
+    ],
+)
+def test_no_part_of_an_error_writes_there(cj1m: Model, inside: str, address: str) -> None:
+    text = one_error("CJ1M-CPU63", "D0.00", inside.replace("><", ">\n<"))
+    model, problems = with_user_errors(cj1m, text)
+    assert model is None
+    (line,) = (number for number, each in enumerate(text.splitlines(), 1) if f'"{address}"' in each)
+    column = text.splitlines()[line - 1].index(address) + 1
+    assert [(each.code, each.span.line, each.span.column) for each in problems] == [("M003", line, column)]
+    assert problems[0].message.startswith(f"{address} is ")
+
+
+def test_next_to_them_is_free(cj1m: Model) -> None:
+    inside = CONTROL.format("Spin", '<ErrorAddress Address="A98" Type="BitArray" Min="0" Max="31"/>')
+    assert with_user_errors(cj1m, one_error("CJ1M-CPU63", "D0.00", inside))[1] == []
+
+
+def test_a_form_names_the_field(cj1m: Model) -> None:
+    assert [path for path, _ in problems_of(cj1m, replace(PUMP, flag="A400.00"))] == ["errors.0.flag"]
+    assert [path for path, _ in problems_of(cj1m, replace(PUMP, also=(DraftAlso("A400.01"),)))] == [
+        "errors.0.also.0.address"
+    ]
+
+
 def test_every_broken_file_is_tried() -> None:
     (mark,) = test_every_way_to_be_wrong.pytestmark  # type: ignore[attr-defined]  # pytest puts it there
     assert {path.stem for path in BROKEN.glob("*.xml")} == {row[0] for row in mark.args[1]} | {"GOOD"}

@@ -74,93 +74,111 @@ def texts(store: Store, instance: int) -> list[str]:
     return [each.text for each in store.log(instance, 10 * LOG_KEPT)]
 
 
-async def test_what_a_slow_database_cannot_follow_is_one_batch(store: Slow, instance: int) -> None:
-    async with keeping(store) as keeper:
-        store.may.clear()
-        keeper.keep_rows(instance, [ROW])
-        await asyncio.to_thread(store.begun.wait, 60)
-        for count in range(2, 30_001):
-            keeper.keep_rows(instance, [replace(ROW, count=count)])
-            keeper.keep_line(instance, line(f"line {count}"), 3)
-        keeper.keep_rows(instance, [replace(ROW, id="fal", count=2), replace(ROW, program_version=4)])
-        store.may.set()
-        await keeper.flush()
-        assert store.rows == [1, 3]
-        assert store.lines == [LOG_KEPT]
-        told = {(row.error, row.program_version): row.count for row in store.history(instance)}
-        assert told == {("battery-error", 3): 30_000, ("fal", 3): 2, ("battery-error", 4): 1}
-        assert texts(store, instance) == [f"line {count}" for count in range(30_001 - LOG_KEPT, 30_001)]
-
-
-async def test_waiting_ends_while_more_and_more_comes(store: Slow, instance: int) -> None:
-    async with keeping(store) as keeper:
-        over = False
-
-        async def chatter() -> None:
-            while not over:
-                keeper.keep_rows(instance, [ROW])
-                keeper.keep_line(instance, line("on"), 3)
-                await asyncio.sleep(0)
-
-        task = asyncio.get_running_loop().create_task(chatter())
-        for number in range(5):
-            keeper.keep_line(instance, line(f"mark {number}"), 3)
+def test_what_a_slow_database_cannot_follow_is_one_batch(store: Slow, instance: int) -> None:
+    async def story() -> None:
+        async with keeping(store) as keeper:
+            store.may.clear()
+            keeper.keep_rows(instance, [ROW])
+            await asyncio.to_thread(store.begun.wait, 60)
+            for count in range(2, 30_001):
+                keeper.keep_rows(instance, [replace(ROW, count=count)])
+                keeper.keep_line(instance, line(f"line {count}"), 3)
+            keeper.keep_rows(instance, [replace(ROW, id="fal", count=2), replace(ROW, program_version=4)])
+            store.may.set()
             await keeper.flush()
-            assert f"mark {number}" in texts(store, instance)
-        over = True
-        await task
+            assert store.rows == [1, 3]
+            assert store.lines == [LOG_KEPT]
+            told = {(row.error, row.program_version): row.count for row in store.history(instance)}
+            assert told == {("battery-error", 3): 30_000, ("fal", 3): 2, ("battery-error", 4): 1}
+            assert texts(store, instance) == [f"line {count}" for count in range(30_001 - LOG_KEPT, 30_001)]
+
+    asyncio.run(story())
 
 
-async def test_the_end_writes_the_rest(store: Slow, instance: int) -> None:
-    async with keeping(store) as keeper:
-        keeper.keep_rows(instance, [ROW])
-        keeper.keep_line(instance, line("last"), 3)
-    assert texts(store, instance) == ["last"]
-    assert [row.count for row in store.history(instance)] == [1]
-    await keeper.flush()  # nothing writes any more, and nobody waits for it
+def test_waiting_ends_while_more_and_more_comes(store: Slow, instance: int) -> None:
+    async def story() -> None:
+        async with keeping(store) as keeper:
+            over = False
+
+            async def chatter() -> None:
+                while not over:
+                    keeper.keep_rows(instance, [ROW])
+                    await asyncio.sleep(0)
+
+            task = asyncio.get_running_loop().create_task(chatter())
+            for number in range(5):
+                keeper.keep_line(instance, line(f"mark {number}"), 3)
+                await keeper.flush()
+                assert f"mark {number}" in texts(store, instance)
+            over = True
+            await task
+
+    asyncio.run(story())
 
 
-async def test_old_lines_go(store: Slow, instance: int) -> None:
-    for begin in range(0, LOG_KEPT, 1000):
-        store.add_log(instance, [LogRow(NOON, 1, "ada", "error", f"old {begin + n}") for n in range(1000)])
-    async with keeping(store) as keeper:
-        keeper.keep_line(instance, line("first"), 3)
-        await keeper.flush()
-        assert len(texts(store, instance)) == LOG_KEPT
-        for _ in range(LOG_TRIMMED_EVERY + 1):
-            keeper.keep_line(instance, line("more"), 3)
-        await keeper.flush()
-        assert len(texts(store, instance)) == LOG_KEPT
-        assert texts(store, instance)[0] == f"old {LOG_TRIMMED_EVERY + 2}"
+def test_the_end_writes_the_rest(store: Slow, instance: int) -> None:
+    async def story() -> None:
+        async with keeping(store) as keeper:
+            keeper.keep_rows(instance, [ROW])
+            keeper.keep_line(instance, line("last"), 3)
+        assert texts(store, instance) == ["last"]
+        assert [row.count for row in store.history(instance)] == [1]
+        await keeper.flush()  # nothing writes any more, and nobody waits for it
+
+    asyncio.run(story())
 
 
-async def test_an_instance_that_is_gone_takes_nothing_with_it(
+def test_old_lines_go(store: Slow, instance: int) -> None:
+    async def story() -> None:
+        store.add_log(instance, [LogRow(NOON, 1, "ada", "error", f"old {number}") for number in range(LOG_KEPT)])
+        async with keeping(store) as keeper:
+            keeper.keep_line(instance, line("first"), 3)
+            await keeper.flush()
+            assert len(texts(store, instance)) == LOG_KEPT
+            for _ in range(LOG_TRIMMED_EVERY + 1):
+                keeper.keep_line(instance, line("more"), 3)
+            await keeper.flush()
+            assert len(texts(store, instance)) == LOG_KEPT
+            assert texts(store, instance)[0] == f"old {LOG_TRIMMED_EVERY + 2}"
+
+    asyncio.run(story())
+
+
+def test_an_instance_that_is_gone_takes_nothing_with_it(
     store: Slow, instance: int, caplog: pytest.LogCaptureFixture
 ) -> None:
-    gone = store.create_instance(store.create_project("q", "CJ1M-CPU63").id, "j").id
-    store.delete_instance(gone)
-    async with keeping(store) as keeper:
-        for id in (gone, instance):
-            keeper.keep_rows(id, [ROW])
-            keeper.keep_line(id, line("here"), 3)
-        await keeper.flush()
-    assert texts(store, instance) == ["here"]
-    assert len(store.history(instance)) == 1
-    said = [record.getMessage() for record in caplog.records]
-    assert said == [
-        f"{what} of instance {gone} could not be written, 1 of it: there is no instance {gone}"
-        for what in ("the error history", "the log")
-    ]
+    async def story() -> None:
+        gone = store.create_instance(store.create_project("q", "CJ1M-CPU63").id, "j").id
+        store.delete_instance(gone)
+        async with keeping(store) as keeper:
+            for id in (gone, instance):
+                keeper.keep_rows(id, [ROW])
+                keeper.keep_line(id, line("here"), 3)
+            await keeper.flush()
+        assert texts(store, instance) == ["here"]
+        assert len(store.history(instance)) == 1
+        said = [record.getMessage() for record in caplog.records]
+        assert said == [
+            f"{what} of instance {gone} could not be written, 1 of it: there is no instance {gone}"
+            for what in ("the error history", "the log")
+        ]
+
+    asyncio.run(story())
 
 
-async def test_a_row_that_cannot_be_written_takes_nothing_with_it(
+def test_a_row_that_cannot_be_written_takes_nothing_with_it(
     store: Slow, instance: int, caplog: pytest.LogCaptureFixture
 ) -> None:
-    rows = [replace(ROW, id=f"error-{number}") for number in range(9)]
-    rows[5] = replace(rows[5], generated_at=NOON.replace(tzinfo=None))
-    async with keeping(store) as keeper:
-        keeper.keep_rows(instance, rows)
-        await keeper.flush()
-    assert [row.error for row in store.history(instance)] == [f"error-{number}" for number in range(9) if number != 5]
-    (said,) = caplog.records
-    assert "error-5" in said.getMessage()
+    async def story() -> None:
+        rows = [replace(ROW, id=f"error-{number}") for number in range(9)]
+        rows[5] = replace(rows[5], generated_at=NOON.replace(tzinfo=None))
+        async with keeping(store) as keeper:
+            keeper.keep_rows(instance, rows)
+            await keeper.flush()
+        assert [row.error for row in store.history(instance)] == [
+            f"error-{number}" for number in range(9) if number != 5
+        ]
+        (said,) = caplog.records
+        assert "error-5" in said.getMessage()
+
+    asyncio.run(story())

@@ -123,6 +123,7 @@ export function verdictOf(row: ErrorHistoryRow | undefined): Verdict | null {
   return row?.reaction?.state === "done" ? row.reaction.verdict : null;
 }
 
+/** What the program missed: nobody read it, or nothing came of it. */
 export const isFinding = (verdict: Verdict | null): boolean => verdict === "never_read" || verdict === "no_effect";
 
 function statusOf(id: string, view: CatalogueView): ErrorStatus {

@@ -36,6 +36,20 @@ export function wallTime(iso: string | null): string {
   return Number.isNaN(date.getTime()) ? iso : date.toLocaleTimeString("en-GB");
 }
 
+/** The wall-clock time of an ISO timestamp, in the browser's zone: 14:20. */
+export function clockTime(iso: string): string {
+  const date = new Date(iso);
+  return Number.isNaN(date.getTime()) ? iso : date.toLocaleTimeString("en-GB", { hour: "2-digit", minute: "2-digit" });
+}
+
+/** With its day: 2026-11-21 14:20. */
+export function dayTime(iso: string): string {
+  const date = new Date(iso);
+  if (Number.isNaN(date.getTime())) return iso;
+  const pad = (value: number) => value.toString().padStart(2, "0");
+  return `${date.getFullYear()}-${pad(date.getMonth() + 1)}-${pad(date.getDate())} ${clockTime(iso)}`;
+}
+
 /** A size in bytes as 3.4 KiB, 12 MiB, 1.2 GiB. */
 export function bytes(count: number): string {
   const units = ["B", "KiB", "MiB", "GiB", "TiB"];

@@ -41,7 +41,7 @@ export const plainShape: ShapeForm = {
 /** At once, and until somebody recovers it: an ordinary Generate. */
 export const isPlain = (form: ShapeForm): boolean => form.when === "now" && form.how === "stay";
 
-export interface ReadShape {
+interface ReadShape {
   start: FaultStart;
   shape: FaultShape;
   troubles: Partial<Record<ShapeField, TextKey>>;

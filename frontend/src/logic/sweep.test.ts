@@ -41,6 +41,7 @@ function sweep(cells: SweepCell[], more: Partial<Sweep> = {}): Sweep {
   return {
     id: 1,
     project: 1,
+    instance_id: 1,
     instance: "line-1",
     model: "CJ1M-CPU63",
     program_version: 3,

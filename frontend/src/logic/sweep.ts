@@ -11,6 +11,7 @@ import type {
   SweepSummary,
   Verdict,
 } from "../wire/types";
+import { isFinding } from "./catalogue";
 import { duration } from "./numbers";
 
 export const VERDICTS = ["reacted", "stopped", "no_effect", "never_read"] as const satisfies readonly Verdict[];
@@ -19,7 +20,7 @@ export const VERDICTS = ["reacted", "stopped", "no_effect", "never_read"] as con
 export const NOW = "Now";
 
 /** What stands where no result is (yet): it is tried now, its turn comes, or the sweep ended before it. */
-export type Pending = "running" | "waiting" | "missing";
+type Pending = "running" | "waiting" | "missing";
 export type Slot = SweepCell | Pending;
 
 /** What all cells of a row have in common, so that it is said once. */
@@ -50,13 +51,9 @@ const keyOf = ({ error, state }: CellRef) => `${error}\n${state}`;
 
 export const isCell = (slot: Slot | undefined): slot is SweepCell => typeof slot === "object";
 
-export function isFinding({ verdict }: SweepCell): boolean {
-  return verdict === "never_read" || verdict === "no_effect";
-}
-
 /** A finding that nobody accepted. */
 export function isOpen(cell: SweepCell): boolean {
-  return isFinding(cell) && !cell.accepted;
+  return isFinding(cell.verdict) && !cell.accepted;
 }
 
 /** The rows of the matrix. Groups come in the order of their first error; one that the view leaves empty is left out. */
@@ -99,7 +96,7 @@ function passes(slots: readonly Slot[], { findings, verdict }: MatrixView): bool
   const found = slots.filter(isCell);
   if (findings && !found.some(isOpen)) return false;
   if (verdict === null) return true;
-  if (verdict === "accepted") return found.some((cell) => isFinding(cell) && cell.accepted);
+  if (verdict === "accepted") return found.some((cell) => isFinding(cell.verdict) && cell.accepted);
   return found.some((cell) => cell.verdict === (verdict === "none" ? null : verdict));
 }
 
@@ -129,7 +126,7 @@ export function countCells(sweep: Sweep): Counts {
   let none = 0;
   for (const cell of sweep.cells) {
     if (cell.verdict === null) none += 1;
-    else if (isFinding(cell) && cell.accepted) accepted += 1;
+    else if (isFinding(cell.verdict) && cell.accepted) accepted += 1;
     else verdicts[cell.verdict] += 1;
   }
   return { verdicts, accepted, none, left: Math.max(0, sweep.total - sweep.cells.length) };
@@ -210,44 +207,10 @@ export function timeLeft(seconds: number): string {
 
 /** A sweep with what was told of it since: the summary as it is now, and cells in the place of those of before. */
 export function merged(sweep: Sweep, summary: SweepSummary, cells: readonly SweepCell[]): Sweep {
-  const {
-    id,
-    project,
-    instance,
-    model,
-    program_version,
-    by,
-    at,
-    status,
-    message,
-    done,
-    total,
-    window,
-    states,
-    counts,
-    seconds,
-  } = summary;
-  const told = {
-    id,
-    project,
-    instance,
-    model,
-    program_version,
-    by,
-    at,
-    status,
-    message,
-    done,
-    total,
-    window,
-    states,
-    counts,
-    seconds,
-  };
-  if (cells.length === 0) return { ...sweep, ...told };
   const all = new Map(sweep.cells.map((cell) => [keyOf(cell), cell]));
   for (const cell of cells) all.set(keyOf(cell), cell);
-  return { ...sweep, ...told, cells: [...all.values()] };
+  // What tells the news may be a whole sweep itself, an older one: its cells are not the news.
+  return { ...sweep, ...summary, errors: sweep.errors, cells: cells.length === 0 ? sweep.cells : [...all.values()] };
 }
 
 export function withAccepted(sweep: Sweep, ref: CellRef, accepted: Accepted | null): Sweep {
@@ -281,18 +244,4 @@ export function sortedChanges(changes: readonly SweepChange[], onlyChanges: bool
   return changes
     .filter(({ change }) => !onlyChanges || change !== "same")
     .sort((a, b) => CHANGES.indexOf(a.change) - CHANGES.indexOf(b.change));
-}
-
-/** The wall-clock time of an ISO timestamp, in the browser's zone: 14:20. */
-export function clockTime(iso: string): string {
-  const date = new Date(iso);
-  return Number.isNaN(date.getTime()) ? iso : date.toLocaleTimeString("en-GB", { hour: "2-digit", minute: "2-digit" });
-}
-
-/** With its day: 2026-11-21 14:20. */
-export function dayTime(iso: string): string {
-  const date = new Date(iso);
-  if (Number.isNaN(date.getTime())) return iso;
-  const pad = (value: number) => value.toString().padStart(2, "0");
-  return `${date.getFullYear()}-${pad(date.getMonth() + 1)}-${pad(date.getDate())} ${clockTime(iso)}`;
 }

@@ -13,6 +13,9 @@ export function setLanguage(language: Language): void {
   current = language;
 }
 
+/** The language of the page. */
+export const language = (): Language => current;
+
 /** The text of a key, with `{name}` replaced by the values given. */
 export function t(key: TextKey, values: object = {}): string {
   const text = catalogues[current][key];

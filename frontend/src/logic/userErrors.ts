@@ -131,7 +131,7 @@ function nextCode(errors: readonly UserError[], model: ModelInfo | null): string
 const firstCode = (model: ModelInfo): string => model.catalogue.flatMap((group) => group.errors)[0]?.code ?? "";
 
 /** Devices show their codes in four or eight hexadecimal digits, or decimal, of any length. */
-export function isDecimal(model: ModelInfo | null): boolean {
+function isDecimal(model: ModelInfo | null): boolean {
   const codes = model?.catalogue.flatMap((group) => codesOf(group)) ?? [];
   return codes.length > 0 && codes.every((code) => /^\d+$/.test(code)) && new Set(codes.map((c) => c.length)).size > 1;
 }

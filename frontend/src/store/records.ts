@@ -1,14 +1,13 @@
 /** The error history that is looked at: of the version that runs, or of one before; and test records from elsewhere. */
 import { create } from "zustand";
 import { everything, type HistoryView } from "../logic/history";
-import { t } from "../logic/text";
+import { language, t } from "../logic/text";
 import { rest } from "../wire/rest";
 import type { ErrorHistoryRow, HistoryVersion, ImportedRecord, RecordInfo } from "../wire/types";
 import { useBench } from "./bench";
 import { messageOf } from "./documents";
 import { openPage } from "./navigate";
 import { usePlc } from "./plc";
-import { usePrefs } from "./prefs";
 
 interface Records {
   /** The PLC and the project that the rest is about. */
@@ -87,11 +86,10 @@ export function showVersion(version: number | null): Promise<void> {
 
 type Format = "csv" | "xml" | "html";
 
-/** Where the test record of the version that is looked at stands; null without a PLC. */
-export function recordAddress(format: Format): string | null {
-  const { instance, old } = get();
-  if (instance === null) return null;
-  return `/api/instances/${instance}/record?${query(format)}${old ? `&version=${old.version}` : ""}`;
+/** Where the test record of a PLC stands: of one version of its program, else of the one that runs. */
+export function recordAddress(instance: number, format: Format, version?: number): string {
+  const of = version === undefined ? "" : `&version=${version}`;
+  return `/api/instances/${instance}/record?${query(format)}${of}`;
 }
 
 /** Where an imported record stands as a file. */
@@ -99,7 +97,7 @@ export function importedAddress({ id, project }: RecordInfo, format: Format): st
   return `/api/projects/${project}/records/${id}?${query(format)}`;
 }
 
-const query = (format: Format) => new URLSearchParams({ format, lang: usePrefs.getState().language }).toString();
+const query = (format: Format) => new URLSearchParams({ format, lang: language() }).toString();
 
 /** Keeps a test record from elsewhere, and shows it. */
 export function importRecord(file: Blob): Promise<void> {

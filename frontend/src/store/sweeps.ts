@@ -1,7 +1,8 @@
 /** Error sweeps of the project, and the kept states that they begin from. */
 import { create } from "zustand";
 import { copyName } from "../logic/instances";
-import { clockTime, merged, olderFirst, withAccepted } from "../logic/sweep";
+import { clockTime } from "../logic/numbers";
+import { merged, olderFirst, withAccepted } from "../logic/sweep";
 import { t } from "../logic/text";
 import { rest } from "../wire/rest";
 import type {
@@ -22,10 +23,7 @@ import { openPage, showPanel } from "./navigate";
 import { usePlc } from "./plc";
 
 /** What the page shows: the list, one sweep, or two of them side by side. */
-export type Shown =
-  | { view: "list" }
-  | { view: "sweep"; id: number }
-  | { view: "compare"; before: number; after: number };
+type Shown = { view: "list" } | { view: "sweep"; id: number } | { view: "compare"; before: number; after: number };
 
 /** The dialog that is open. */
 export type Question = { ask: "run" } | { ask: "keep"; scan: number | null };

@@ -49,7 +49,6 @@ function inSight(scan: number | null): Partial<Run> {
   return { view: including(view, { from: info?.first_scan ?? 0, to: liveScan() }, scan) };
 }
 
-export const aimAt = (aim: number | null) => set({ aim });
 export const putAwayDamage = () => set(({ info }) => ({ read: info?.damage ?? "" }));
 
 /** The newest scan there is, whatever is shown. */

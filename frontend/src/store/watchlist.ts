@@ -100,11 +100,6 @@ export function replaceInWatch(root: string, path: string): void {
   changed();
 }
 
-export function clearWatch(): void {
-  set({ roots: [], open: new Set(), notes: new Map(), drafts: new Map(), selected: null });
-  changed();
-}
-
 export async function toggleOpen(path: string): Promise<void> {
   const open = new Set(get().open);
   if (open.delete(path)) {

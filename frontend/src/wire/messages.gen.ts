@@ -2752,6 +2752,11 @@ export interface components {
             id: number;
             /** Instance */
             instance: string;
+            /**
+             * Instance Id
+             * @description null: that PLC is gone
+             */
+            instance_id: number | null;
             /** Message */
             message: string;
             /** Model */
@@ -2887,6 +2892,11 @@ export interface components {
             id: number;
             /** Instance */
             instance: string;
+            /**
+             * Instance Id
+             * @description null: that PLC is gone
+             */
+            instance_id: number | null;
             /** Message */
             message: string;
             /** Model */

@@ -1,17 +1,20 @@
+import { useShallow } from "zustand/react/shallow";
 import { inNames } from "../../logic/catalogue";
 import { troubles } from "../../logic/details";
-import { isPlain, readShape } from "../../logic/shapes";
 import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
-import { readClock } from "../../store/clock";
 import { useForbidden, usePlc } from "../../store/plc";
+import { useShape } from "../../store/shape";
 import { asksFirst, chosenOf, entriesOf, generate, recover, useSimulator } from "../../store/simulator";
 import { Icon } from "../../ui/Icon";
 import { WayOn } from "./WayOn";
 
 /** Generate what is ticked (or selected), recover it, or clear everything that is generated. */
 export function Actions({ refusedInTree }: { refusedInTree: boolean }) {
-  const state = useSimulator();
+  const state = useSimulator(
+    useShallow(({ checked, selected, details, outcome }) => ({ checked, selected, details, outcome })),
+  );
+  const shape = useShape();
   const { errors } = useCatalogue();
   const history = usePlc((plc) => plc.errors);
   const forbidden = useForbidden("errors");
@@ -21,10 +24,7 @@ export function Actions({ refusedInTree }: { refusedInTree: boolean }) {
   const raised = chosen.filter(({ id }) => history.get(id)?.status === "generated").length;
   const any = [...history.values()].some((row) => row.status === "generated");
   const asks = asksFirst(state, errors);
-  const unready =
-    !asks &&
-    (chosen.some((error) => troubles(error, entriesOf(state, error)).size > 0) ||
-      Object.keys(readShape(state.shape, readClock().scan).troubles).length > 0);
+  const unready = !asks && (!shape.ready || chosen.some((error) => troubles(error, entriesOf(state, error)).size > 0));
   return (
     <>
       {!refusedInTree && <Refusal />}
@@ -39,8 +39,8 @@ export function Actions({ refusedInTree }: { refusedInTree: boolean }) {
           title={why}
           onClick={() => void generate(errors)}
         >
-          <Icon name={isPlain(state.shape) ? "generated" : "clock"} small />
-          {label(chosen.length, asks, isPlain(state.shape))}
+          <Icon name={shape.plain ? "generated" : "clock"} small />
+          {label(chosen.length, asks, shape.plain)}
         </button>
         <button
           type="button"

@@ -1,16 +1,17 @@
 import { useState } from "react";
+import { useShallow } from "zustand/react/shallow";
 import { inNames } from "../../logic/catalogue";
 import { type Entry, kindred, needsDetails, takenOver, troubles } from "../../logic/details";
-import { isPlain, readShape } from "../../logic/shapes";
 import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
-import { readClock } from "../../store/clock";
 import { useForbidden } from "../../store/plc";
+import { useShape } from "../../store/shape";
 import { closeDialog, entriesOf, raise, setEntries, useSimulator } from "../../store/simulator";
 import { Dialog } from "../../ui/Dialog";
 import { Icon } from "../../ui/Icon";
 import type { ErrorInfo } from "../../wire/types";
 import { DetailsPage } from "./DetailsPage";
+import "./dialog.css";
 import { Gap, type GapForm, gapOf } from "./Gap";
 import { PageList, type PageState } from "./PageList";
 import { Preview } from "./Preview";
@@ -19,7 +20,8 @@ import { WayOn } from "./WayOn";
 
 /** Details of several errors, a page for each that needs some; then all in one seam, or one by one. */
 export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
-  const state = useSimulator();
+  const state = useSimulator(useShallow(({ details }) => ({ details })));
+  const shape = useShape();
   const forbidden = useForbidden("errors");
   const needing = errors.filter(needsDetails);
   // Asked for although nothing has to be: every error has its page, to be looked at.
@@ -32,10 +34,9 @@ export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
   if (!error) return null;
 
   const bad = (of: ErrorInfo) => troubles(of, entriesOf(state, of)).size > 0;
-  const shape = readShape(state.shape, readClock().scan);
   const scans = gapOf(gap);
-  const ready = forbidden === null && !errors.some(bad) && Object.keys(shape.troubles).length === 0 && scans !== null;
-  const plain = isPlain(state.shape);
+  const ready = forbidden === null && !errors.some(bad) && shape.ready && scans !== null;
+  const { plain } = shape;
 
   function goTo(next: number): void {
     if (error) setSeen(new Set([...seen, error.id]));

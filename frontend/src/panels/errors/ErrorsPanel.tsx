@@ -1,4 +1,5 @@
 import { useMemo } from "react";
+import { useShallow } from "zustand/react/shallow";
 import { catalogueRows } from "../../logic/catalogue";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
@@ -31,7 +32,10 @@ export function ErrorsPanel() {
 }
 
 function Simulator({ model }: { model: ModelInfo }) {
-  const { filter, status, severity, reaction, closed, checked, selected, outcome, asking } = useSimulator();
+  // Not the details and the shape: they change with each letter that is typed.
+  const { filter, status, severity, reaction, closed, checked, selected, outcome, asking } = useSimulator(
+    useShallow(({ details, shape, ...rest }) => rest),
+  );
   const { groups, errors, byId } = useCatalogue();
   const history = usePlc((plc) => plc.errors);
   const locked = useForbidden("errors") !== null;

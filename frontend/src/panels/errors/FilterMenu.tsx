@@ -1,3 +1,4 @@
+import { useShallow } from "zustand/react/shallow";
 import { t } from "../../logic/text";
 import { setFilters, useSimulator } from "../../store/simulator";
 import { Icon } from "../../ui/Icon";
@@ -20,7 +21,9 @@ function reactionWord(reaction: Reaction): string {
 
 /** Which errors are shown: by state, severity and reaction. The button says what is left out. */
 export function FilterMenu() {
-  const { status, severity, reaction } = useSimulator();
+  const { status, severity, reaction } = useSimulator(
+    useShallow(({ status, severity, reaction }) => ({ status, severity, reaction })),
+  );
   const shown = [
     status === "all" ? "" : t(`errors.status.${status}`),
     severity === "all" ? "" : severityWord(severity),

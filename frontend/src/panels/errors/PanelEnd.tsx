@@ -4,7 +4,7 @@ import { useBench } from "../../store/bench";
 import { useCatalogue } from "../../store/catalogue";
 import { showPanel } from "../../store/navigate";
 import { usePlc } from "../../store/plc";
-import { usePrefs } from "../../store/prefs";
+import { recordAddress } from "../../store/records";
 import { askDetails, targets, useSimulator } from "../../store/simulator";
 import { keepState, openSweep, showSweeps } from "../../store/sweeps";
 import { openUserErrors } from "../../store/userErrors";
@@ -15,8 +15,7 @@ import { MenuButton, type MenuItem } from "../../ui/Menu";
 function openRecord(): void {
   const { instance } = useBench.getState();
   if (!instance) return;
-  const query = new URLSearchParams({ format: "html", lang: usePrefs.getState().language });
-  window.open(`/api/instances/${instance.id}/record?${query}`, "_blank", "noopener");
+  window.open(recordAddress(instance.id, "html"), "_blank", "noopener");
 }
 
 /** At the end of the error simulator's tabs: how much of the catalogue was tested, and what else can be done. */

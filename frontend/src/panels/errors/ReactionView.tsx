@@ -3,8 +3,8 @@ import { nextStep, readersOf, sentenceOf, stretchesOf } from "../../logic/reacti
 import { t } from "../../logic/text";
 import { openFile } from "../../store/navigate";
 import { useReaction } from "../../store/reaction";
+import { ReactionWord } from "../../ui/ReactionWord";
 import type { ErrorInfo, Reaction, ReactionState } from "../../wire/types";
-import { ReactionWord } from "./ReactionWord";
 
 const FIRST = 20;
 
@@ -16,7 +16,7 @@ export function ReactionView({ error, state }: { error: ErrorInfo; state: Reacti
   return (
     <section className="reaction" aria-label={t("reaction.label")}>
       <p className="row">
-        <ReactionWord reaction={{ ...state, scans: null }} />
+        <ReactionWord reaction={state} />
         <span className="grow muted">
           {state.state === "done" && reaction && sentenceOf(reaction, error.flag)}
           {state.state === "done" && !reaction && (refused ?? t("reaction.loading"))}

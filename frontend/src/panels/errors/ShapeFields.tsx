@@ -1,9 +1,9 @@
 import { type ReactNode, useId } from "react";
-import { HOWS, readShape, type ShapeField, type ShapeForm, WHENS } from "../../logic/shapes";
+import { HOWS, type readShape, type ShapeField, type ShapeForm, WHENS } from "../../logic/shapes";
 import { t } from "../../logic/text";
-import { readClock } from "../../store/clock";
 import { useDocuments } from "../../store/documents";
-import { setShape, useSimulator } from "../../store/simulator";
+import { useShape } from "../../store/shape";
+import { setShape } from "../../store/simulator";
 import { ConditionBox } from "./ConditionBox";
 
 type Troubles = ReturnType<typeof readShape>["troubles"];
@@ -11,8 +11,7 @@ type Troubles = ReturnType<typeof readShape>["troubles"];
 /** When a fault begins and how it goes on; now and to stay is an ordinary Generate. */
 export function ShapeFields() {
   const id = useId();
-  const form = useSimulator((state) => state.shape);
-  const { troubles } = readShape(form, readClock().scan);
+  const { form, troubles } = useShape();
   return (
     <div className="shape" role="group" aria-label={`${t("shape.when")}, ${t("shape.how")}`}>
       <div className="shaperow">

@@ -4,7 +4,7 @@ import { t } from "../../logic/text";
 import { Icon } from "../../ui/Icon";
 import type { ErrorDetail } from "../../wire/types";
 
-export interface ControlProps {
+interface ControlProps {
   detail: ErrorDetail;
   entry: Entry;
   trouble: Trouble | null;

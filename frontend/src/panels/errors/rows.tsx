@@ -1,4 +1,5 @@
-import type { ReactNode } from "react";
+import { memo, type ReactNode } from "react";
+import { shallow } from "zustand/shallow";
 import type { GroupRow, LeafRow } from "../../logic/catalogue";
 import { detailsInWords, inNames } from "../../logic/catalogue";
 import { t } from "../../logic/text";
@@ -6,10 +7,10 @@ import { useCatalogue } from "../../store/catalogue";
 import { selectError, toggleChecked, toggleGroup, useSimulator } from "../../store/simulator";
 import { Checkbox } from "../../ui/Checkbox";
 import { Icon } from "../../ui/Icon";
+import { ReactionWord } from "../../ui/ReactionWord";
 import { StateWord } from "../../ui/StateWord";
 import { STATUS_ICONS } from "../../ui/statuses";
-import type { ErrorInfo } from "../../wire/types";
-import { ReactionWord } from "./ReactionWord";
+import type { ErrorInfo, ReactionState } from "../../wire/types";
 import { WayOn } from "./WayOn";
 
 export function Group({ row, index, selected }: { row: GroupRow; index: number; selected: boolean }) {
@@ -45,7 +46,8 @@ interface LeafProps {
   children: ReactNode;
 }
 
-export function Leaf({ row, index, selected, children }: LeafProps) {
+/** An error. The rows are made anew with whatever happens to one of them; the others are not drawn again. */
+export const Leaf = memo(function Leaf({ row, index, selected, children }: LeafProps) {
   const { error } = row;
   const fatal = error.severity === "fatal";
   return (
@@ -89,10 +91,29 @@ export function Leaf({ row, index, selected, children }: LeafProps) {
           <StateWord tone={row.status} icon={STATUS_ICONS[row.status]} word={t(`errors.status.${row.status}`)} />
         </span>
         <span role="gridcell" className="c-reaction">
-          {row.reaction && <ReactionWord reaction={row.reaction} />}
+          {row.reaction && <Reacted reaction={row.reaction} />}
         </span>
       </div>
       {children}
+    </>
+  );
+}, sameLeaf);
+
+function sameLeaf({ row: before, ...rest }: LeafProps, { row: after, ...others }: LeafProps): boolean {
+  return shallow(before, after) && shallow(rest, others);
+}
+
+/** The reaction, and how many scans it took. */
+function Reacted({ reaction }: { reaction: ReactionState }) {
+  const { verdict, scans } = reaction;
+  return (
+    <>
+      <ReactionWord reaction={reaction} />
+      {verdict === "reacted" && scans !== null && (
+        <span className="scans num" title={t("reaction.scans", { scans })}>
+          {scans}
+        </span>
+      )}
     </>
   );
 }

@@ -1,6 +1,6 @@
 import { useEffect, useMemo } from "react";
 import type { HistoryLine } from "../../logic/history";
-import { dayTime } from "../../logic/sweep";
+import { dayTime } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { useCatalogue } from "../../store/catalogue";

@@ -1,11 +1,11 @@
 import { detailsInWords } from "../../logic/catalogue";
 import type { HistoryLine } from "../../logic/history";
-import { grouped, wallTime } from "../../logic/numbers";
-import { dayTime } from "../../logic/sweep";
+import { dayTime, grouped, wallTime } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
+import { ReactionWord } from "../../ui/ReactionWord";
 import { StateWord } from "../../ui/StateWord";
-import { STATUS_ICONS, VERDICT_ICONS } from "../../ui/statuses";
+import { STATUS_ICONS } from "../../ui/statuses";
 
 /** One error: what was done with it, and what the program did about it. */
 export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
@@ -45,29 +45,14 @@ export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
 function Reaction({ line }: { line: HistoryLine }) {
   const { reaction, swept, accepted } = line;
   if (!reaction) return null;
-  const { state, verdict, message } = reaction;
-  const title = [message, swept ? t("history.swept") : "", accepted ? t("history.accepted", { accepted }) : ""]
-    .filter(Boolean)
-    .join(" · ");
-  if (state === "recording")
-    return (
-      <StateWord
-        tone="recording"
-        icon="record"
-        word={t("reaction.recording")}
-        title={title || t("reaction.recording.about")}
-      />
-    );
-  if (verdict === null)
-    return <StateWord tone="stale" icon="info" word={t("reaction.failed")} title={title || undefined} />;
+  const title = [
+    reaction.message,
+    swept ? t("history.swept") : "",
+    accepted ? t("history.accepted", { accepted }) : "",
+  ].filter(Boolean);
   return (
     <>
-      <StateWord
-        tone={verdict}
-        icon={VERDICT_ICONS[verdict]}
-        word={t(`verdict.${verdict}`)}
-        title={title || undefined}
-      />
+      <ReactionWord reaction={reaction} title={title.join(" · ")} />
       {accepted && <span className="faint"> {t("sweep.accepted")}</span>}
     </>
   );

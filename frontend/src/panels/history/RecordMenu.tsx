@@ -55,9 +55,10 @@ export function RecordMenu() {
   );
 }
 
+/** The record of the version that is looked at. */
 function open(format: "html" | "xml" | "csv"): void {
-  const address = recordAddress(format);
-  if (address) openAddress(address, format === "html");
+  const { instance, old } = useRecords.getState();
+  if (instance !== null) openAddress(recordAddress(instance, format, old?.version), format === "html");
 }
 
 /** A document in a new tab, or a file to keep. */

@@ -1,6 +1,6 @@
 import { useEffect, useMemo, useState } from "react";
 import { everything, type HistoryView, recordLines } from "../../logic/history";
-import { dayTime } from "../../logic/sweep";
+import { dayTime } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { messageOf } from "../../store/documents";

@@ -1,5 +1,6 @@
 import { useMemo, useState } from "react";
-import { CHANGES, dayTime, sortedChanges } from "../../logic/sweep";
+import { dayTime } from "../../logic/numbers";
+import { CHANGES, sortedChanges } from "../../logic/sweep";
 import { t } from "../../logic/text";
 import { showSweep, showSweeps } from "../../store/sweeps";
 import { Icon, type IconName } from "../../ui/Icon";

@@ -1,6 +1,7 @@
 import { useEffect, useState } from "react";
+import { isFinding } from "../../logic/catalogue";
 import { grouped } from "../../logic/numbers";
-import { isFinding, isOpen, NOW } from "../../logic/sweep";
+import { isOpen, NOW } from "../../logic/sweep";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { useCatalogue } from "../../store/catalogue";
@@ -109,7 +110,7 @@ function Deeds({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell: 
         >
           {t("sweep.open")}
         </button>
-        {isFinding(cell) && !accepted && (
+        {isFinding(cell.verdict) && !accepted && (
           <button type="button" className="btn sm" onClick={() => setAccepting(true)}>
             {t("sweep.accept")}
           </button>

@@ -1,22 +1,20 @@
 import { inNames } from "../../logic/catalogue";
-import { percent } from "../../logic/numbers";
-import { clockTime, dayTime, secondsLeft, timeLeft } from "../../logic/sweep";
+import { clockTime, dayTime, percent } from "../../logic/numbers";
+import { secondsLeft, timeLeft } from "../../logic/sweep";
 import { t } from "../../logic/text";
-import { useBench } from "../../store/bench";
 import { useCatalogue } from "../../store/catalogue";
+import { recordAddress } from "../../store/records";
 import { cancelSweep, compareSweeps, resumeSweep, showSweeps, useSweeps } from "../../store/sweeps";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import { MenuButton } from "../../ui/Menu";
 import { StateWord } from "../../ui/StateWord";
 import type { Sweep } from "../../wire/types";
-import { recordAddress } from "./recordAddress";
 import { STATUS } from "./statusWords";
 
 /** How many runs are done, how long the rest takes, what is tried now; and what can be done with the whole sweep. */
 export function Progress({ sweep }: { sweep: Sweep }) {
-  const { id, done, total, status } = sweep;
-  const instance = useBench((bench) => bench.instance);
+  const { id, done, total, status, instance_id: plc } = sweep;
   const share = total === 0 ? 1 : done / total;
   const running = status === "running";
   return (
@@ -73,9 +71,9 @@ export function Progress({ sweep }: { sweep: Sweep }) {
       <CompareWith id={id} />
       <a
         className="btn quiet sm"
-        href={instance ? recordAddress(instance, sweep) : undefined}
-        aria-disabled={instance === null}
-        title={t("sweep.record.hint")}
+        href={plc === null ? undefined : recordAddress(plc, "html", sweep.program_version)}
+        aria-disabled={plc === null}
+        title={t(plc === null ? "sweep.record.gone" : "sweep.record.hint")}
         target="_blank"
         rel="noreferrer"
       >

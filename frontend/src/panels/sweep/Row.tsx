@@ -1,5 +1,6 @@
 import { memo } from "react";
-import { type ErrorRow, isCell, isFinding, type MatrixRow, type Slot } from "../../logic/sweep";
+import { isFinding } from "../../logic/catalogue";
+import { type ErrorRow, isCell, type MatrixRow, type Slot } from "../../logic/sweep";
 import { t } from "../../logic/text";
 import { Icon, type IconName } from "../../ui/Icon";
 import { VERDICT_ICONS } from "../../ui/statuses";
@@ -125,7 +126,7 @@ function lookOf(slot: Slot): Look {
     };
   const { verdict, note } = slot;
   if (verdict === null) return { icon: "never", tone: "dim", word: t("sweep.none"), title: note };
-  if (isFinding(slot) && slot.accepted)
+  if (isFinding(verdict) && slot.accepted)
     return { icon: "check", tone: "acc", word: t(`verdict.${verdict}`), title: t("sweep.acceptedby", slot.accepted) };
   return { icon: VERDICT_ICONS[verdict], tone: verdict, word: wordOf(slot), ...(note ? { title: note } : {}) };
 }

@@ -1,6 +1,5 @@
 import { useState } from "react";
-import { grouped } from "../../logic/numbers";
-import { dayTime } from "../../logic/sweep";
+import { dayTime, grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { messageOf } from "../../store/documents";
 import { deleteState, useSweeps } from "../../store/sweeps";

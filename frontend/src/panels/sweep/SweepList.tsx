@@ -1,6 +1,6 @@
 import { useState } from "react";
-import { percent } from "../../logic/numbers";
-import { dayTime, VERDICTS } from "../../logic/sweep";
+import { dayTime, percent } from "../../logic/numbers";
+import { VERDICTS } from "../../logic/sweep";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { messageOf } from "../../store/documents";

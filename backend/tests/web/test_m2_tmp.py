@@ -1,0 +1,204 @@
+"""Whatever is sent, the server answers with words, and the PLC goes on: odd values for every route of the API."""
+
+import json
+from collections import Counter
+from collections.abc import Iterator
+from random import Random
+from typing import cast
+from urllib.parse import quote
+
+import pytest
+
+from scanbench.web.openapi import document
+from tests.web.server import Server
+from tests.web.test_simulator import MODEL, PROGRAM
+from tests.web.test_sweeps import finished
+
+Json = dict[str, object]
+JSON = {"Content-Type": "application/json"}
+EACH = 10**6
+"""Bodies of one route, chosen from all that there are."""
+IDS = ("0", "-1", str(2**31), str(2**63), str(10**20), "9" * 5000, "1.5", "nobody", "%00")
+NUMBERS = (-1, 0, 1.5, 2**31, 2**53, 2**63, 2**64, 10**400, True, "7")
+TEXTS = (
+    "",
+    " ",
+    "\0",
+    "a\0b",
+    "\n",
+    "日本\u202e\ufffe",
+    "x" * 70_000,
+    "9" * 5000,
+    "T#" + "9" * 400 + "d",
+    "../../x",
+    7,
+)
+OTHERS = (None, [], {}, "x", 10**400)
+BODIES = (
+    b"", b"{", b"\xff\xfe", b"null", b"[]", b"7", b"NaN", b'{"\\ud800": "\\udfff"}', b'{"a\\u0000b": 1}', b"[" * 50_000,
+    b'{"x": ' * 50_000, b"9" * 5000,
+)  # fmt: skip
+KNOWN: Json = {
+    "model": MODEL, "path": "Main.n", "value": "1", "id": "battery-error", "error": "plc-setup-error", "state": "Now",
+    "errors": ["battery-error"], "ids": ["battery-error"], "language": "en", "window": 1, "files": {"main.st": PROGRAM},
+}  # fmt: skip
+"""What a body says in the places that are right."""
+
+
+class Api:
+    """The OpenAPI document, and what can be sent by it."""
+
+    def __init__(self, named: Json) -> None:
+        self._document = document()
+        self._schemas = cast(Json, cast(Json, self._document["components"])["schemas"])
+        self._named = named
+        self._random = Random(5)
+        self._count = 0
+
+    def requests(self) -> Iterator[tuple[str, str, bytes]]:
+        """Method, address and body; what is right in them does as little as possible."""
+        for path, operations in cast(dict[str, dict[str, Json]], self._document["paths"]).items():
+            for method, operation in operations.items():
+                parameters = cast(list[Json], operation.get("parameters", []))
+                body = cast(Json | None, operation.get("requestBody"))
+                good = b"" if body is None else json.dumps(self._good("", self._schema_of(body))).encode()
+                for address in self._addresses(path, parameters, deleting=method == "delete"):
+                    yield method, address, good
+                if method in ("post", "put", "patch"):
+                    address = self._address(path, parameters, {})
+                    for odd in self._bodies(body):
+                        yield method, address, odd
+
+    def _addresses(self, path: str, parameters: list[Json], deleting: bool) -> Iterator[str]:
+        for parameter in parameters:
+            name, schema = str(parameter["name"]), cast(Json, parameter["schema"])
+            odd = IDS if self._kind(schema) == "integer" else tuple(quote(str(text)[:9000], safe="") for text in TEXTS)
+            for value in odd:
+                yield self._address(path, parameters, {name: value})
+        if not deleting:
+            yield self._address(path, parameters, {})
+
+    def _address(self, path: str, parameters: list[Json], odd: dict[str, str]) -> str:
+        query = []
+        for parameter in parameters:
+            name = str(parameter["name"])
+            value = odd.get(name, quote(str(self._named.get(name, "x"))))
+            if parameter["in"] == "path":
+                path = path.replace(f"{{{name}}}", value)
+            elif parameter.get("required") or name in odd:
+                query.append(f"{name}={value}")
+        return f"{path}?{'&'.join(query)}" if query else path
+
+    def _bodies(self, body: Json | None) -> list[bytes]:
+        odd = list(BODIES)
+        if body is not None:
+            told = [json.dumps(each).encode() for each in self._odd("", self._schema_of(body))]
+            odd = self._random.sample(odd, len(odd)) + self._random.sample(told, min(EACH, len(told)))
+        return odd
+
+    # ---- by schema ------------------------------------------------------------------------------------------------
+
+    def _schema_of(self, body: Json) -> Json:
+        return cast(Json, cast(Json, cast(Json, body["content"])["application/json"])["schema"])
+
+    def _resolved(self, schema: Json) -> Json:
+        if "$ref" in schema:
+            return self._resolved(cast(Json, self._schemas[str(schema["$ref"]).rpartition("/")[2]]))
+        if "anyOf" in schema:
+            return self._resolved(cast(list[Json], schema["anyOf"])[0])
+        return schema
+
+    def _kind(self, schema: Json) -> object:
+        return self._resolved(schema).get("type")
+
+    def _good(self, name: str, schema: Json) -> object:
+        """A value that the schema allows."""
+        resolved = self._resolved(schema)
+        kind = resolved.get("type")
+        if kind == "object":
+            properties = cast(dict[str, Json], resolved.get("properties", {}))
+            required = cast(list[str], resolved.get("required", []))
+            return {each: self._good(each, properties[each]) for each in required} or KNOWN.get(name, {})
+        if kind == "array" and self._kind(cast(Json, resolved["items"])) == "object":
+            return [self._good("", cast(Json, resolved["items"]))]
+        if name == "name":
+            self._count += 1
+            return f"made {self._count}"
+        choices = cast(list[object], resolved.get("enum", [""]))
+        plain: Json = {"integer": 1, "number": 1.0, "boolean": False, "array": [], "string": choices[0] or "x"}
+        return self._named.get(name, KNOWN.get(name, resolved.get("const", plain[str(kind)])))
+
+    def _odd(self, name: str, schema: Json) -> Iterator[object]:
+        """Values with one thing in them that is odd."""
+        resolved = self._resolved(schema)
+        kind = resolved.get("type")
+        if kind == "object" and "properties" in resolved:
+            good = cast(Json, self._good(name, schema))
+            for each, inner in cast(dict[str, Json], resolved["properties"]).items():
+                yield from ({**good, each: odd} for odd in self._odd(each, inner))
+            yield {**good, "unknown\0": 1}
+        elif kind == "object":
+            yield from ({text: "x"} for text in TEXTS)
+            yield from ({"main.st": text, "rack": text} for text in TEXTS)
+        elif kind == "array":
+            yield from ([odd] for odd in self._odd(name, cast(Json, resolved["items"])))
+        elif kind in ("integer", "number"):
+            yield from NUMBERS
+        elif kind == "string":
+            yield from TEXTS
+        yield from OTHERS
+
+
+@pytest.fixture(scope="module")
+def alone(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
+    """A server of its own: here things are made and thrown away."""
+    with Server(tmp_path_factory.mktemp("bad")) as server:
+        yield server
+
+
+def test_no_request_makes_the_server_fail(alone: Server) -> None:
+    instance = alone.instance("victim", MODEL, main=PROGRAM)
+    project = alone.http.get(f"/api/instances/{instance}").json()["project"]["id"]
+    base = f"/api/instances/{instance}"
+    with alone.browser(instance) as browser:
+        begun = alone.http.post(f"{base}/sweeps", json={"errors": ["plc-setup-error"], "window": 1}).json()["id"]
+        finished(browser, begun)
+    state = alone.http.post(f"{base}/states", json={"name": "kept"}).json()["id"]
+    record = alone.http.get(f"{base}/record", params={"format": "xml"}).content
+    records = f"/api/projects/{project}/records"
+    named: Json = {
+        "instance": instance, "project": project, "sweep": begun, "before": begun, "after": begun, "state": state,
+        "record": alone.http.post(records, content=record).json()["id"], "error": "battery-error",
+    }  # fmt: skip
+    statuses: Counter[int] = Counter()
+    for method, address, body in Api(named).requests():
+        reply = alone.http.request(method, address, content=body, headers=JSON)
+        statuses[reply.status_code] += 1
+        told = f"{method} {address[:200]} {body[:300]!r}: {reply.status_code} {reply.text[:300]}"
+        if reply.status_code >= 500: print("FAIL", told); continue
+        if reply.status_code >= 400:
+            assert reply.json()["message"], told
+    print(statuses, sum(statuses.values()))
+    now = alone.state(instance)
+    assert (now["state"], now["restarts"]) == ("running", 0), now
+
+
+@pytest.mark.parametrize(
+    ("method", "path", "body", "says"),
+    [
+        ("post", "/api/instances/{instance}/states", {"name": "a\0b"}, "the name contains a NUL character"),
+        ("post", "/api/instances/{instance}/errors/clear", {"what": 10**400}, "4294967295"),
+        ("get", "/api/sweeps/99999999999999999999", None, "less than 2147483648"),
+        ("delete", "/api/states/9999999999999999999999", None, "less than 2147483648"),
+        ("post", "/api/instances/{instance}/sweeps", {"states": [2**63]}, "states.0: "),
+        ("post", "/api/projects", {"name": "x\0", "model": MODEL}, "the name contains a NUL character"),
+    ],
+)
+def test_what_cannot_be_is_refused_with_words(
+    alone: Server, method: str, path: str, body: Json | None, says: str
+) -> None:
+    instance = alone.http.get("/api/instances").json()[-1]["id"]
+    content = b"" if body is None else json.dumps(body).encode()
+    reply = alone.http.request(method, path.format(instance=instance), content=content, headers=JSON)
+    assert reply.status_code == 422, reply.text
+    assert says in reply.json()["message"]

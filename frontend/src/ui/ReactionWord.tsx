@@ -1,0 +1,32 @@
+import type { LeafRow } from "../logic/catalogue";
+import { t } from "../logic/text";
+import { StateWord } from "./StateWord";
+import { VERDICT_ICONS } from "./statuses";
+
+interface Props {
+  reaction: NonNullable<LeafRow["reaction"]>;
+  /** What there is to say of it: the server's message, where nothing else is given. */
+  title?: string;
+}
+
+/** The reaction in short: what became of it, or that it is still being found out. */
+export function ReactionWord({ reaction: { state, verdict, message }, title = message }: Props) {
+  if (state === "recording")
+    return (
+      <StateWord
+        tone="recording"
+        icon="record"
+        word={t("reaction.recording")}
+        title={title || t("reaction.recording.about")}
+      />
+    );
+  const known = state === "failed" ? null : verdict;
+  return (
+    <StateWord
+      tone={known ?? "stale"}
+      icon={known ? VERDICT_ICONS[known] : "info"}
+      word={t(known ? `verdict.${known}` : "reaction.failed")}
+      title={title || undefined}
+    />
+  );
+}
