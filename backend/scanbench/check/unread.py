@@ -123,10 +123,7 @@ class Reads:
             case Load():
                 self._of(node.place, pou, own, callee)
             case Place():
-                place = node
-                if callee is not None and node.base is Base.SELF and node.slot is None and node.reference is None:
-                    place = replace(callee, type=node.type, offset=callee.offset + node.offset)
-                    place = replace(place, indices=(*callee.indices, *node.indices), variable=node.variable)
+                place = node if callee is None else _of_instance(callee, node)
                 if own is None or not _same_variable(place, own):
                     self._read(place, pou)
                 self._to(place, pou)
@@ -243,8 +240,19 @@ def _reach(index: Index) -> int | None:
     return None
 
 
+def _of_instance(instance: Place, place: Place) -> Place:
+    """A place of the block that runs, seen by who calls it."""
+    if place.base is not Base.SELF or place.slot is not None or place.reference is not None:
+        return place
+    indices = (*instance.indices, *place.indices)
+    offset = instance.offset + place.offset
+    return replace(instance, type=place.type, offset=offset, indices=indices, variable=place.variable)
+
+
 def _same_variable(place: Place, own: Place) -> bool:
-    if place.variable != own.variable or (place.base, place.slot, place.reference) != (own.base, own.slot, own.reference):
+    if place.variable != own.variable or place.base is not own.base:
+        return False
+    if (place.slot, place.reference) != (own.slot, own.reference):
         return False
     one, other = _extent(place), _extent(own)
     return one is not None and other is not None and one[0] < other[1] and other[0] < one[1]

@@ -9,7 +9,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from scanbench.faults.details import Chosen
-from scanbench.faults.inject import ACTIVE, Active, Recover, describe, present_choices
+from scanbench.faults.inject import ACTIVE, Active, Raised, Recover, describe, present_choices
 from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
 from scanbench.runtime.rights import Right, may
@@ -77,21 +77,19 @@ def clear(
     numbers: list[ErrorRef] = []
     held: list[Chosen] = []
     for id, several in present_choices(view, present).items():
-        chosen = [one for one in several if wanted(one)]
-        if not chosen:
-            continue
-        if holds(present[id], chosen[0]):
-            held += chosen
-        elif len(chosen) == len(several):
+        chosen = [(each, one) for each, one in zip(present[id].raised, several, strict=True) if wanted(one)]
+        gone = [each.ref for each, one in chosen if not holds(each, one)]
+        held += [one for each, one in chosen if holds(each, one)]
+        if len(gone) == len(several):
             ids.append(id)
         else:
-            numbers += [ref for ref, one in zip(present[id].refs, several, strict=True) if wanted(one)]
+            numbers += gone
     return (Recover(author, tuple(ids), numbers=tuple(numbers)) if ids or numbers else None), held
 
 
-def holds(error: Active, chosen: Chosen) -> bool:
+def holds(raised: Raised, chosen: Chosen) -> bool:
     """Whether the cause is still there."""
-    return chosen.error.lasting and error.origin == "simulator"
+    return chosen.error.lasting and raised.origin == "simulator"
 
 
 def most_serious(

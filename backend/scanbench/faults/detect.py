@@ -7,13 +7,12 @@ from scanbench.check.program import Pou, Program, TrapKind
 from scanbench.faults.answers import Answers, is_news, number_text
 from scanbench.faults.inject import ACTIVE, Generate
 from scanbench.faults.reference import ErrorRef
+from scanbench.faults.trap_errors import error_of
 from scanbench.plcmodel.model import ErrorDetail, ErrorEntry, Model
 from scanbench.runtime.command import Command, View
 from scanbench.runtime.detect import Asked
 from scanbench.runtime.trap import TrapInfo
 
-CYCLE_TIME_OVER, PROGRAM_ERROR = "cycle-time-over", "program-error"
-"""Ids of the errors that a PLC finds, in every model that has them."""
 _CAUSE = "cause"
 _CAUSES = {
     TrapKind.DIVISION: ("division", "operation-data", "instruction-processing"),
@@ -33,8 +32,8 @@ class Detection:
     def on_trap(self, info: TrapInfo, view: View) -> Command | None:
         """The error that the device reports; None where the model has none, it is there already, or FALS made it."""
         kind = TrapKind(info.kind)
-        error = view.model.error(CYCLE_TIME_OVER if kind is TrapKind.LOOP else PROGRAM_ERROR)
-        if error is None or kind is TrapKind.FATAL:
+        error = error_of(view.model, info)
+        if error is None:
             return None
         ref = ErrorRef(error.id, tuple(_trap_details(error, kind, info, view)))
         return Generate("PLC", (ref,), "plc") if is_news(view, view.derived(ACTIVE), error, ref) else None

@@ -5,32 +5,62 @@ recovered, and to 0 when none is left. A fatal error stops the program and switc
 """
 
 from collections.abc import Iterable, Mapping, Sequence
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from typing import Literal
 
 from scanbench.check.layout import Layout
+from scanbench.check.program import TrapKind
 from scanbench.faults.details import Chosen, choose
 from scanbench.faults.errorlog import log_patches, time_patches
 from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.faults.switch import switch
+from scanbench.faults.trap_errors import error_of
 from scanbench.runtime.command import Command, Entry, Patch, Plan, Refusal, View
 from scanbench.runtime.header import Halt, Mode
 from scanbench.runtime.journal import Fold
 from scanbench.runtime.modes import outputs_off, volatile_cleared
+from scanbench.runtime.trap import TRAPPED
 
 Origin = Literal["simulator", "plc", "program"]
 """Who raised an error: somebody at the error simulator, the PLC that found it itself, an instruction of the program."""
 
 
 @dataclass(frozen=True, slots=True)
-class Active:
-    """An error that is present."""
+class Raised:
+    """An error with its details, as somebody raised it."""
 
-    refs: tuple[ErrorRef, ...]
-    """One; several where the program raised it with several numbers (FAL 1 and FAL 2), the latest last."""
+    ref: ErrorRef
     by: str
     scan: int
     origin: Origin
+
+
+@dataclass(frozen=True, slots=True)
+class Active:
+    """An error that is present."""
+
+    raised: tuple[Raised, ...]
+    """One; several where the program raised it too, with other numbers or details (FAL 1 and FAL 2). The latest last."""
+
+    @property
+    def refs(self) -> tuple[ErrorRef, ...]:
+        """With all details that it is present with."""
+        return tuple(each.ref for each in self.raised)
+
+    @property
+    def by(self) -> str:
+        """Who raised it last."""
+        return self.raised[-1].by
+
+    @property
+    def scan(self) -> int:
+        """When it was raised last."""
+        return self.raised[-1].scan
+
+    @property
+    def origin(self) -> Origin:
+        """Whence it came last."""
+        return self.raised[-1].origin
 
 
 @dataclass(frozen=True, slots=True)
@@ -117,14 +147,14 @@ class Recover(Command):
         patches = list(switch(view, off=off, on=[], others=_flat(others)))
         patches += time_patches(view, (), nothing_left=not _flat(others))
         message = "recovered " + ", ".join(named)
-        halt = _halt_after(view.header.halt, off, _flat(others))
-        if any(_stopped_it(present[one.error.id], one) for one in off):
-            halt &= ~Halt.TRAP
+        halt = _halt_after(view, off, _flat(others))
         if halt != view.header.halt:
             patches.append(Patch.whole(Layout.FATAL, bytes((halt,))))
             if not halt:
                 patches.append(Patch.whole(Layout.MODE, bytes((Mode.PROGRAM,))))
                 message += "; the program stays stopped: change to MONITOR or RUN, or restart"
+        if halt and _any_fatal(off):
+            message += f"; the program stays stopped: {_why_stopped(view, halt, _flat(others))}"
         return Plan(tuple(patches), message)
 
 
@@ -134,16 +164,15 @@ def present_after(present: Mapping[str, Active], command: Command, scan: int) ->
         changed = dict(present)
         for ref in command.errors:
             before = changed.pop(ref.id, None)
-            refs = (*before.refs, ref) if before is not None and command.origin == "program" else (ref,)
-            changed[ref.id] = Active(refs, command.author, scan, command.origin)
+            stay = before.raised if before is not None and command.origin == "program" else ()
+            changed[ref.id] = Active((*stay, Raised(ref, command.author, scan, command.origin)))
         return changed
     if isinstance(command, Recover):
         gone = present if command.ids is None else command.ids
         left = {id: error for id, error in present.items() if id not in gone}
         for ref in command.numbers:
             if ref.id in left:
-                error = left[ref.id]
-                left[ref.id] = replace(error, refs=tuple(each for each in error.refs if each != ref))
+                left[ref.id] = Active(tuple(each for each in left[ref.id].raised if each.ref != ref))
         return left
     return present
 
@@ -207,13 +236,27 @@ def _stop(view: View, fatal: list[Chosen]) -> list[Patch]:
     return patches + list(outputs_off(view))
 
 
-def _halt_after(halt: Halt, off: list[Chosen], left: list[Chosen]) -> Halt:
-    """What still keeps the program stopped."""
-    if any(one.error.severity == "fatal" for one in off) and not any(one.error.severity == "fatal" for one in left):
+def _halt_after(view: View, off: Sequence[Chosen], left: Sequence[Chosen]) -> Halt:
+    """What still keeps the program stopped. A trap ends with its error, whoever raised that again meanwhile."""
+    halt = view.header.halt
+    last = _any_fatal(off) and not _any_fatal(left)
+    if last:
         halt &= ~Halt.FATAL_ERROR
+    info = view.derived(TRAPPED)
+    if halt & Halt.TRAP and info is not None:
+        error = error_of(view.model, info)
+        by_instruction = info.kind == TrapKind.FATAL
+        if (last and by_instruction) or any(one.error is error for one in off):
+            halt &= ~Halt.TRAP
     return halt
 
 
-def _stopped_it(error: Active, chosen: Chosen) -> bool:
-    """Whether this is the error of a trap, which ends with it: what the PLC found, or what a FALS asked for."""
-    return error.origin == "plc" or (error.origin == "program" and chosen.error.severity == "fatal")
+def _any_fatal(errors: Iterable[Chosen]) -> bool:
+    return any(one.error.severity == "fatal" for one in errors)
+
+
+def _why_stopped(view: View, halt: Halt, left: Iterable[Chosen]) -> str:
+    if halt & Halt.FATAL_ERROR:
+        ids = dict.fromkeys(one.error.id for one in left if one.error.severity == "fatal")
+        return f"{', '.join(ids)} {'is' if len(ids) == 1 else 'are'} still present"
+    return f"{view.derived(TRAPPED)}. Change to PROGRAM, or restart"

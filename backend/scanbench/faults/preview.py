@@ -4,7 +4,6 @@ from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Literal
 
-from scanbench.check.layout import Layout
 from scanbench.faults.details import Bits, choose, field_bits
 from scanbench.faults.inject import ACTIVE, Generate, present_choices
 from scanbench.faults.reference import ErrorRef, find_error
@@ -35,6 +34,8 @@ class Preview:
     message: str
     writes: tuple[PreviewedWrite, ...] = ()
     """The errors' own first, then the code word, the log, and what the PLC does besides."""
+    more: int = 0
+    """Words that change besides, and are not named."""
 
 
 def preview(view: View, errors: Sequence[ErrorRef], again: bool) -> Preview:
@@ -49,8 +50,8 @@ def preview(view: View, errors: Sequence[ErrorRef], again: bool) -> Preview:
     if word is not None:
         looked.take([("code", "", field_bits(word, 0, word.bits, 0, view.program.layout))])
     looked.take(_log(view), only_changed=True)
-    looked.take_others()
-    return Preview(True, plan.message, tuple(looked.writes))
+    more = looked.take_others()
+    return Preview(True, plan.message, tuple(looked.writes), more)
 
 
 Part = tuple[What, str, Sequence[Bits]]
@@ -111,16 +112,14 @@ class _Looked:
             for at, mask in sorted(words.items()):
                 self._tell(at, mask, what, error, only_changed)
 
-    def take_others(self) -> None:
-        """What else changes: what the PLC does when it stops."""
+    def take_others(self) -> int:
+        """What else changes, in words that have an address: what the PLC does when it stops. How many are not named."""
         known = {at for at, _ in self._told}
-        changed = [each for each in self._patched if each >= Layout.HEADER_SIZE and self._differs(each)]
-        words = sorted({self._word(each)[0] for each in changed} - known)
+        changed = {self._word(each)[0] for each in self._patched if self._differs(each)}
+        words = sorted(at for at in changed - known if self._layout.area_at(at) is not None)
         for at in words[:_MOST_OTHERS]:
             self._tell(at, 0xFFFF, "other", "", True)
-        if len(words) > _MOST_OTHERS:
-            more = f"{len(words) - _MOST_OTHERS} more words"
-            self.writes.append(PreviewedWrite(more, "", "", "other", ""))
+        return max(len(words) - _MOST_OTHERS, 0)
 
     def _word(self, offset: int) -> tuple[int, int]:
         """Where the word begins that holds a byte, and by how much the byte is shifted in it."""

@@ -266,7 +266,7 @@ class _Run:
 
     def _more(self, scans: int, nothing: bool, only_inside: bool) -> Iterator[str]:
         if self._recovered is not None:
-            yield f"the program recovered it itself, in scan {self._recovered}"
+            yield f"the program recovered it itself, after {self._recovered} scan{'s' * (self._recovered != 1)}"
         if only_inside:
             blocks = list(self._effects.under_way)
             named = ", ".join(blocks[:_NAMED]) + (" and others" if len(blocks) > _NAMED else "")
@@ -282,7 +282,7 @@ def _takes_back(entry: Entry, ref: ErrorRef) -> bool:
     command = entry.command
     if not isinstance(command, Recover):
         return False
-    return command.ids is None or ref.id in command.ids or any(each.id == ref.id for each in command.numbers)
+    return command.ids is None or ref.id in command.ids or ref in command.numbers
 
 
 # ---- steps of a run ------------------------------------------------------------------------------------------------
@@ -369,11 +369,14 @@ def _spared(command: Command, error: str) -> Command | None:
         return replace(command, errors=errors) if errors else None
     if isinstance(command, Recover) and command.ids is not None:
         ids = tuple(id for id in command.ids if id != error)
-        return replace(command, ids=ids) if ids else None
+        numbers = tuple(each for each in command.numbers if each.id != error)
+        return replace(command, ids=ids, numbers=numbers) if ids or numbers else None
     return command
 
 
 def _is_about(command: Command, error: str) -> bool:
     if isinstance(command, Generate):
         return any(each.id == error for each in command.errors)
-    return isinstance(command, Recover) and (command.ids is None or error in command.ids)
+    if not isinstance(command, Recover):
+        return False
+    return command.ids is None or error in command.ids or any(each.id == error for each in command.numbers)

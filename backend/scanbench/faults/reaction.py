@@ -7,6 +7,8 @@ Verdict = Literal["reacted", "no_effect", "never_read", "stopped"]
 """stopped: a fatal error, the PLC stopped as the model says, so no program could react."""
 What = Literal["flag", "code", "detail", "log"]
 """log: the PLC's own error log or its counter, where a record of the error is."""
+FINDINGS: tuple[Verdict, ...] = ("never_read", "no_effect")
+"""What the program missed: nobody read it, or nothing came of it."""
 WINDOW = 200
 """Scans that a program gets to react."""
 
@@ -67,3 +69,8 @@ class Reaction:
     lines: tuple[Line, ...] = ()
     note: str = ""
     """What ended the comparison early, or must be known: the program trapped with it, it was refused."""
+
+    @property
+    def reader_places(self) -> tuple[str, ...]:
+        """`file:line` of what read it, each once, the first to read first."""
+        return tuple(dict.fromkeys(f"{each.file}:{each.line}" for each in self.readers))

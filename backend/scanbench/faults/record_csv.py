@@ -32,24 +32,17 @@ def _row(record: TestRecord, error: RecordError) -> list[str]:
         error.group, error.id, error.name, error.code, error.flag, error.severity, error.status,
         _moment(error.generated_at), _number(error.generated_scan), _moment(error.recovered_at),
         _number(error.recovered_scan), error.details, error.by, error.origin or "", str(error.count),
-        finding.verdict or "", finding.where, _number(finding.scans), readers(reaction), outputs(reaction),
+        finding.verdict or "", finding.where, _number(finding.scans),
+        "" if reaction is None else ", ".join(reaction.reader_places),
+        "" if reaction is None else _outputs(reaction),
         "" if reaction is None else str(reaction.difference_count),
         "; ".join(f"{one.state}: {one.reason} ({one.by})" for one in error.accepted),
         error.reaction_note or ("" if reaction is None else reaction.note),
     ]  # fmt: skip
 
 
-def readers(reaction: Reaction | None) -> str:
-    """The statements that read what the error writes, as file:line."""
-    if reaction is None:
-        return ""
-    return ", ".join(dict.fromkeys(f"{each.file}:{each.line}" for each in reaction.readers))
-
-
-def outputs(reaction: Reaction | None) -> str:
+def _outputs(reaction: Reaction) -> str:
     """The outputs that differ, with what they were without and with the error."""
-    if reaction is None:
-        return ""
     return ", ".join(f"{each.path} {each.without} → {each.value}" for each in reaction.differences)
 
 

@@ -6,7 +6,7 @@ from html import escape
 from importlib.resources import files
 from itertools import groupby
 
-from scanbench.faults.reaction import Difference, Reaction, Verdict
+from scanbench.faults.reaction import FINDINGS, Difference, Reaction, Verdict
 from scanbench.faults.record import (
     WORST_FIRST,
     Language,
@@ -17,7 +17,6 @@ from scanbench.faults.record import (
 )
 from scanbench.faults.record_words import WORDS
 
-FINDINGS: tuple[Verdict, ...] = ("never_read", "no_effect")
 SHOWN = 8
 """Readers, and outputs, of one error; the XML has them all."""
 
@@ -166,8 +165,7 @@ class _Document:
         return "<br>".join(lines)
 
     def _readers(self, reaction: Reaction | None) -> str:
-        places = () if reaction is None else dict.fromkeys(f"{each.file}:{each.line}" for each in reaction.readers)
-        return self._shortened([escape(place) for place in places])
+        return self._shortened([escape(place) for place in (() if reaction is None else reaction.reader_places)])
 
     def _outputs(self, differences: Sequence[Difference]) -> str:
         return self._shortened([escape(f"{each.path}: {each.without} → {each.value}") for each in differences])

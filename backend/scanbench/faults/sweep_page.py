@@ -2,10 +2,11 @@
 
 from collections.abc import Iterator, Mapping
 from html import escape
+from urllib.parse import quote
 
-from scanbench.faults.reaction import Difference, Verdict
+from scanbench.faults.reaction import FINDINGS, Difference, Verdict
 from scanbench.faults.sweep import Cell
-from scanbench.faults.sweep_report import UNHANDLED, WORDS, SweepResult, count, readers_of, reason, verdict_of
+from scanbench.faults.sweep_report import WORDS, SweepResult, count, reason, verdict_of
 
 _SIGNS: Mapping[Verdict | None, str] = {
     "reacted": "✓", "no_effect": "◐", "never_read": "✗", "stopped": "■", None: "–",
@@ -76,12 +77,12 @@ def _in_matrix(cell: Cell) -> str:
     text = f"{_SIGNS[verdict]} {escape(WORDS[verdict])}"
     if reaction is not None and reaction.first_effect is not None:
         text += f', <span class="dim">{count(reaction.first_effect, "scan")}</span>'
-    link = f'<a href="#{_anchor(cell)}">{text}</a>' if verdict not in ("stopped", "never_read") else text
+    link = f'<a href="#{_anchor(cell)}">{text}</a>' if verdict != "stopped" else text
     return f'<td class="{verdict or "none"}">{link}</td>'
 
 
 def _findings(result: SweepResult) -> Iterator[str]:
-    found = [cell for cell in result.cells if verdict_of(cell) in UNHANDLED or cell.reaction is None]
+    found = [cell for cell in result.cells if verdict_of(cell) in FINDINGS or cell.reaction is None]
     yield "<h2>Findings</h2>\n"
     if not found:
         yield "<p>The program reacted to every error that leaves it running.</p>\n"
@@ -89,9 +90,8 @@ def _findings(result: SweepResult) -> Iterator[str]:
     yield '<table><thead><tr><th scope="col">Error</th><th scope="col">State</th><th scope="col">Verdict</th><th scope="col">Why</th></tr></thead><tbody>\n'
     for cell in found:
         entry, verdict = result.entry(cell), verdict_of(cell)
-        anchor = f' id="{_anchor(cell)}"' if verdict != "reacted" else ""
         yield (
-            f'<tr{anchor}><th scope="row">{escape(entry.name)}<br><code class="dim">{entry.code_text} {escape(entry.flag_text)}'
+            f'<tr id="{_anchor(cell)}"><th scope="row">{escape(entry.name)}<br><code class="dim">{entry.code_text} {escape(entry.flag_text)}'
             f'</code></th><td>{escape(cell.point)}</td><td class="{verdict or "none"}">{_SIGNS[verdict]} {WORDS[verdict]}</td>'
             f"<td>{escape(reason(cell))}</td></tr>\n"
         )
@@ -108,7 +108,7 @@ def _reactions(result: SweepResult) -> Iterator[str]:
         assert reaction is not None
         yield f'<section id="{_anchor(cell)}"><h3>{escape(entry.name)}, {escape(cell.point)}</h3>\n'
         first = count(reaction.first_effect, "scan") if reaction.first_effect is not None else ""
-        read = ", ".join(f"<code>{escape(each)}</code>" for each in readers_of(reaction)) or "no statement"
+        read = ", ".join(f"<code>{escape(each)}</code>" for each in reaction.reader_places) or "no statement"
         yield f"<p>First effect after {first}. Read by: {read}."
         lines = ", ".join(f"<code>{escape(each.file)}:{each.line}</code>" for each in reaction.lines)
         yield f" Reached only with it: {lines}." if lines else ""
@@ -128,4 +128,4 @@ def _difference(each: Difference) -> str:
 
 
 def _anchor(cell: Cell) -> str:
-    return escape(f"{cell.error}/{cell.point}".replace(" ", "_"), quote=True)
+    return quote(f"{cell.error}/{cell.point}")

@@ -7,19 +7,16 @@ from typing import cast, get_args
 
 from lxml import etree
 
+from scanbench.faults import record_words
 from scanbench.faults.compare import Outcome, SweepChange
-from scanbench.faults.reaction import Reaction, Verdict
+from scanbench.faults.reaction import FINDINGS, Verdict
 from scanbench.faults.sweep import Cell
 from scanbench.plcmodel.catalogue import ErrorEntry, Severity
+from scanbench.plcmodel.document import xml_text
 
 WORDS: Mapping[Verdict | None, str] = {
-    "reacted": "reacted",
-    "no_effect": "read, no effect",
-    "never_read": "never read",
-    "stopped": "PLC stopped",
-    None: "not raised",
+    verdict: record_words.WORDS["en"][verdict or "not_raised"] for verdict in (*get_args(Verdict), None)
 }
-UNHANDLED: tuple[Verdict, ...] = ("never_read", "no_effect")
 FORMAT = 1
 _SHOWN = 3
 
@@ -49,7 +46,7 @@ class SweepResult:
     def unhandled(self, severities: Sequence[Severity]) -> tuple[Cell, ...]:
         """Errors of these severities that the program forgot, or reads without any effect."""
         return tuple(
-            cell for cell in self.cells if verdict_of(cell) in UNHANDLED and self.entry(cell).severity in severities
+            cell for cell in self.cells if verdict_of(cell) in FINDINGS and self.entry(cell).severity in severities
         )
 
 
@@ -58,17 +55,12 @@ def verdict_of(cell: Cell) -> Verdict | None:
     return cell.reaction.verdict if cell.reaction is not None else None
 
 
-def readers_of(reaction: Reaction) -> list[str]:
-    """`file:line`, each once, the first to read first."""
-    return list(dict.fromkeys(f"{each.file}:{each.line}" for each in reaction.readers))
-
-
 def reason(cell: Cell) -> str:
     """A sentence about what was found."""
     reaction = cell.reaction
     if reaction is None:
         return cell.note
-    read = f"read in {', '.join(_some(readers_of(reaction)))}"
+    read = f"read in {', '.join(_some(reaction.reader_places))}"
     changed = [f"{each.path} {each.without} -> {each.value}" for each in reaction.differences]
     match reaction.verdict:
         case "stopped":
@@ -160,7 +152,7 @@ def _cell_json(entry: ErrorEntry, cell: Cell) -> dict[str, object]:
     if reaction is not None:
         about |= {
             "scans": reaction.first_effect, "first_read": reaction.first_read, "window": reaction.window,
-            "readers": readers_of(reaction), "reads": [asdict(each) for each in reaction.readers],
+            "readers": list(reaction.reader_places), "reads": [asdict(each) for each in reaction.readers],
             "differences": [asdict(each) for each in reaction.differences],
             "difference_count": reaction.difference_count,
             "handler_lines": [f"{each.file}:{each.line}" for each in reaction.lines], "note": reaction.note,
@@ -201,23 +193,18 @@ def sweep_junit(result: SweepResult, severities: Sequence[Severity]) -> str:
     numbers = {"tests": len(result.cells), "failures": len(failed), "skipped": len(skipped), "errors": 0}
     totals = {name: str(number) for name, number in numbers.items()}
     root = etree.Element("testsuites", totals)
-    suite = etree.SubElement(root, "testsuite", {"name": _printable(f"{result.project} on {result.model}"), **totals})
+    suite = etree.SubElement(root, "testsuite", {"name": xml_text(f"{result.project} on {result.model}"), **totals})
     for cell in result.cells:
         entry = result.entry(cell)
         name = f"{entry.id} ({entry.code_text})"
         case = etree.SubElement(
-            suite, "testcase", {"classname": _printable(f"{result.model}.{cell.point}"), "name": name}
+            suite, "testcase", {"classname": xml_text(f"{result.model}.{cell.point}"), "name": name}
         )
         if cell.reaction is None:
-            etree.SubElement(case, "skipped", {"message": _printable(cell.note)})
+            etree.SubElement(case, "skipped", {"message": xml_text(cell.note)})
         elif cell in failed:
             about = {"message": f"{entry.severity} error: {WORDS[verdict_of(cell)]}", "type": cell.reaction.verdict}
-            etree.SubElement(case, "failure", about).text = _printable(reason(cell))
+            etree.SubElement(case, "failure", about).text = xml_text(reason(cell))
         else:
-            etree.SubElement(case, "system-out").text = _printable(f"{WORDS[verdict_of(cell)]}: {reason(cell)}")
+            etree.SubElement(case, "system-out").text = xml_text(f"{WORDS[verdict_of(cell)]}: {reason(cell)}")
     return str(etree.tostring(root, encoding="utf-8", xml_declaration=True, pretty_print=True), "utf-8")
-
-
-def _printable(text: str) -> str:
-    """XML has no control characters, and values of strings may."""
-    return "".join(each if each.isprintable() or each in "\n\t" else "\ufffd" for each in text)

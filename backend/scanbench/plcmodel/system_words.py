@@ -38,7 +38,9 @@ def _of_the_system(device: Model) -> Iterator[Taken]:
         yield Taken(stretch(log.first, log.records * log.words), "in the error log")
         yield Taken(stretch(log.counter), "the counter of the error log")
     if device.error_time is not None:
-        yield Taken(stretch(device.error_time.first, len(device.error_time.fields) // 2), "the time of the latest error")
+        yield Taken(
+            stretch(device.error_time.first, len(device.error_time.fields) // 2), "the time of the latest error"
+        )
     if device.error_reset is not None:
         yield Taken(stretch(device.error_reset.bit), "the bit that clears errors")
         yield Taken(stretch(device.error_reset.code), "the code of the error to clear")

@@ -12,7 +12,7 @@ import msgpack  # type: ignore[import-untyped]
 from scanbench.check.violations import Violation, Violations
 from scanbench.faults.arm import ARMED, NUMBERED, Arm, ArmedInfo, Disarm, Missed
 from scanbench.faults.clear import ClearErrorLog, ClearErrors
-from scanbench.faults.inject import ACTIVE, Active, Generate, Recover
+from scanbench.faults.inject import ACTIVE, Active, Generate, Raised, Recover
 from scanbench.faults.preview import PreviewedWrite
 from scanbench.faults.reaction import Difference, Line, Reaction, Reader
 from scanbench.faults.reference import ErrorRef
@@ -51,7 +51,7 @@ _CLASSES: dict[str, type] = {
         Arm, ArmedInfo, Disarm, Missed, Numbered, PreviewedWrite, Shape, Wanted, protocol.PreviewErrors,
         protocol.PreviewedErrors, Difference, Line, Reaction, Reader,
         job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.Reacted,
-        job_protocol.RunSweep, job_protocol.StartPoint, job_protocol.Trying,
+        job_protocol.RunSweep, job_protocol.StartPoint, job_protocol.Trying, Raised,
     )
 }  # fmt: skip
 _CLASSES["FaultStart"] = FaultStart  # there is another Start

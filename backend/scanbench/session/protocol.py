@@ -288,6 +288,8 @@ class PreviewedErrors:
     message: str
     scan: int
     writes: tuple[PreviewedWrite, ...]
+    more: int = 0
+    """Words that change besides, and are not named."""
 
 
 @dataclass(frozen=True, slots=True)

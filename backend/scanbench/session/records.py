@@ -88,7 +88,8 @@ class Records:
 
     async def _of_version(self, session: Session, version: int | None) -> tuple[list[ErrorRow], Model, BuildRow | None]:
         wanted = session.history_version if version is None else version
-        if wanted not in session.history_versions:
+        # A version that was only swept has nothing but that to tell: it has a record all the same.
+        if wanted not in session.history_versions and not await asyncio.to_thread(self._swept, session, wanted):
             known = ", ".join(map(str, session.history_versions))
             raise NotFound(f"{session.name} has no error history of version {wanted}; there are {known}")
         build = await asyncio.to_thread(self._store.build, session.project_id, wanted)
@@ -103,11 +104,15 @@ class Records:
         return model_for(device_of(session.model), build.sources)
 
     def _sweeps(self, session: Session, version: int) -> list[RecordSweep]:
+        return [self._sweep(sweep) for sweep in self._swept(session, version)]
+
+    def _swept(self, session: Session, version: int) -> list[SweepRow]:
+        """The sweeps of a version on this PLC."""
         found = []
         for sweep in self._store.sweeps(session.project_id):
             ours = sweep.instance_id == session.id and sweep.model == session.model.name
             if ours and sweep.program_version == version and sweep.done:
-                found.append(self._sweep(sweep))
+                found.append(sweep)
         return found
 
     def _sweep(self, sweep: SweepRow) -> RecordSweep:

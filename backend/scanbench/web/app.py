@@ -121,4 +121,11 @@ def _serve_page(app: FastAPI, directory: Path) -> None:
             return HTMLResponse(not_built_page(directory), 503)
         return HTMLResponse(index.read_text("utf-8"), headers={"Cache-Control": "no-cache"})
 
-    app.mount("/", StaticFiles(directory=directory, check_dir=False), name="frontend")
+    app.mount("/", _BuiltFiles(directory=directory, check_dir=False), name="frontend")
+
+
+class _BuiltFiles(StaticFiles):
+    """What is not there is not found: so too all of it, as long as nothing was built."""
+
+    async def check_config(self) -> None:
+        """Starlette's own fails without a directory."""

@@ -78,7 +78,7 @@ class Reader(Wire):
     file: str
     line: int
     pou: str
-    what: Literal["flag", "code", "detail"]
+    what: Literal["flag", "code", "detail", "log"]
     scan: int = Field(description="of the window, from 1")
 
 
@@ -248,6 +248,7 @@ class PreviewedErrors(Wire):
     message: str = Field(description="what would happen, or why it would be refused")
     scan: int
     writes: list[PreviewedWrite]
+    more: int = Field(description="words that change besides and are not named")
 
 
 class CommandResult(Wire):

@@ -39,7 +39,7 @@ def armed(fault: ArmedInfo) -> wire.ArmedFault:
 def previewed(found: PreviewedErrors) -> wire.PreviewedErrors:
     """What raising errors would write."""
     return wire.PreviewedErrors(
-        ok=found.ok, message=found.message, scan=found.scan,
+        ok=found.ok, message=found.message, scan=found.scan, more=found.more,
         writes=[
             wire.PreviewedWrite(
                 address=each.address, before=each.before, after=each.after, what=each.what, error=each.error

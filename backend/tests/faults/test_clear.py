@@ -12,7 +12,7 @@ from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.replay import replay
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
-from scanbench.session import codec
+from scanbench.session import codec, protocol
 from tests.faults.test_detect import done, plc
 from tests.faults.test_instructions import generated, go, row, set_to
 from tests.runtime.bench import ENGINES, value
@@ -289,6 +289,54 @@ def test_the_number_in_a529_is_only_for_codes_of_its_severity() -> None:
     set_to(resource, fatal=0, number=101)
     go(resource, 2)
     assert value(resource, "A400") == 0x4165  # any other number is its own error
+
+
+def test_the_trap_of_fals_ends_with_its_error_although_somebody_raised_that_again() -> None:
+    for raised in ("fals:number=7", "memory-error"):
+        resource = plc(OMRON, model_name="CJ1M-CPU13")
+        done(resource, Write("Ada", "A529", "511"))
+        code = 3 if raised.startswith("fals") else 511
+        set_to(resource, fatal=code, m=0x80F1)
+        go(resource, 2)
+        ref = parse_reference(resource.view.model, raised)
+        assert isinstance(ref, ErrorRef)
+        done(resource, Generate("Ada", (ref,), again=True))
+        assert resource.header.halted_by_trap
+        done(resource, Recover("Ada", None))
+        assert (resource.header.mode, resource.header.halt, resource.trap) == (Mode.PROGRAM, 0, None)
+
+
+@pytest.mark.parametrize("engine", ENGINES)
+def test_an_error_of_the_system_by_fal_takes_nothing_over(engine: EngineFactory) -> None:
+    """What somebody raised at the simulator stays his, and its cause with it; what the program raised beside it can go."""
+    resource = plc(OMRON, engine)
+    raise_(resource, "basic-io-error:rack=1,slot=1")
+    done(resource, Write("Ada", "A529", "100"))
+    set_to(resource, number=100, m=0x009A, m1=0x0203)
+    go(resource, 3)
+    active = resource.view.derived(ACTIVE)["basic-io-error"]
+    assert [(each.by, each.origin) for each in active.raised] == [("Ada", "simulator"), ("program", "program")]
+    assert value(resource, "A408") == 0x0203
+    set_to(resource, number=0)
+    go(resource, 1)
+    for what in ("all", 0x009A, "current"):
+        outcome = resource.submit(ClearErrors("tool", what))
+        if what == "all":
+            assert isinstance(outcome, Entry)
+            assert outcome.plan.message == "recovered basic-io-error (rack=2, slot=3)"
+        else:
+            assert isinstance(outcome, Refusal)
+            assert outcome.message.startswith(WILL_NOT_CLEAR)
+        assert (value(resource, "A400"), value(resource, "A402"), value(resource, "A408")) == (0x009A, 1 << 12, 0x0101)
+    active = resource.view.derived(ACTIVE)["basic-io-error"]
+    assert (active.by, active.origin, len(active.raised)) == ("Ada", "simulator", 1)
+    again = plc(OMRON, engine)
+    replay(again, [_packed(each) for each in resource.journal], resource.header.scan)
+    assert (again.state, again.view.derived(ACTIVE)) == (resource.state, resource.view.derived(ACTIVE))
+    standing = protocol.Standing({}, dict(resource.view.derived(ACTIVE)))
+    assert codec.unpack(codec.pack_body(standing)) == standing
+    done(resource, Recover("Ada", ("basic-io-error",)))
+    assert present(resource) == []
 
 
 # ---- MELSEC -------------------------------------------------------------------------------------------------------

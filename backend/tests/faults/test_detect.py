@@ -157,6 +157,34 @@ def test_another_fatal_error_goes_on_stopping_it() -> None:
     assert (resource.header.halt, resource.header.mode) == (Halt.NONE, Mode.PROGRAM)
 
 
+@pytest.mark.parametrize("which", [1, 4])
+def test_the_trap_ends_with_its_error_although_somebody_raised_that_again(which: int) -> None:
+    resource = run_into(which)
+    found = resource.journal[-1].command
+    assert isinstance(found, Generate)
+    done(resource, Generate("Ada", (ErrorRef(found.errors[0].id),), again=True))
+    message = done(resource, Recover("Ada", None)).plan.message
+    assert message.endswith("; the program stays stopped: change to MONITOR or RUN, or restart")
+    assert (resource.header.mode, resource.header.halt, resource.trap) == (Mode.PROGRAM, Halt.NONE, None)
+    done(resource, Write("Ada", "Main.which", "0"))
+    done(resource, SetMode("Ada", "MONITOR"))
+
+
+def test_a_recovery_says_what_keeps_the_program_stopped() -> None:
+    resource = run_into(1)
+    done(resource, Generate("Ada", (ErrorRef("memory-error"), ErrorRef("io-bus-error"))))
+    message = done(resource, Recover("Ada", ("program-error",))).plan.message
+    assert message == "recovered program-error; the program stays stopped: memory-error, io-bus-error are still present"
+    other = Resource(Loaded.make(program(SOURCE), ENGINES[0]))  # nobody raises the error of a trap there
+    done(other, Write("Ada", "Main.which", "1"))
+    other.run(1)
+    done(other, Generate("Ada", (ErrorRef("memory-error"),)))
+    message = done(other, Recover("Ada", None)).plan.message
+    assert message.startswith("recovered memory-error; the program stays stopped: main.st:6")
+    assert message.endswith("Change to PROGRAM, or restart")
+    assert other.header.halt == Halt.TRAP
+
+
 def test_recovering_an_error_of_somebody_else_leaves_the_trap() -> None:
     resource = run_into(1)
     done(resource, Generate("Ada", (ErrorRef("battery-error"),)))

@@ -3,7 +3,7 @@
 from datetime import UTC, datetime
 
 from scanbench.faults.history import ErrorRow, History, RowReaction
-from scanbench.faults.inject import Active, Generate, Recover
+from scanbench.faults.inject import Active, Generate, Raised, Recover
 from scanbench.faults.reaction import Reaction
 from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.command import Command, Entry, Plan, Swapped
@@ -120,7 +120,7 @@ def test_rows_are_kept_over_a_restart() -> None:
     after = History(model(), 2, kept)
     assert after.rows == before.rows
     assert after.rows_of(1, model()) == before.rows_of(1, model())
-    present = {"battery-error": Active((ErrorRef("battery-error"),), "Ada", 1, "simulator")}
+    present = {"battery-error": Active((Raised(ErrorRef("battery-error"), "Ada", 1, "simulator"),))}
     (gone,) = after.reconcile(present, datetime(2026, 11, 21, 13, tzinfo=UTC))
     assert (gone.id, gone.status) == ("fal", "cleared")
 

@@ -90,3 +90,19 @@ def _shown(resource: Resource, write: PreviewedWrite) -> str:
     shown = value(resource, write.address)
     assert shown is not None
     return str(int(shown)) if len(write.after) == 1 else f"{int(shown) & 0xFFFF:04X}"
+
+
+def test_how_many_words_are_not_named_is_a_number_and_no_address() -> None:
+    """A fatal error clears what the model says: here more than anybody reads."""
+    names = "".join(f"w{n} AT CIO {n} : WORD; " for n in range(60))
+    writes = "".join(f"w{n} := 1; " for n in range(60))
+    resource = at_three(f"PROGRAM Main\nVAR {names}END_VAR\n{writes}\nEND_PROGRAM\n")
+    found = preview(resource.view, refs("memory-error:io-table-checksum"), again=False)
+    others = [each for each in found.writes if each.what == "other"]
+    assert all(value(resource, each.address) is not None for each in found.writes)
+    before = resource.state
+    assert isinstance(resource.submit(Generate("Ada", refs("memory-error:io-table-checksum"))), Entry)
+    first, last = (resource.view.program.layout.areas["CIO"] + 2 * word for word in (0, 60))
+    cleared = sum(before[at : at + 2] != resource.state[at : at + 2] for at in range(first, last, 2))
+    assert (len(others), found.more) == (40, cleared - 40)
+    assert found.more > 0

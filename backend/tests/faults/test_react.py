@@ -174,7 +174,7 @@ VAR n : INT; END_VAR
 END_PROGRAM
 """
     found = reaction(source, "battery-error", make)
-    assert (found.verdict, found.window) == ("never_read", 20)
+    assert (found.verdict, found.window) == ("never_read", 21)  # with the scan that trapped
     assert found.note.startswith("the program stops without it too")
 
 
@@ -349,3 +349,182 @@ def test_a_plc_that_does_not_run_says_so(make: MakeObserved) -> None:
     found = attempt(checked({"main.st": BUSY}), ("battery-error",), make, 20, before=(SetMode("Ada", "PROGRAM"),))
     assert isinstance(found, Refusal)
     assert "did not run" in found.message
+
+
+# ---- blocks of the library -----------------------------------------------------------------------------------------
+
+
+def handling(variables: str, body: str) -> str:
+    return f"""
+PROGRAM Main
+VAR battery AT A402.04 : BOOL; lamp AT CIO 100.00 : BOOL; go : BOOL; {variables} END_VAR
+{body}
+END_PROGRAM
+"""
+
+
+UNDER_WAY = "only a timer or counter of the library is under way: Main.t; its output did not change in the window"
+
+
+def test_a_timer_longer_than_the_window_is_under_way(make: MakeObserved) -> None:
+    found = reaction(handling("t : TON;", "t(IN := battery, PT := T#5s); lamp := t.Q;"), "battery-error", make)
+    assert (found.verdict, found.first_effect, found.note) == ("reacted", 1, UNDER_WAY)
+    assert "Main.t.ET" in differing(found)
+
+
+def test_a_counter_is_under_way(make: MakeObserved) -> None:
+    found = reaction(handling("t : CTU;", "t(CU := battery, PV := 3); lamp := t.Q;"), "battery-error", make)
+    assert (found.verdict, found.note, set(differing(found))) == ("reacted", UNDER_WAY, {"Main.t.CV", "Main.t.last"})
+
+
+def test_a_timer_within_the_window_counts_from_its_output(make: MakeObserved) -> None:
+    source = handling("t : TON; n : INT;", "t(IN := battery, PT := T#100ms); IF t.Q THEN n := n + 1; END_IF;")
+    found = reaction(source, "battery-error", make)
+    assert (found.verdict, found.first_effect, found.note) == ("reacted", 11, "")
+    assert set(differing(found)) == {"Main.t.Q", "Main.n"}
+
+
+@pytest.mark.parametrize(
+    "body", ["t(IN := battery, PT := T#5s);", "r(CLK := battery); s(CLK := go); lamp := s.Q;", "c(CU := battery, PV := 3);"]
+)  # fmt: skip
+def test_a_block_whose_outputs_nobody_reads_is_no_effect(body: str, make: MakeObserved) -> None:
+    """Whatever is read of another of its type."""
+    found = reaction(handling("t : TON; r, s : R_TRIG; c : CTU;", body), "battery-error", make)
+    assert (found.verdict, found.first_effect, found.note, found.differences) == ("no_effect", None, "", ())
+
+
+# ---- tasks ---------------------------------------------------------------------------------------------------------
+
+TASKS = """
+PROGRAM Fast
+VAR n : INT; END_VAR
+  n := n + 1;
+END_PROGRAM
+PROGRAM Alarm
+VAR_EXTERNAL battery : BOOL; lamp : BOOL; END_VAR
+VAR_TEMP x : BOOL; END_VAR
+  {body}
+END_PROGRAM
+CONFIGURATION C
+  VAR_GLOBAL battery AT A402.04 : BOOL; lamp AT CIO 100.00 : BOOL; END_VAR
+  RESOURCE R ON PLC
+    TASK Often(INTERVAL := T#10ms, PRIORITY := 1);
+    TASK Alarming({when}, PRIORITY := 0);
+    PROGRAM Fast WITH Often : Fast;
+    PROGRAM Alarm WITH Alarming : Alarm;
+  END_RESOURCE
+END_CONFIGURATION
+"""
+NO_TURN = "task Alarming (every 5s) did not run in the 50 scans: a longer window would tell"
+
+
+def test_a_task_that_had_no_turn_is_told(make: MakeObserved) -> None:
+    source = TASKS.format(body="lamp := battery;", when="INTERVAL := T#5s")
+    assert reaction(source, "battery-error", make) == Reaction("never_read", 50, note=NO_TURN)
+    assert reaction(source, "battery-error", make, 500).note == ""
+
+
+def test_a_task_without_a_turn_is_no_news_where_another_reacted(make: MakeObserved) -> None:
+    source = TASKS.format(body="lamp := battery;", when="INTERVAL := T#5s")
+    source = source.replace("n := n + 1;", "n := n + 1; IF warn THEN n := 0; END_IF;")
+    source = source.replace("VAR n : INT;", "VAR_EXTERNAL battery : BOOL; END_VAR VAR n : INT; warn AT A402.04 : BOOL;")
+    found = reaction(source, "battery-error", make)
+    assert (found.verdict, found.note) == ("reacted", "")
+
+
+@pytest.mark.parametrize(("body", "verdict"), [("lamp := TRUE;", "reacted"), ("x := TRUE;", "no_effect")])
+def test_a_task_that_the_flag_starts_reads_it(body: str, verdict: str, make: MakeObserved) -> None:
+    source = TASKS.format(body=body, when="SINGLE := battery")
+    found = reaction(source, "battery-error", make)
+    assert (found.verdict, found.first_read) == (verdict, 1)
+    assert found.readers == (Reader("main.st", line("SINGLE", source), "Alarming", "flag", 1),)
+    assert lines(found) == [line(body, source)]
+
+
+# ---- what the program does about the error itself ------------------------------------------------------------------
+
+
+def test_a_program_that_recovers_the_error_reacted(make: MakeObserved) -> None:
+    source = """
+PROGRAM Main
+VAR fal AT A402.15 : BOOL; n : INT; ok : BOOL := TRUE; END_VAR
+  n := n + 1;
+  IF fal AND n > 14 THEN FAL(N := 0); END_IF;
+END_PROGRAM
+"""
+    found = reaction(source, "fal", make)
+    assert (found.verdict, found.first_effect, found.differences) == ("reacted", 5, ())
+    assert found.note == "the program recovered it itself, after 5 scans"
+    assert lines(found) == [line("FAL(N", source)]
+
+
+def test_a_program_that_recovers_it_by_the_models_reset_bit_reacted(make: MakeObserved) -> None:
+    source = "PROGRAM Main\n  IF SM1 THEN SD50 := 1500; SM50 := TRUE; END_IF;\nEND_PROGRAM\n"
+    found = attempt(checked({"main.st": source}, "Q03UD"), ("ac-dc-down",), make)
+    assert isinstance(found, Reaction)
+    assert (found.verdict, found.first_effect) == ("reacted", 1)
+    assert found.note == "the program recovered it itself, after 2 scans"
+
+
+def test_a_clear_in_vain_is_no_effect(make: MakeObserved) -> None:
+    """The cause of a battery error lasts; another line that ran is not by itself a reaction."""
+    found = reaction(handling("", "IF battery THEN FAL(N := 0, M := 16#FFFF); END_IF;"), "battery-error", make)
+    assert (found.verdict, len(found.lines), found.note) == ("no_effect", 1, "")
+
+
+def test_what_somebody_recovers_is_not_the_programs_doing(make: MakeObserved) -> None:
+    recover = ((5, Recover("program", ("battery-error",))),)
+    assert attempt(checked({"main.st": BUSY}), ("battery-error",), make, 20, recover) == Reaction("never_read", 20)
+
+
+# ---- traps of the run without the error ----------------------------------------------------------------------------
+
+
+def trapping(when: str) -> str:
+    return f"""
+PROGRAM Main
+VAR battery AT A402.04 : BOOL; n, zero, x : INT; END_VAR
+  n := n + 1;
+  IF {when} THEN x := 1 / zero; END_IF;
+END_PROGRAM
+"""
+
+
+def test_an_error_that_keeps_the_program_from_a_trap_has_an_effect(make: MakeObserved) -> None:
+    found = reaction(trapping("n = 20 AND NOT battery"), "battery-error", make)
+    assert (found.verdict, found.window, found.first_effect) == ("reacted", 10, 10)
+    assert found.note.startswith("the program goes on with it, and stops without it: main.st:5")
+    assert differing(found)["A401.09"] == ("TRUE", "FALSE", False, 10)
+
+
+def test_a_trap_in_the_first_scan_anyway(make: MakeObserved) -> None:
+    found = reaction(trapping("n = 11"), "battery-error", make)
+    assert (found.verdict, found.window) == ("never_read", 1)
+    assert found.note.startswith("the program stops without it too: main.st:5")
+
+
+def test_a_trap_somewhere_else(make: MakeObserved) -> None:
+    source = trapping("n = 20 AND battery").replace("END_IF;", "END_IF;\n  x := 1 / (n - 20);")
+    found = reaction(source, "battery-error", make)
+    assert (found.verdict, found.first_effect) == ("reacted", 10)
+    assert found.note.startswith("the program stopped with it: main.st:5")
+    assert "; and without it: main.st:6" in found.note
+
+
+# ---- the log -------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("address", ["A300", "A100", "A199"])
+def test_who_reads_the_error_log_reads_the_error(address: str, make: MakeObserved) -> None:
+    source = handling(f"entry AT {address} : WORD; END_VAR VAR_TEMP x : WORD;", "x := entry;")
+    found = reaction(source, "battery-error", make)
+    assert (found.verdict, [each.what for each in found.readers]) == ("no_effect", ["log"])
+
+
+def test_the_log_still_tells_of_an_error_that_was_recovered(make: MakeObserved) -> None:
+    body = "n := n + 1; IF n > 20 THEN IF count <> 0 THEN seen := 1; END_IF; END_IF;"
+    source = handling("count AT A300 : WORD; n, seen : INT;", body)
+    recover = ((5, Recover("Ada", ("battery-error",))),)
+    found = attempt(checked({"main.st": source}), ("battery-error",), make, later=recover)
+    assert isinstance(found, Reaction)
+    assert (found.verdict, found.first_read, [each.what for each in found.readers]) == ("reacted", 11, ["log"])

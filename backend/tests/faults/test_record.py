@@ -179,7 +179,7 @@ AT = (
 )
 VERDICT: st.SearchStrategy[Verdict] = st.sampled_from(WORST_FIRST)
 SWEEP_STATUS: tuple[SweepStatus, ...] = ("running", "done", "cancelled", "interrupted", "failed")
-READERS = st.builds(Reader, TEXT, COUNT, TEXT, st.sampled_from(["flag", "code", "detail"]), COUNT)
+READERS = st.builds(Reader, TEXT, COUNT, TEXT, st.sampled_from(["flag", "code", "detail", "log"]), COUNT)
 REACTIONS = st.builds(
     Reaction, VERDICT, COUNT, SCAN, SCAN, st.lists(READERS, max_size=3).map(tuple),
     st.lists(st.builds(Difference, TEXT, TEXT, TEXT, st.just(True), COUNT), max_size=3).map(tuple), COUNT,

@@ -157,3 +157,25 @@ def test_what_cannot_be_swept_says_why(server: Server) -> None:
 def _done(browser: Browser, sweep: int) -> int:
     told = [message["sweep"] for message in browser.messages if message["type"] == "sweep"]
     return max((int(each["done"]) for each in told if each["id"] == sweep), default=0)
+
+
+def test_a_version_that_was_only_swept_has_a_record(server: Server) -> None:
+    instance = server.instance("only swept", MODEL, main=PROGRAM)
+    project = server.http.get(f"/api/instances/{instance}").json()["project"]["id"]
+    with server.browser(instance) as browser:
+        begun = server.http.post(f"/api/instances/{instance}/sweeps", json={"errors": ["plc-setup-error"]}).json()
+        assert begun["instance_id"] == instance
+        finished(browser, begun["id"])
+        file = f"/api/projects/{project}/files/main.st"
+        assert server.http.put(file, json={"text": MENDED, "version": 1}).status_code == 200
+        assert server.http.post(f"/api/projects/{project}/build", json={}).json()["ok"]
+        browser.wait(lambda: server.state(instance)["program_version"] == 2)
+    record = server.http.get(f"/api/instances/{instance}/record", params={"version": 1})
+    assert record.status_code == 200, record.text
+    assert record.json()["program_version"] == 1
+    (swept,) = record.json()["sweeps"]
+    assert [(cell["error"], cell["verdict"]) for cell in swept["cells"]] == [("plc-setup-error", "never_read")]
+
+    assert server.http.delete(f"/api/instances/{instance}").status_code == 204
+    (left,) = server.http.get(f"/api/projects/{project}/sweeps").json()
+    assert (left["id"], left["instance_id"]) == (begun["id"], None)

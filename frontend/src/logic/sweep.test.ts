@@ -218,6 +218,14 @@ describe("merged", () => {
     ]);
     expect(after.cells[0]).toBe(before.cells[0]);
   });
+
+  it("keeps errors and cells where the news is a whole sweep of a moment before", () => {
+    const before = sweep([cell("memory", "Idle", "stopped"), cell("battery", "Idle", "never_read")]);
+    const after = merged(before, sweep([], { done: 5, errors: [] }), []);
+    expect(after.done).toBe(5);
+    expect(after.errors).toBe(before.errors);
+    expect(after.cells).toBe(before.cells);
+  });
 });
 
 describe("secondsLeft", () => {

@@ -13,11 +13,15 @@ import type {
 } from "../wire/types";
 import { isFinding } from "./catalogue";
 import { duration } from "./numbers";
+import { t } from "./text";
 
 export const VERDICTS = ["reacted", "stopped", "no_effect", "never_read"] as const satisfies readonly Verdict[];
 
 /** What a sweep calls the PLC as it was when it began. */
 export const NOW = "Now";
+
+/** A state by its name; that one in the language of the page. */
+export const stateWord = (state: string): string => (state === NOW ? t("sweep.state.now") : state);
 
 /** What stands where no result is (yet): it is tried now, its turn comes, or the sweep ended before it. */
 type Pending = "running" | "waiting" | "missing";

@@ -36,6 +36,12 @@ export function useCatalogue(): Catalogue {
   return useMemo(() => catalogueOf(model, language), [model, language]);
 }
 
+/** The catalogue where it is that of the model; what was swept or written down elsewhere may be of another one. */
+export function useCatalogueOf(model: string): Catalogue {
+  const catalogue = useCatalogue();
+  return useBench((bench) => bench.model?.name === model) ? catalogue : none;
+}
+
 /** The same outside of React. */
 export function catalogueNow(): Catalogue {
   return catalogueOf(useBench.getState().model, usePrefs.getState().language);

@@ -2204,6 +2204,11 @@ export interface components {
              * @description what would happen, or why it would be refused
              */
             message: string;
+            /**
+             * More
+             * @description words that change besides and are not named
+             */
+            more: number;
             /** Ok */
             ok: boolean;
             /** Scan */
@@ -2385,7 +2390,7 @@ export interface components {
              * What
              * @enum {string}
              */
-            what: "flag" | "code" | "detail";
+            what: "flag" | "code" | "detail" | "log";
         };
         /** RecordAccepted */
         RecordAccepted: {

@@ -68,6 +68,9 @@ export function Preview({ errors, of, valid, again = false, now = true }: Props)
           <LogWrites writes={shown.filter((write) => write.what === "log")} />
         </div>
       )}
+      {preview && preview.more > 0 && (
+        <p className="faint">{t(preview.more === 1 ? "preview.more.one" : "preview.more", { count: preview.more })}</p>
+      )}
     </section>
   );
 }

@@ -3,6 +3,7 @@ import { everything, type HistoryView, recordLines } from "../../logic/history";
 import { dayTime } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
+import { useCatalogueOf } from "../../store/catalogue";
 import { messageOf } from "../../store/documents";
 import { deleteRecord, importedAddress, loadRecord, showRecord, useRecords } from "../../store/records";
 import { Confirm } from "../../ui/Confirm";
@@ -43,7 +44,11 @@ function Whole({ imported }: { imported: ImportedRecord }) {
   const { info, record } = imported;
   const [view, setView] = useState<HistoryView>(everything);
   const [doomed, setDoomed] = useState(false);
-  const lines = useMemo(() => recordLines(record), [record]);
+  const { byId } = useCatalogueOf(record.model);
+  const lines = useMemo(
+    () => recordLines(record).map((line) => ({ ...line, name: byId.get(line.id)?.name ?? line.name })),
+    [record, byId],
+  );
   return (
     <>
       <div className="sub tall">

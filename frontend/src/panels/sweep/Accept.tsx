@@ -1,3 +1,4 @@
+import { stateWord } from "../../logic/sweep";
 import { t } from "../../logic/text";
 import { acceptFinding } from "../../store/sweeps";
 import { AskName } from "../../ui/AskName";
@@ -14,7 +15,7 @@ interface Props {
 export function Accept({ sweep, cell, name, onClose }: Props) {
   return (
     <AskName
-      title={t("sweep.accept.title", { name, state: cell.state })}
+      title={t("sweep.accept.title", { name, state: stateWord(cell.state) })}
       about={t("sweep.accept.about")}
       label={t("sweep.accept.reason")}
       action={t("sweep.accept.do")}

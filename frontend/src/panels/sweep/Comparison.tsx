@@ -1,7 +1,8 @@
 import { useMemo, useState } from "react";
 import { dayTime } from "../../logic/numbers";
-import { CHANGES, sortedChanges } from "../../logic/sweep";
+import { CHANGES, sortedChanges, stateWord } from "../../logic/sweep";
 import { t } from "../../logic/text";
+import { useCatalogueOf } from "../../store/catalogue";
 import { showSweep, showSweeps } from "../../store/sweeps";
 import { Icon, type IconName } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
@@ -24,6 +25,7 @@ const LOOK: Record<SweepChange["change"], { icon: IconName; tone: string }> = {
 export function Comparison({ comparison }: { comparison: SweepComparison }) {
   const { before, after, changes } = comparison;
   const [only, setOnly] = useState(true);
+  const { byId } = useCatalogueOf(after.model);
   const rows = useMemo(() => sortedChanges(changes, only), [changes, only]);
   return (
     <>
@@ -63,7 +65,7 @@ export function Comparison({ comparison }: { comparison: SweepComparison }) {
             ))}
           </div>
           {rows.map((row) => (
-            <Line key={`${row.error} ${row.state}`} row={row} />
+            <Line key={`${row.error} ${row.state}`} row={row} name={byId.get(row.error)?.name ?? row.name} />
           ))}
         </div>
       )}
@@ -84,14 +86,14 @@ function Side({ word, sweep }: { word: string; sweep: SweepSummary }) {
   );
 }
 
-function Line({ row }: { row: SweepChange }) {
+function Line({ row, name }: { row: SweepChange; name: string }) {
   return (
     <div className="gr" role="row" data-error={row.error}>
       <span role="cell" className="cut" title={row.error}>
-        {row.name}
+        {name}
       </span>
       <span role="cell" className="cut muted">
-        {row.state}
+        {stateWord(row.state)}
       </span>
       <span role="cell">
         <Outcome verdict={row.before} scans={row.scans_before} missing={row.change === "new"} />

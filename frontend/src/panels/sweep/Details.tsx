@@ -4,7 +4,7 @@ import { grouped } from "../../logic/numbers";
 import { isOpen, NOW } from "../../logic/sweep";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
-import { useCatalogue } from "../../store/catalogue";
+import { useCatalogueOf } from "../../store/catalogue";
 import { messageOf } from "../../store/documents";
 import { openCell, reactionOf, withdrawFinding } from "../../store/sweeps";
 import { Icon } from "../../ui/Icon";
@@ -49,7 +49,7 @@ export function Details({ sweep, error, state, cell }: Props) {
 function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell: SweepCell }) {
   const [reaction, refused] = useReaction(sweep.id, cell);
   const codeWord = useBench((bench) => bench.model?.code_word ?? "");
-  const flag = useCatalogue().byId.get(error.id)?.flag ?? "";
+  const flag = useCatalogueOf(sweep.model).byId.get(error.id)?.flag ?? "";
   if (cell.verdict === null) return <p className="muted">{cell.note || t("sweep.none.about")}</p>;
   return (
     <>

@@ -20,6 +20,7 @@ interface Props {
 /** A reaction in numbers. */
 export function Facts({ reaction, raised, flag, codeWord, code }: Props) {
   const { outputs, hidden } = changesOf(reaction);
+  const inLog = countReaders(reaction, "log");
   return (
     <dl className="facts">
       <Fact name={t("sweep.fact.raised")} value={<span className="mono">{grouped(raised)}</span>} />
@@ -29,6 +30,7 @@ export function Facts({ reaction, raised, flag, codeWord, code }: Props) {
       />
       <Fact name={t("sweep.fact.code", { word: codeWord, code })} value={reads(countReaders(reaction, "code"))} />
       <Fact name={t("sweep.fact.detail")} value={reads(countReaders(reaction, "detail"))} />
+      {inLog > 0 && <Fact name={t("sweep.fact.log")} value={reads(inLog)} />}
       <Fact name={t("sweep.fact.outputs")} value={outputs.length === 0 ? t("sweep.fact.none") : outputs.length} />
       <Fact name={t("sweep.fact.variables")} value={hidden === 0 ? t("sweep.fact.none") : hidden} />
     </dl>

@@ -1,6 +1,6 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, useEffect, useRef } from "react";
-import { type MatrixRow, type Place, stepIn } from "../../logic/sweep";
+import { type MatrixRow, type Place, stateWord, stepIn } from "../../logic/sweep";
 import { t } from "../../logic/text";
 import type { CellRef, Sweep } from "../../wire/types";
 import { cellId, Row } from "./Row";
@@ -94,8 +94,8 @@ export function Matrix({ sweep, rows, selected, onSelect, onEnter }: Props) {
           {t("errors.code")}
         </span>
         {states.map((state) => (
-          <span key={state} role="columnheader" className="colh" title={state}>
-            {state}
+          <span key={state} role="columnheader" className="colh" title={stateWord(state)}>
+            {stateWord(state)}
           </span>
         ))}
       </div>

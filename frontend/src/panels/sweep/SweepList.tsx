@@ -1,6 +1,6 @@
 import { useState } from "react";
 import { dayTime, percent } from "../../logic/numbers";
-import { VERDICTS } from "../../logic/sweep";
+import { stateWord, VERDICTS } from "../../logic/sweep";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { messageOf } from "../../store/documents";
@@ -121,7 +121,7 @@ function Line({ sweep, onMenu }: { sweep: SweepSummary; onMenu: (at: { x: number
       <span
         role="cell"
         className="swsum"
-        title={t("sweep.column.counts.about", { done, total, states: states.join(", ") })}
+        title={t("sweep.column.counts.about", { done, total, states: states.map(stateWord).join(", ") })}
       >
         {VERDICTS.map((verdict) => (
           <span key={verdict} className={`st ${verdict}`} title={t(`sweep.count.${verdict}`)}>

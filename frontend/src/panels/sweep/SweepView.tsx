@@ -1,8 +1,7 @@
 import { useMemo, useRef, useState } from "react";
 import { firstFinding, inWordsOf, isCell, type MatrixView, matrixRows } from "../../logic/sweep";
 import { t } from "../../logic/text";
-import { useBench } from "../../store/bench";
-import { useCatalogue } from "../../store/catalogue";
+import { useCatalogueOf } from "../../store/catalogue";
 import type { CellRef, Sweep } from "../../wire/types";
 import { Counts } from "./Counts";
 import { Details } from "./Details";
@@ -14,13 +13,8 @@ export function SweepView({ sweep }: { sweep: Sweep }) {
   const [view, setView] = useState<MatrixView>({ findings: false, verdict: null });
   const [chosen, setChosen] = useState<CellRef | null>(null);
   const details = useRef<HTMLElement>(null);
-  const model = useBench((bench) => bench.model?.name);
-  const { groups } = useCatalogue();
-  const rows = useMemo(() => {
-    // Names in the language of the page, where this is the model that was swept.
-    const named = sweep.model === model ? inWordsOf(sweep, groups) : sweep;
-    return matrixRows(named, view);
-  }, [sweep, view, model, groups]);
+  const { groups } = useCatalogueOf(sweep.model);
+  const rows = useMemo(() => matrixRows(inWordsOf(sweep, groups), view), [sweep, view, groups]);
   const ref = chosen ?? firstFinding(rows);
   const row = rows.find((known) => known.kind === "error" && known.error.id === ref?.error);
   const slot = row?.kind === "error" && ref ? row.slots[sweep.states.indexOf(ref.state)] : undefined;
