@@ -35,6 +35,11 @@ export class Sweeps {
     return this.page.getByRole('toolbar', { name: 'Results, as a filter' });
   }
 
+  /** The link to the printable record. */
+  get record(): Locator {
+    return this.pane.getByRole('link', { name: 'Test record' });
+  }
+
   get list(): Locator {
     return this.page.getByRole('table', { name: 'Error sweeps' });
   }

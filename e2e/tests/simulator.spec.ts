@@ -178,6 +178,25 @@ test('faults with a shape: for some scans, again and again, when a condition hol
     await expect(simulator.error(BATTERY)).toContainText('Cleared');
   });
 
+  await test.step('while one chatters, it is said what another one would write', async () => {
+    await simulator.select(BATTERY);
+    await simulator.shape('How', 'Chatters: on and off, scan by scan');
+    await simulator.generateButton.click();
+    await expect(simulator.armed).toContainText(/raised \d+ times/);
+    await simulator.select(BASIC);
+    await expect(simulator.preview).toContainText('A402.12');
+    await simulator.armed.getByRole('button', { name: /^Take back/ }).click();
+    await expect(simulator.armed).toHaveCount(0);
+  });
+
+  await test.step('a scan that goes by while one thinks is over, without a key being pressed', async () => {
+    await simulator.select(BASIC);
+    await simulator.shape('When', 'At a scan');
+    await simulator.details.getByRole('textbox', { name: 'Scan' }).fill(String((await mika.top.scan()) + 200));
+    await expect(simulator.details).toContainText('This scan is over: choose a later one.');
+    await expect(simulator.generateButton).toBeDisabled();
+  });
+
   await test.step('a condition with an unknown name is refused below the row, with the names that come near', async () => {
     await simulator.select(BASIC);
     await simulator.shape('When', 'When a condition holds');

@@ -112,6 +112,17 @@ test('every error from two states: what nobody handles is found, looked at, acce
     await expect(await sweeps.cell('Battery error', 'Running')).toContainText('1 scan');
   });
 
+  await test.step('each has the test record of its own version', async () => {
+    await expect(sweeps.record).toHaveAttribute('href', /version=2$/);
+    await sweeps.showList();
+    await sweeps.open(1);
+    const [record] = await Promise.all([ann.page.waitForEvent('popup'), sweeps.record.click()]);
+    await expect(record.locator('body')).toContainText('Test record: reaction to PLC errors');
+    await record.close();
+    await sweeps.showList();
+    await sweeps.open(0);
+  });
+
   await test.step('compared, it is better there and the same elsewhere', async () => {
     await sweeps.compareWith(0);
     await expect(sweeps.change('Battery error', 'Idle')).toContainText(/Never read.*1 scan.*Better/);

@@ -38,6 +38,30 @@ class RowReaction:
 
 
 @dataclass(frozen=True, slots=True)
+class Swept:
+    """What the newest sweep of a version found out about an error: the worst of all states."""
+
+    verdict: Verdict
+    scans: int | None
+
+
+_WORST_FIRST: tuple[Verdict, ...] = ("never_read", "no_effect", "reacted", "stopped")
+
+
+def worst(found: Iterable[tuple[str, Swept]]) -> dict[str, Swept]:
+    """Of what was found in several states the worst, by error; of several as bad the slowest."""
+    kept: dict[str, Swept] = {}
+    for id, swept in found:
+        if id not in kept or _badness(swept) < _badness(kept[id]):
+            kept[id] = swept
+    return kept
+
+
+def _badness(swept: Swept) -> tuple[int, int]:
+    return _WORST_FIRST.index(swept.verdict), -(swept.scans or 0)
+
+
+@dataclass(frozen=True, slots=True)
 class ErrorRow:
     """The history of one error on one instance and one version of its program."""
 
@@ -56,6 +80,8 @@ class ErrorRow:
     count: int = 0
     reaction: RowReaction | None = None
     program_version: int = 0
+    swept: Swept | None = None
+    """Not kept: sweeps are."""
 
 
 def comes_again(command: Generate) -> bool:
@@ -74,6 +100,7 @@ class History:
         self._model = model
         self._layout = _layout(model)
         self._version = version
+        self._swept: Mapping[int, Mapping[str, Swept]] = {}
         self._raised_by_version: dict[int, dict[str, ErrorRow]] = {}
         for row in kept:
             self._raised_by_version.setdefault(row.program_version, {})[row.id] = row
@@ -102,6 +129,15 @@ class History:
             else _never(error, version)
             for error in model.errors()
         ]
+
+    def take_sweeps(self, swept: Mapping[int, Mapping[str, Swept]]) -> None:
+        """What sweeps found out, by version and error."""
+        self._swept = swept
+
+    def with_sweep(self, row: ErrorRow) -> ErrorRow:
+        """The row with what a sweep of its version found out."""
+        swept = self._swept.get(row.program_version, {}).get(row.id)
+        return row if swept == row.swept else replace(row, swept=swept)
 
     # ---- what happens ---------------------------------------------------------------------------------------------
 
@@ -194,12 +230,14 @@ class History:
         return changed
 
     def _reaction_to(self, entry: Entry, command: Generate, id: str) -> RowReaction | None:
-        """A fault that comes again and again is compared once, from its first time on."""
+        """A fault that comes again and again is compared once, from its first time on; so is one that only gets other
+        details: beside a run in which it is present already there is little to see."""
         if command.origin != "simulator":
             return None
         known = self._now.get(id)
-        if comes_again(command) and known is not None and known.reaction is not None:
-            return known.reaction
+        if known is not None and known.reaction is not None:
+            if comes_again(command) or (command.again and known.status == "generated"):
+                return known.reaction
         return RowReaction("recording", scan=entry.scan)
 
     def _raised(

@@ -11,7 +11,7 @@ class ObservedPrograms:
     """`runtime.Programs` whose engines are observed. Each is built when it is first asked for, and stays."""
 
     def __init__(self, program_of: Callable[[int], Program], make: MakeObserved) -> None:
-        """`program_of` gives the program of a version, `LookupError` with a sentence when there is none."""
+        """`program_of` gives the program of a version, `NoProgram` when there is none."""
         self._program_of, self._make = program_of, make
         self._known: dict[int, tuple[Loaded, Observer]] = {}
 

@@ -66,7 +66,7 @@ def reason(cell: Cell) -> str:
         case "stopped":
             text = "a fatal error: the PLC stopped, as the model says"
         case "never_read":
-            text = f"no statement read its flag, code or details in {reaction.window} scans"
+            text = f"no statement read its flag, code or details, or the error log, in {reaction.window} scans"
         case "no_effect":
             text = f"{read}, but nothing differed in {reaction.window} scans"
         case _:

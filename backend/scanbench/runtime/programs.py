@@ -33,11 +33,15 @@ class Loaded:
         return Loaded(version, program, memory, engine_factory(program, memory))
 
 
+class NoProgram(LookupError):
+    """There is no such program, or it cannot be made any more; the message says why."""
+
+
 class Programs(Protocol):
     """Knows every program that a run used or may change to."""
 
     def get(self, version: int) -> Loaded:
-        """The same object as long as it is in use; LookupError with a sentence when there is no such version."""
+        """The same object as long as it is in use; `NoProgram` when there is no such version."""
 
 
 class Shelf:
@@ -55,5 +59,5 @@ class Shelf:
         found = self._loaded.get(version)
         if found is None:
             known = ", ".join(map(str, sorted(self._loaded))) or "none"
-            raise LookupError(f"there is no program version {version}; known: {known}")
+            raise NoProgram(f"there is no program version {version}; known: {known}")
         return found

@@ -21,7 +21,7 @@ from scanbench.runtime.contents import Codec, KeptProgram
 from scanbench.runtime.detect import Detect
 from scanbench.runtime.fingerprints import model_fingerprint, program_digest
 from scanbench.runtime.journal import Journal
-from scanbench.runtime.programs import Loaded, Programs
+from scanbench.runtime.programs import Loaded, NoProgram, Programs
 from scanbench.runtime.recording import DEFAULT_LIMIT, Recording
 from scanbench.runtime.replay import Diverged, replay
 from scanbench.runtime.resource import Measured, Resource
@@ -328,11 +328,11 @@ class KeptPrograms:
         """See `Programs`."""
         kept = self._recording.programs.get(version)
         if kept is None:
-            raise LookupError(f"there is no program version {version} in {self._recording.path.name}")
+            raise NoProgram(f"there is no program version {version} in {self._recording.path.name}")
         loaded = self.inner.get(version)
         if version not in self._checked:
             if program_digest(loaded.program) != kept.digest:
-                raise LookupError(
+                raise NoProgram(
                     f"program version {version} of {self._recording.path.name} does not come out as it was when it was "
                     "recorded, as another version of scanbench compiles it: open it with the version that wrote it"
                 )

@@ -11,7 +11,6 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import BinaryIO
 
-from scanbench.check.build import check_sources
 from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.lifeline import end_with_parent
@@ -19,15 +18,14 @@ from scanbench.engines.observe import MakeObserved
 from scanbench.faults.observed import ObservedPrograms
 from scanbench.faults.react import Point
 from scanbench.faults.sweep import sweep
-from scanbench.problems import Severity
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.header import Header
+from scanbench.runtime.programs import NoProgram
 from scanbench.session.codec import BadMessage, Splitter, pack
-from scanbench.session.host.build import BuildFailed, find_model
 from scanbench.session.job_protocol import CellFound, FindReaction, JobDone, Reacted, RunSweep, Trying
 from scanbench.session.known import key_of, recall
 from scanbench.session.protocol import Sources
-from scanbench.session.starting import NoStart, point_in, reaction_in
+from scanbench.session.starting import NoStart, checked_program, model_of, point_in, reaction_in
 
 log = logging.getLogger("scanbench")
 _NICENESS = 10
@@ -68,8 +66,8 @@ class Job:
         try:
             for cell in self._cells(ask):
                 self._say(cell)
-        except (NoStart, LookupError) as why:
-            return JobDone(ask.ref, False, str(why.args[0]))
+        except (NoStart, NoProgram) as why:
+            return JobDone(ask.ref, False, str(why))
         except Exception as error:  # as above
             return JobDone(ask.ref, False, _unexpected(error))
         return JobDone(ask.ref, True)
@@ -98,20 +96,13 @@ class Job:
 
     def _program(self, sources: Sources) -> Program:
         """The checked program: from memory, from the disk, or checked now."""
-        try:
-            model = find_model(sources.model)
-        except BuildFailed as error:
-            raise LookupError(str(error)) from error
+        model = model_of(sources)
         key = key_of(sources, model)
         program = self._programs.pop(key, None)
         if program is None and self._cache is not None:
             program = recall(self._cache, key)
         if program is None:
-            checked = check_sources(sources.files, model, sources.interval_ns)
-            program = checked.program
-            if program is None:
-                errors = [each for each in checked.problems if each.severity is Severity.ERROR]
-                raise LookupError(f"the program cannot be built: {errors[0] if errors else 'nothing to run'}")
+            program = checked_program(sources, model)
         self._programs[key] = program  # the last one used stands last
         while len(self._programs) > _PROGRAMS:
             del self._programs[next(iter(self._programs))]
@@ -135,8 +126,9 @@ def _engines(cache: BlobCache | None) -> MakeObserved:
 
 def _unexpected(error: Exception) -> str:
     log.exception("a job failed")
-    text = str(error) or type(error).__name__
-    return f"out of memory ({text})" if isinstance(error, MemoryError) else f"it failed: {text}. See the log"
+    if isinstance(error, MemoryError):
+        return "it takes more memory than there is"
+    return f"it failed, which is a fault of Scanbench ({type(error).__name__}: {error}): the log of the server says more"
 
 
 def main() -> int:

@@ -1,11 +1,11 @@
 """One PLC and the people at it: commands in, events out, history and log kept."""
 
-from collections.abc import Awaitable, Iterable, Sequence
+from collections.abc import Awaitable, Iterable, Mapping, Sequence
 from pathlib import Path
 
 from scanbench.check.violations import Violations
 from scanbench.faults.arm import ArmedInfo
-from scanbench.faults.history import ErrorRow, History
+from scanbench.faults.history import ErrorRow, History, Swept
 from scanbench.faults.reaction import Reaction
 from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.model import Model
@@ -120,7 +120,7 @@ class Session:
     @property
     def rows(self) -> list[ErrorRow]:
         """The error history, in the order of the catalogue; while the past is shown, as it was then."""
-        return self._past_rows or self._history.rows
+        return [self._history.with_sweep(row) for row in self._past_rows or self._history.rows]
 
     @property
     def history_version(self) -> int:
@@ -134,7 +134,12 @@ class Session:
 
     def rows_of(self, version: int, model: Model) -> list[ErrorRow]:
         """The error history of a version of the program, which ran on this model."""
-        return self._history.rows_of(version, model)
+        return [self._history.with_sweep(row) for row in self._history.rows_of(version, model)]
+
+    def take_sweeps(self, swept: Mapping[int, Mapping[str, Swept]]) -> None:
+        """What sweeps of the project found out, by version and error."""
+        self._history.take_sweeps(swept)
+        self._tell_rows(self.rows)
 
     @property
     def lines(self) -> list[LogEntry]:
@@ -319,7 +324,7 @@ class Session:
             self._reacting.reached(state.scan, state.state)
         if self._past_rows and not state.past_by:
             self._past_rows = []
-            self._publish(events.ErrorsChanged(tuple(self._history.rows)))
+            self._tell_rows(self._history.rows)
         if state.state != before.state and state.state in ("restarting", "failed", "off"):
             self._unwatched = True
             if state.state == "off":
@@ -398,7 +403,7 @@ class Session:
             self._publish(events.ArmedChanged(self._armed))
         if self.state.past_by:
             self._past_rows = self._history.as_of(standing.errors, wall_time(), self.state.version)
-            self._publish(events.ErrorsChanged(tuple(self._past_rows)))
+            self._tell_rows(self._past_rows)
             return
         self._publish_rows(self._history.reconcile(standing.errors, wall_time()))
 
@@ -449,7 +454,10 @@ class Session:
         self._keeper.keep_rows(self.id, rows)
         now = self._history.rows if fresh else [row for row in rows if row.program_version == self._history.version]
         if now and not self._past_rows:
-            self._publish(events.ErrorsChanged(tuple(now)))
+            self._tell_rows(now)
+
+    def _tell_rows(self, rows: Sequence[ErrorRow]) -> None:
+        self._publish(events.ErrorsChanged(tuple(map(self._history.with_sweep, rows))))
 
     def _add_line(self, line: LogEntry) -> None:
         self._lines.append(line)

@@ -1,10 +1,11 @@
 """Where comparisons begin: moments of run files, which may belong to a PLC that runs. Nothing is written to them."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from dataclasses import replace
 from pathlib import Path
 from typing import TypeVar
 
+from scanbench.check.build import check_sources
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
 from scanbench.engines.observe import MakeObserved
@@ -13,28 +14,50 @@ from scanbench.faults.inject import ACTIVE, Generate
 from scanbench.faults.observed import ObservedPrograms
 from scanbench.faults.react import Point, react
 from scanbench.faults.reaction import Reaction
+from scanbench.faults.sweep import AUTHOR
+from scanbench.plcmodel.model import Model
+from scanbench.problems import Severity
 from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.header import Halt, Mode
 from scanbench.runtime.program_change import ProgramChange
+from scanbench.runtime.programs import NoProgram
 from scanbench.runtime.recording import Recording
 from scanbench.runtime.replay import Diverged, replay
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.runfile import RunFileError
+from scanbench.runtime.thinning import Checkpoint
 from scanbench.runtime.timeline import NOT_AS_RECORDED, KeptPrograms, open_at
 from scanbench.session.codec import ENTRIES
+from scanbench.session.host.build import BuildFailed, find_model
 from scanbench.session.protocol import Sources
 from scanbench.session.runs import sources_in
 
 T = TypeVar("T")
-AUTHOR = "sweep"
 ProgramOf = Callable[[Sources], Program]
-"""Builds a program; `LookupError` says why it cannot be built."""
+"""Builds a program; `NoProgram` says why it cannot be built."""
 
 
 class NoStart(Exception):
     """Nothing can begin there; the message says why."""
+
+
+def model_of(sources: Sources) -> Model:
+    """The model that a program is for; `NoProgram` when it is not there any more."""
+    try:
+        return find_model(sources.model)
+    except BuildFailed as error:
+        raise NoProgram(str(error)) from error
+
+
+def checked_program(sources: Sources, model: Model) -> Program:
+    """The program that these sources are; `NoProgram` with the first error."""
+    checked = check_sources(sources.files, model, sources.interval_ns)
+    if checked.program is None:
+        errors = [each for each in checked.problems if each.severity is Severity.ERROR]
+        raise NoProgram(f"the program cannot be built: {errors[0] if errors else 'nothing to run'}")
+    return checked.program
 
 
 def reaction_in(
@@ -44,10 +67,21 @@ def reaction_in(
 
     The file may be replaced by a smaller one while it is read: then the new one is read.
     """
+    read = _file_at(path)
     try:
         return _reaction_in(path, error, scan, min(window, end - scan), program_of, make)
     except NoStart:
+        if _file_at(path) == read:
+            raise
         return _reaction_in(path, error, scan, min(window, end - scan), program_of, make)
+
+
+def _file_at(path: Path) -> int | None:
+    """Which file has this name now."""
+    try:
+        return path.stat().st_ino
+    except OSError:
+        return None
 
 
 def _reaction_in(path: Path, error: str, scan: int, window: int, program_of: ProgramOf, make: MakeObserved) -> Reaction:
@@ -57,8 +91,7 @@ def _reaction_in(path: Path, error: str, scan: int, window: int, program_of: Pro
         before = [each for each in recording.checkpoints if each.scan <= scan and each.entries <= (index or 0)]
         if index is None or not before:
             raise NoStart(f"{path.name} does not have any more how {error} was raised before scan {scan}")
-        resource = open_at(recording, KeptPrograms(recording, programs), before[-1], entries)
-        replay(resource, entries[before[-1].entries : index], scan)
+        resource = _replayed(recording, programs, before[-1], entries[:index], scan)
         point = Point(resource.version, resource.state, resource.journal)
         found = react(point, entries[index], entries[index + 1 :], window, programs, error)
         if isinstance(found, Refusal):
@@ -82,8 +115,8 @@ def point_in(path: Path, scan: int | None, sources: Sources, program_of: Program
             raise NoStart(
                 f"{path.name} has scans {recording.first_scan} to {recording.last_scan}: scan {until} is none of them"
             )
-        resource = open_at(recording, KeptPrograms(recording, programs), checkpoint, entries)
-        replay(resource, [each for each in entries[checkpoint.entries :] if each.scan <= until], until)
+        entries = [each for each in entries if each.scan <= until]
+        resource = _replayed(recording, programs, checkpoint, entries, until)
         running = sources_in(recording.programs[resource.version])
         if replace(running, version=sources.version) != sources:
             resource = _carried_over(resource, program_of(sources), max(recording.programs) + 1, make)
@@ -102,16 +135,26 @@ def _read(path: Path, program_of: ProgramOf, make: MakeObserved, use: Callable[[
         raise NoStart(f"{path.name} cannot be read: {error.strerror or error}") from error
     except RunFileError as error:
         raise NoStart(str(error)) from error
-    except LookupError as error:
-        raise NoStart(str(error.args[0]) if error.args else f"{path.name} cannot be used") from error
+    except NoProgram as error:
+        raise NoStart(str(error)) from error
+
+
+def _replayed(
+    recording: Recording, programs: ObservedPrograms, checkpoint: Checkpoint, entries: Sequence[Entry], scan: int
+) -> Resource:
+    """The PLC in front of `scan`, when these entries are all that was entered."""
+    try:
+        resource = open_at(recording, KeptPrograms(recording, programs), checkpoint, entries)
+        replay(resource, entries[checkpoint.entries :], scan)
     except (Diverged, *NOT_AS_RECORDED) as error:
-        raise NoStart(f"{path.name} cannot be replayed: {error}") from error
+        raise NoStart(f"{recording.path.name} cannot be replayed: {error}") from error
+    return resource
 
 
 def _of_file(kept: Mapping[int, KeptProgram], program_of: ProgramOf) -> Callable[[int], Program]:
     def get(version: int) -> Program:
         if version not in kept:
-            raise LookupError(f"there is no program version {version} in the run")
+            raise NoProgram(f"there is no program version {version} in the run")
         return program_of(sources_in(kept[version]))
 
     return get

@@ -10,6 +10,7 @@ from pathlib import Path
 from typing import get_args
 
 from scanbench.faults.compare import Outcome, SweepChange, compare
+from scanbench.faults.history import Swept, worst
 from scanbench.faults.inject import Generate
 from scanbench.faults.reaction import Reaction, Verdict
 from scanbench.faults.reaction_json import from_json, to_json
@@ -126,6 +127,25 @@ class Sweeps:
         first, second = await self.whole(before), await self.whole(after)
         return Comparison(first.row, second.row, compare(_outcomes(first), _outcomes(second)))
 
+    async def found(self, project: int) -> dict[int, dict[str, Swept]]:
+        """What the newest sweep of each version of a project's program found out, by version and error."""
+        newest: dict[int, SweepRow] = {}
+        for row in await self.of_project(project):
+            if row.status == "done":
+                newest.setdefault(row.program_version, row)
+        return {version: worst(await self._verdicts(row.id)) for version, row in newest.items()}
+
+    async def _verdicts(self, id: int) -> list[tuple[str, Swept]]:
+        cells = await asyncio.to_thread(self._store.cells, id)
+        found = ((cell, _VERDICTS.get(cell.verdict or "")) for cell in cells)
+        return [(cell.error, Swept(verdict, cell.first_effect)) for cell, verdict in found if verdict is not None]
+
+    async def _show(self, project: int) -> None:
+        """Tells the PLCs of a project what its sweeps found out."""
+        found = await self.found(project)
+        for session in self._sessions_of(project):
+            session.take_sweeps(found)
+
     async def _accepted(self, project: int) -> dict[tuple[str, str], AcceptedRow]:
         rows = await asyncio.to_thread(self._store.acceptances, project)
         return {(row.error, row.state): row for row in rows}
@@ -200,6 +220,7 @@ class Sweeps:
         row = await self.cancel(id)
         await asyncio.to_thread(self._store.delete_sweep, id)
         await self._states.discard(row)
+        await self._show(row.project)
 
     async def forget_project(self, project: int) -> None:
         """Ends and forgets the sweeps and states of a project that is about to be deleted."""
@@ -290,6 +311,7 @@ class Sweeps:
         with suppress(NotFound):  # deleted meanwhile
             change = partial(self._store.change_sweep, id, status=status, message=message, seconds=seconds)
             await self._tell(await asyncio.to_thread(change), "", [])
+            await self._show(running.row.project)
 
     async def _hear(self, running: _Running) -> tuple[SweepStatus, str]:
         """Takes what the job says to its end; how it ended."""

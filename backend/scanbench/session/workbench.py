@@ -241,6 +241,7 @@ class Workbench:
         memory = Remembered(row.name, sources, run_path(self._runs, row.id), row.limits, paused=paused)
         session = Session(row, model, memory, self._keeper, rows, lines, self._loads, self._reactions, self._cache)
         self._sessions[row.id] = session
+        session.take_sweeps(await self.sweeps.found(project.id))
         if row.powered:
             session.start()
         return session

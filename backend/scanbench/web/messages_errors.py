@@ -142,6 +142,9 @@ class ErrorHistoryRow(Wire):
     origin: Literal["simulator", "plc", "program"] | None
     count: int
     reaction: ReactionState | None = Field(description="of the last time; null when nobody compared")
+    swept: ReactionState | None = Field(
+        default=None, description="what the newest sweep of this version found out, the worst of its states"
+    )
 
 
 # ---- raise and recover -----------------------------------------------------------------------------------------

@@ -158,7 +158,7 @@ def error_row(row: ErrorRow) -> simulator.ErrorHistoryRow:
         generated_at=None if row.generated_at is None else iso(row.generated_at),
         recovered_at=None if row.recovered_at is None else iso(row.recovered_at),
         generated_scan=row.generated_scan, recovered_scan=row.recovered_scan, by=row.by, origin=row.origin,
-        count=row.count, reaction=translate_errors.in_short(row.reaction),
+        count=row.count, reaction=translate_errors.in_short(row.reaction), swept=translate_errors.swept(row.swept),
     )  # fmt: skip
 
 

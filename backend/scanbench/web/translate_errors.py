@@ -4,7 +4,7 @@ from collections.abc import Iterable, Sequence
 
 from scanbench.faults import reaction as found
 from scanbench.faults.arm import ArmedInfo
-from scanbench.faults.history import RowReaction
+from scanbench.faults.history import RowReaction, Swept
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.shapes import Shape, Start, Wanted
 from scanbench.plcmodel import model as plc
@@ -54,6 +54,11 @@ def in_short(of: RowReaction | None) -> wire.ReactionState | None:
     if of is None:
         return None
     return wire.ReactionState(state=of.state, verdict=of.verdict, scans=of.scans, message=of.message)
+
+
+def swept(of: Swept | None) -> wire.ReactionState | None:
+    """What a sweep found out, in a row of the history."""
+    return None if of is None else wire.ReactionState(state="done", verdict=of.verdict, scans=of.scans, message="")
 
 
 def groups(of: Iterable[plc.ErrorGroup]) -> list[wire.ErrorGroup]:

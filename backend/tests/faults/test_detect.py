@@ -180,7 +180,7 @@ def test_a_recovery_says_what_keeps_the_program_stopped() -> None:
     other.run(1)
     done(other, Generate("Ada", (ErrorRef("memory-error"),)))
     message = done(other, Recover("Ada", None)).plan.message
-    assert message.startswith("recovered memory-error; the program stays stopped: main.st:6")
+    assert message.startswith("recovered memory-error; the program stays stopped: main.st:7")
     assert message.endswith("Change to PROGRAM, or restart")
     assert other.header.halt == Halt.TRAP
 

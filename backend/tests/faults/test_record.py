@@ -75,7 +75,7 @@ def test_every_error_of_the_catalogue_has_a_row() -> None:
     assert [each.path for each in battery.reaction.differences] == ["Main.out"]  # outputs only
     assert battery.reaction.difference_count == 17
     assert battery.name == "Battery error"
-    assert " / " in battery.group or battery.group
+    assert battery.group == "CPU nonfatal errors / CPU Unit"
     assert "of another catalogue" not in {cell.error for cell in record.sweeps[0].cells}
 
 

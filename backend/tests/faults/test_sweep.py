@@ -1,8 +1,10 @@
 """Sweeps: every error from every point; two sweeps side by side; what is said of them."""
 
+from dataclasses import replace
 from xml.etree import ElementTree
 
 import pytest
+from lxml import etree
 
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.compare import Change, Outcome, SweepChange, compare
@@ -171,6 +173,33 @@ def test_the_page_stands_alone() -> None:
     for loads in ("<script", "http://", "https://", "<img", "<link", "url("):
         assert loads not in page
     assert page.count("never read") >= 2
+
+
+def test_every_cell_of_the_page_leads_to_what_was_found() -> None:
+    """But for those in which the PLC stopped: of these there is no more to say."""
+    known = result()
+    page = etree.fromstring(sweep_page(known, "2026-01-01"), etree.HTMLParser())
+    links = [str(each.get("href")) for each in page.iterfind(".//td/a")]
+    ids = [each.get("id") for each in page.iter(etree.Element) if each.get("id")]
+    assert links == [f"#{error}/Here" for error in ERRORS[:3]]
+    assert sorted(ids) == sorted(link.removeprefix("#") for link in links)
+    twice = replace(known, states=(("A B", 1), ("A_B", 2)), cells=tuple(
+        replace(cell, point=point) for cell in known.cells for point in ("A B", "A_B")
+    ))  # fmt: skip
+    page = etree.fromstring(sweep_page(twice, "2026-01-01"), etree.HTMLParser())
+    ids = [each.get("id") for each in page.iter(etree.Element) if each.get("id")]
+    assert len(set(ids)) == len(ids) == 6
+
+
+def test_names_stay_what_they_are_in_junit() -> None:
+    """An ideographic space is no printable character for Python, but one of every name in Japanese."""
+    known = result()
+    text = "異常　状態\x07"
+    cells = tuple(Cell(cell.error, text, None, text) for cell in known.cells)
+    suite = ElementTree.fromstring(sweep_junit(replace(known, project=text, cells=cells), ("nonfatal",)))
+    (name,) = {case.get("classname") for case in suite.iter("testcase")}
+    (note,) = {case.get("message") for case in suite.iter("skipped")}
+    assert (name, note) == ("CJ1M-CPU63.異常　状態\ufffd", "異常　状態\ufffd")
 
 
 def test_the_table_has_a_line_for_each_error() -> None:

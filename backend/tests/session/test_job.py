@@ -1,5 +1,6 @@
 """The job process, as a process: reactions in runs that others write, sweeps, and bad questions."""
 
+import io
 import os
 import select
 import signal
@@ -25,7 +26,9 @@ from scanbench.runtime.programs import Loaded, Shelf
 from scanbench.runtime.recording import Recording
 from scanbench.runtime.timeline import Timeline
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES, pack, pack_body, unpack
+from scanbench.session import job as job_process
+from scanbench.session import starting
+from scanbench.session.codec import ENTRIES, Splitter, pack, pack_body, unpack
 from scanbench.session.job_protocol import CellFound, FindReaction, JobDone, Reacted, RunSweep, StartPoint, Trying
 from scanbench.session.protocol import Sources
 from scanbench.session.starting import NoStart, reaction_in
@@ -89,6 +92,10 @@ def loaded(of: Sources) -> Loaded:
     checked = check_sources(of.files, model(of.model), of.interval_ns)
     assert checked.program is not None, checked.problems
     return Loaded.make(checked.program, NativeEngine, of.version)
+
+
+def program_of(wanted: Sources) -> Program:
+    return loaded(wanted).program
 
 
 def begun(path: Path, *versions: Sources) -> Timeline:
@@ -209,13 +216,55 @@ def test_a_file_that_is_replaced_while_it_is_read(tmp_path: Path, monkeypatch: p
 
     monkeypatch.setattr(Recording, "open", replaced)
 
-    def program_of(wanted: Sources) -> Program:
-        return loaded(wanted).program
-
     found = reaction_in(path, "basic-io-error", entry.scan, entry.scan + 20, 200, program_of, MAKES["native"])
     assert (found.verdict, found.window) == ("reacted", 20)
     with pytest.raises(NoStart, match="does not have any more"):
         reaction_in(path, "basic-io-error", entry.scan + 1, entry.scan + 20, 200, program_of, MAKES["native"])
+
+
+def test_only_a_file_that_was_replaced_is_read_again(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    timeline, entry = raised(tmp_path / "1.run")
+    timeline.close()
+    opened, times = Recording.open, []
+
+    def counted(path: Path, codec: Codec, read_only: bool) -> Recording:
+        times.append(path)
+        return opened(path, codec, read_only=read_only)
+
+    monkeypatch.setattr(Recording, "open", counted)
+    with pytest.raises(NoStart, match="does not have any more"):
+        reaction_in(
+            tmp_path / "1.run", "basic-io-error", entry.scan + 1, entry.scan + 20, 200, program_of, MAKES["native"]
+        )
+    assert len(times) == 1
+
+
+@pytest.mark.parametrize("error", [KeyError(3), IndexError("list index out of range"), ValueError("x"), NotImplementedError()])
+def test_a_fault_of_our_own_is_logged_and_told_as_one(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture, error: Exception
+) -> None:
+    """It was "3", as if a KeyError were the reason why the file cannot be used."""
+    timeline, entry = raised(tmp_path / "1.run")
+    timeline.close()
+
+    def broken(*_: object) -> None:
+        raise error
+
+    monkeypatch.setattr(starting, "react", broken)
+    monkeypatch.setattr(job_process, "sweep", broken)
+    answers = io.BytesIO()
+    process = job_process.Job(None, answers)
+    process.on_request(FindReaction(1, str(tmp_path / "1.run"), "basic-io-error", entry.scan, entry.scan + 20, 20))
+    point = StartPoint("A", str(tmp_path / "1.run"))
+    process.on_request(RunSweep(2, sources(), (point,), ("battery-error",), 10, ()))
+    reacted, done = Splitter().feed(answers.getvalue())
+    assert isinstance(reacted, Reacted)
+    assert isinstance(done, JobDone)
+    assert not done.ok
+    for told in (reacted.message, done.message):
+        assert told.startswith(f"it failed, which is a fault of Scanbench ({type(error).__name__}: ")
+    traces = [record.exc_info[1] for record in caplog.records if record.exc_info is not None]
+    assert traces == [error, error]
 
 
 def test_a_sweep_over_states(job: Job, tmp_path: Path) -> None:

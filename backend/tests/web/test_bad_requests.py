@@ -33,7 +33,7 @@ TEXTS = (
     "../../x",
     7,
 )
-OTHERS = (None, [], {}, "x", 10**400)
+OTHERS: tuple[object, ...] = (None, [], {}, "x", 10**400)
 BODIES = (
     b"", b"{", b"\xff\xfe", b"null", b"[]", b"7", b"NaN", b'{"\\ud800": "\\udfff"}', b'{"a\\u0000b": 1}', b"[" * 50_000,
     b'{"x": ' * 50_000, b"9" * 5000,
@@ -43,6 +43,7 @@ KNOWN: Json = {
     "errors": ["battery-error"], "ids": ["battery-error"], "language": "en", "window": 1, "files": {"main.st": PROGRAM},
 }  # fmt: skip
 """What a body says in the places that are right."""
+CELL: Json = {"error": "plc-setup-error", "state": "Now"}
 
 
 class Api:
@@ -156,22 +157,27 @@ def alone(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
         yield server
 
 
-def test_no_request_makes_the_server_fail(alone: Server) -> None:
+@pytest.fixture(scope="module")
+def named(alone: Server) -> Json:
+    """The numbers of a PLC, its project, and one of everything else that there can be."""
     instance = alone.instance("victim", MODEL, main=PROGRAM)
     project = alone.http.get(f"/api/instances/{instance}").json()["project"]["id"]
     base = f"/api/instances/{instance}"
     with alone.browser(instance) as browser:
-        begun = alone.http.post(f"{base}/sweeps", json={"errors": ["plc-setup-error"], "window": 1}).json()["id"]
-        finished(browser, begun)
+        sweep = alone.http.post(f"{base}/sweeps", json={"errors": ["plc-setup-error"], "window": 1}).json()["id"]
+        finished(browser, sweep)
     state = alone.http.post(f"{base}/states", json={"name": "kept"}).json()["id"]
-    record = alone.http.get(f"{base}/record", params={"format": "xml"}).content
-    records = f"/api/projects/{project}/records"
-    named: Json = {
-        "instance": instance, "project": project, "sweep": begun, "before": begun, "after": begun, "state": state,
-        "record": alone.http.post(records, content=record).json()["id"], "error": "battery-error",
+    xml = alone.http.get(f"{base}/record", params={"format": "xml"}).content
+    record = alone.http.post(f"/api/projects/{project}/records", content=xml).json()["id"]
+    return {
+        "instance": instance, "project": project, "sweep": sweep, "before": sweep, "after": sweep, "state": state,
+        "record": record,
     }  # fmt: skip
+
+
+def test_no_request_makes_the_server_fail(alone: Server, named: Json) -> None:
     statuses: Counter[int] = Counter()
-    for method, address, body in Api(named).requests():
+    for method, address, body in Api({**named, "error": "battery-error"}).requests():
         reply = alone.http.request(method, address, content=body, headers=JSON)
         statuses[reply.status_code] += 1
         told = f"{method} {address[:200]} {body[:300]!r}: {reply.status_code} {reply.text[:300]}"
@@ -179,7 +185,7 @@ def test_no_request_makes_the_server_fail(alone: Server) -> None:
         if reply.status_code >= 400:
             assert reply.json()["message"], told
     assert statuses[200] > 50, f"nearly everything was refused, nothing was tried: {statuses}"
-    now = alone.state(instance)
+    now = alone.state(cast(int, named["instance"]))
     assert (now["state"], now["restarts"]) == ("running", 0), now
 
 
@@ -191,15 +197,16 @@ def test_no_request_makes_the_server_fail(alone: Server) -> None:
         ("get", "/api/sweeps/99999999999999999999", None, "less than 2147483648"),
         ("delete", "/api/states/9999999999999999999999", None, "less than 2147483648"),
         ("post", "/api/instances/{instance}/sweeps", {"states": [2**63]}, "states.0: "),
+        ("post", "/api/sweeps/{sweep}/accept", {**CELL, "reason": "a\0b"}, "the reason contains a NUL character"),
+        ("post", "/api/sweeps/{sweep}/open", {**CELL, "name": "a\0b"}, "the name contains a NUL character"),
         ("post", "/api/projects", {"name": "x\0", "model": MODEL}, "the name contains a NUL character"),
     ],
 )
 def test_what_cannot_be_is_refused_with_words(
-    alone: Server, method: str, path: str, body: Json | None, says: str
+    alone: Server, named: Json, method: str, path: str, body: Json | None, says: str
 ) -> None:
-    instance = alone.http.get("/api/instances").json()[-1]["id"]
     content = b"" if body is None else json.dumps(body).encode()
-    reply = alone.http.request(method, path.format(instance=instance), content=content, headers=JSON)
+    reply = alone.http.request(method, path.format(**named), content=content, headers=JSON)
     assert reply.status_code == 422, reply.text
     assert says in reply.json()["message"]
 

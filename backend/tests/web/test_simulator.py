@@ -156,6 +156,12 @@ def test_how_the_program_reacts_is_found_out_by_itself(server: Server) -> None:
         never = server.http.get(f"/api/instances/{instance}/errors/plc-setup-error/reaction").json()
         assert never["differences"] == []
         assert never["readers"] == []
+        assert browser.ask(type="generate", errors=[{"id": "basic-io-error"}])["ok"]
+        browser.messages.clear()
+        other = [{"id": "basic-io-error", "details": {"slot": "2"}}]
+        assert browser.ask(type="generate", errors=other, again=True)["ok"]
+        assert reaction_of(browser, "basic-io-error")["verdict"] == "reacted"  # other details leave it as it is
+        assert browser.ask(type="recover", ids=None)["ok"]
         # A fatal error ends at once: the PLC stopped, as the model says.
         assert browser.ask(type="generate", errors=[{"id": "io-bus-error"}])["ok"]
         assert reaction_of(browser, "io-bus-error")["verdict"] == "stopped"

@@ -50,6 +50,10 @@ def test_a_sweep_from_two_states_names_what_is_forgotten(server: Server) -> None
             assert found["plc-setup-error"] == "never_read"
             assert found["io-bus-error"] == "stopped"
 
+        rows = {row["id"]: row for row in server.http.get(f"/api/instances/{instance}/errors").json()}
+        assert (rows["battery-error"]["swept"]["verdict"], rows["battery-error"]["reaction"]) == ("no_effect", None)
+        assert (rows["basic-io-error"]["swept"]["verdict"], rows["basic-io-error"]["swept"]["scans"]) == ("reacted", 1)
+
         cell = {"error": "plc-setup-error", "state": "Idle"}
         told = server.http.post(f"/api/sweeps/{sweep}/reaction", json=cell).json()
         assert (told["verdict"], told["readers"], told["difference_count"]) == ("never_read", [], 0)

@@ -1543,6 +1543,11 @@ export interface components {
              * @enum {string}
              */
             status: "never" | "generated" | "cleared";
+            /**
+             * @description what the newest sweep of this version found out, the worst of its states
+             * @default null
+             */
+            swept: components["schemas"]["ReactionState"] | null;
         };
         /** ErrorInfo */
         ErrorInfo: {

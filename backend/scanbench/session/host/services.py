@@ -165,7 +165,9 @@ class Services:
             answer = protocol.PreviewedErrors(asked.ref, False, PAST, view.header.scan, ())
         else:
             found = preview(view, asked.errors, asked.again)
-            answer = protocol.PreviewedErrors(asked.ref, found.ok, found.message, view.header.scan, found.writes, found.more)
+            answer = protocol.PreviewedErrors(
+                asked.ref, found.ok, found.message, view.header.scan, found.writes, found.more
+            )
         self._link.post(answer)
 
     def _tell_info(self) -> None:

@@ -4,7 +4,7 @@ from collections.abc import Mapping
 
 from scanbench.check.program import Program
 from scanbench.engines.engine import Engine
-from scanbench.runtime.programs import Loaded
+from scanbench.runtime.programs import Loaded, NoProgram
 from scanbench.session.host.build import Builder, BuildFailed
 from scanbench.session.protocol import Sources
 
@@ -21,9 +21,9 @@ class HostPrograms:
         self._ready: dict[int, Loaded] = {}
 
     def sources(self, version: int) -> Sources:
-        """What a version is made of; `LookupError` when there is none."""
+        """What a version is made of; `NoProgram` when there is none."""
         if version not in self._sources:
-            raise LookupError(f"there is no program version {version} in this run")
+            raise NoProgram(f"there is no program version {version} in this run")
         return self._sources[version]
 
     def get(self, version: int) -> Loaded:
@@ -33,7 +33,7 @@ class HostPrograms:
             try:
                 loaded = self.make(self.sources(version))
             except BuildFailed as error:
-                raise LookupError(f"program version {version} cannot be built any more: {error}") from error
+                raise NoProgram(f"program version {version} cannot be built any more: {error}") from error
         self._ready[version] = loaded  # the last one used stands last
         return loaded
 
