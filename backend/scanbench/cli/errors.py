@@ -1,7 +1,7 @@
 """`scanbench errors`: the errors of a model, and what a program does about each of them."""
 
 import json
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import asdict
 from enum import StrEnum
 from pathlib import Path
@@ -19,7 +19,7 @@ from scanbench.faults.observed import ObservedPrograms
 from scanbench.faults.react import Point
 from scanbench.faults.reaction import WINDOW
 from scanbench.faults.reference import find_error
-from scanbench.faults.sweep import sweep
+from scanbench.faults.sweep import Cell, sweep
 from scanbench.faults.sweep_page import sweep_page
 from scanbench.faults.sweep_report import (
     SweepResult,
@@ -31,14 +31,15 @@ from scanbench.faults.sweep_report import (
     sweep_text,
     table,
 )
-from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity
+from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_text
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import extended
 from scanbench.runtime.clock import iso, wall_time
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.header import Header
+from scanbench.runtime.programs import NoProgram
 from scanbench.session.protocol import Sources
-from scanbench.session.starting import NoStart, point_in
+from scanbench.session.starting import NoStart, checked_program, model_of, point_in
 
 errors = typer.Typer(
     no_args_is_help=True, rich_markup_mode=None, help="Errors of a PLC: list them, and find out what a program does about each."
@@ -80,9 +81,9 @@ def list_errors(
             typer.echo(str(problem), err=True)
         if problems:
             raise typer.Exit(1)
-    entries = list(_entries(plc))
+    entries = list(plc.errors_with_groups())
     if as_json:
-        told = {"model": plc.name, "errors": [_entry_json(group, entry) for group, entry in entries]}
+        told = {"model": plc.name, "errors": [_entry_json(groups, entry) for groups, entry in entries]}
         typer.echo(json.dumps(told, ensure_ascii=False))
         return
     rows = [("ERROR", "CODE", "FLAG", "SEVERITY", "DETAILS", "NAME")]
@@ -92,20 +93,7 @@ def list_errors(
     typer.echo("\n".join(table(rows)))
 
 
-def _entries(model: Model) -> Iterator[tuple[str, ErrorEntry]]:
-    """Each error with the path of its group."""
-
-    def walk(path: str, group: ErrorGroup) -> Iterator[tuple[str, ErrorEntry]]:
-        here = f"{path} / {group.name}" if path else group.name
-        yield from ((here, entry) for entry in group.errors)
-        for each in group.groups:
-            yield from walk(here, each)
-
-    for group in model.catalogue:
-        yield from walk("", group)
-
-
-def _entry_json(group: str, entry: ErrorEntry) -> dict[str, object]:
+def _entry_json(groups: Iterable[ErrorGroup], entry: ErrorEntry) -> dict[str, object]:
     details = [
         {"name": each.name, "control": each.control, "description": each.description,
          "choices": [choice.id for choice in each.addresses] if each.control == "List" else [],
@@ -114,7 +102,8 @@ def _entry_json(group: str, entry: ErrorEntry) -> dict[str, object]:
     ]  # fmt: skip
     return {
         "id": entry.id, "name": entry.name, "description": entry.description, "code": entry.code_text,
-        "flag": entry.flag_text, "severity": entry.severity, "priority": entry.priority, "group": group,
+        "flag": entry.flag_text, "severity": entry.severity, "priority": entry.priority,
+        "group": path_text(group.name for group in groups),
         "verified": entry.verified, "source": entry.source, "user": entry.user, "details": details,
     }  # fmt: skip
 
@@ -141,6 +130,8 @@ def sweep_errors(
     Each run is compared with the same run without the error. Exit 0; 1: an error is unhandled (never read, or read without
     effect), or the program does not compile; 2: wrong usage.
     """
+    for path in filter(None, (junit, html)):
+        _must_be_writable(path)
     sources = read_sources([project])
     plc = find_model(model, sources)
     given = Sources(plc.name, below(project, sources.texts), read_interval(interval), _VERSION)
@@ -153,21 +144,27 @@ def sweep_errors(
     begun = tuple((name, Header(point.state).scan) for name, point in points.items())
     result = SweepResult(project.resolve().name, plc.name, window, begun, tuple(chosen), cells)
     severities = _severities(severity)
+    unhandled = result.unhandled(severities)
+    _tell(result, unhandled, as_json)
     if junit is not None:
         _write(junit, sweep_junit(result, severities))
     if html is not None:
         _write(html, sweep_page(result, iso(wall_time())))
-    unhandled = result.unhandled(severities)
+    raise typer.Exit(1 if unhandled else 0)
+
+
+def _tell(result: SweepResult, unhandled: Sequence[Cell], as_json: bool) -> None:
     if as_json:
         told = sweep_json(result) | {"unhandled": list(dict.fromkeys(cell.error for cell in unhandled))}
         typer.echo(json.dumps(told, ensure_ascii=False))
     else:
         typer.echo("\n".join(sweep_text(result)))
-        if unhandled:
-            typer.echo(
-                f"scanbench: {count(len(unhandled), 'finding')}: an error is forgotten, or read in vain", err=True
-            )
-    raise typer.Exit(1 if unhandled else 0)
+    untried = sum(cell.reaction is None for cell in result.cells)
+    if untried:
+        some = f"{untried} of {count(len(result.cells), 'case')}"
+        typer.echo(f"scanbench: {some}: the error could not be raised, so nothing is known of it there", err=True)
+    if unhandled and not as_json:
+        typer.echo(f"scanbench: {count(len(unhandled), 'finding')}: an error is forgotten, or read in vain", err=True)
 
 
 def _engine(choice: SweepEngine) -> MakeObserved:
@@ -222,10 +219,10 @@ def _program_of(sources: Sources, program: Program) -> Callable[[Sources], Progr
     def get(wanted: Sources) -> Program:
         if wanted == sources:
             return program
-        checked = check_sources(wanted.files, find_model_named(wanted.model), wanted.interval_ns)
-        if checked.program is None:
-            raise LookupError(f"the program of the run does not compile here: {checked.problems[0]}")
-        return checked.program
+        try:
+            return checked_program(wanted, model_of(wanted))
+        except NoProgram as why:
+            raise NoProgram(f"of the run's own program: {why}") from why
 
     return get
 
@@ -261,6 +258,17 @@ def _read_outcomes(path: Path) -> list[Outcome]:
         usage(f"{path} cannot be read: {error.strerror}")
     except ValueError as error:
         usage(f"{path}: {error}")
+
+
+def _must_be_writable(path: Path) -> None:
+    """Before anything is computed: nobody waits for a sweep whose report has no place."""
+    new = not path.exists()
+    try:
+        path.open("ab").close()
+        if new:
+            path.unlink()
+    except OSError as error:
+        usage(f"{path} cannot be written: {error.strerror}")
 
 
 def _write(path: Path, text: str) -> None:

@@ -5,7 +5,7 @@ the program's doing. What the PLC or the program entered by itself is not given 
 out anew what there is to find.
 """
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Collection, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from typing import NamedTuple
 
@@ -20,7 +20,7 @@ from scanbench.faults.effects import Effects, Names
 from scanbench.faults.error_memory import Watched, Words, code_bits, kept_bits, without_patches, words_of
 from scanbench.faults.inject import ACTIVE, Generate, Recover
 from scanbench.faults.observed import ObservedPrograms
-from scanbench.faults.reaction import Line, Reaction, Reader, Verdict, What
+from scanbench.faults.reaction import FINDINGS, Line, Reaction, Reader, Verdict, What
 from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.faults.tasks import Turns, triggers
 from scanbench.faults.trace import Trace
@@ -59,20 +59,26 @@ def react(
     """The reaction to `error`, one of those that the recorded `generate` raised at this point.
 
     `following` is what the journal has behind it. The window ends early in front of a change of the program or a restart.
+    Errors that were raised together would hide each other's effects: each is compared as if it had been raised alone.
     """
     command = generate.command
     ref = next((each for each in command.errors if each.id == error), None) if isinstance(command, Generate) else None
     if ref is None:
         return Refusal(f"{error} was not raised there: {generate.plan.message}")
     rest = _following(point, generate, following, window, programs)
-    twin = run_twin(point, _without(generate, rest.given, error), rest.window, programs, TRACE_LIMIT)
+    others = [each.id for each in command.errors if each.id != error]
+    twin = run_twin(point, _without(generate, rest.given, {error, *others}), rest.window, programs, TRACE_LIMIT)
     comparison = Comparison(point, programs, Prepared(programs.get(point.version).program))
-    found = comparison.of(twin, generate, ref, rest.given)
-    if not rest.note:
-        return found
+    notes = [rest.note]
+    if others:
+        given = tuple(each for each in rest.given if _spared(each.entry.command, others) is not None)
+        found = comparison.raised(twin, ref, command.author, given)
+        notes.append(f"it was raised together with {', '.join(others)}, and is compared as if it had been alone")
+    else:
+        found = comparison.of(twin, generate, ref, rest.given)
     if isinstance(found, Refusal):
-        return Refusal(f"{found.message} ({rest.note})")
-    return replace(found, note="; ".join(filter(None, (found.note, rest.note))))
+        return Refusal(f"{found.message} ({rest.note})" if rest.note else found.message)
+    return replace(found, note="; ".join(filter(None, (found.note, *notes))))
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,13 +124,15 @@ class Comparison:
     def __init__(self, point: Point, programs: ObservedPrograms, prepared: Prepared) -> None:
         self._point, self._programs, self._prepared = point, programs, prepared
 
-    def raised(self, twin: Twin, ref: ErrorRef, author: str) -> Reaction | Refusal:
-        """The reaction to an error that is raised alone, now."""
+    def raised(
+        self, twin: Twin, ref: ErrorRef, author: str, given: Sequence[Given] = ()
+    ) -> Reaction | Refusal:  # fmt: skip
+        """The reaction to an error that is raised alone, now, with the commands that follow."""
         resource = _standing(self._point, self._programs)
         entry = resource.submit(Generate(author, (ref,)))
         if isinstance(entry, Refusal):
             return entry
-        return self.of(twin, entry, ref, ())
+        return self.of(twin, entry, ref, given)
 
     def of(self, twin: Twin, generate: Entry, ref: ErrorRef, given: Sequence[Given]) -> Reaction | Refusal:
         """The reaction to an error of an entry that is made at the point, with the commands that follow."""
@@ -135,13 +143,18 @@ class Comparison:
             return chosen
         resource = _standing(self._point, self._programs)
         could_run = resource.runnable
+        present = [id for id in resource.journal.derived(ACTIVE) if id != ref.id]
         resource.reenter(generate)
         if resource.header.halt & Halt.FATAL_ERROR and chosen.error.severity == "fatal":
             return Reaction("stopped", 0, note="" if could_run else "the program did not run before either")
         own = [generate, *(each.entry for each in given if _is_about(each.entry.command, ref.id))]
         kept = without_patches(self._prepared.kept, (patch for entry in own for patch in entry.plan.patches))
         run = _Run(resource, twin, Effects(self._prepared.names, kept), chosen, ref)
-        return run.through(self._programs.observer(self._point.version), given)
+        found = run.through(self._programs.observer(self._point.version), given)
+        if isinstance(found, Refusal) or found.verdict not in FINDINGS or not present:
+            return found
+        hidden = f"{', '.join(present)} was present before: what follows from both is no difference"
+        return replace(found, note="; ".join(filter(None, (found.note, hidden))))
 
 
 class _Run:
@@ -356,20 +369,20 @@ def _following(
     return _Following(tuple(given), end - begin, note)
 
 
-def _without(generate: Entry, given: Iterable[Given], error: str) -> list[tuple[int, Command]]:
-    """The commands that the run without the error gets."""
+def _without(generate: Entry, given: Iterable[Given], errors: Collection[str]) -> list[tuple[int, Command]]:
+    """The commands that the run without these errors gets."""
     every = [(generate.scan, generate.command), *((each.scan, each.entry.command) for each in given)]
-    return [(scan, left) for scan, command in every if (left := _spared(command, error)) is not None]
+    return [(scan, left) for scan, command in every if (left := _spared(command, errors)) is not None]
 
 
-def _spared(command: Command, error: str) -> Command | None:
-    """What is left of a command when it is not to touch this error."""
+def _spared(command: Command, errors: Collection[str]) -> Command | None:
+    """What is left of a command when it is not to touch these errors."""
     if isinstance(command, Generate):
-        errors = tuple(each for each in command.errors if each.id != error)
-        return replace(command, errors=errors) if errors else None
+        left = tuple(each for each in command.errors if each.id not in errors)
+        return replace(command, errors=left) if left else None
     if isinstance(command, Recover) and command.ids is not None:
-        ids = tuple(id for id in command.ids if id != error)
-        numbers = tuple(each for each in command.numbers if each.id != error)
+        ids = tuple(id for id in command.ids if id not in errors)
+        numbers = tuple(each for each in command.numbers if each.id not in errors)
         return replace(command, ids=ids, numbers=numbers) if ids or numbers else None
     return command
 

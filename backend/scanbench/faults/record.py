@@ -8,7 +8,8 @@ from typing import Literal
 from scanbench.faults.history import ErrorRow, Status
 from scanbench.faults.inject import Origin
 from scanbench.faults.reaction import Reaction, Verdict
-from scanbench.plcmodel.model import ErrorGroup, Model, Severity, Wording
+from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, Wording, path_text
+from scanbench.plcmodel.model import Model
 
 Language = Literal["en", "ja"]
 SweepStatus = Literal["running", "done", "cancelled", "interrupted", "failed"]
@@ -192,36 +193,30 @@ def make_record(
     reasons: dict[str, list[RecordAccepted]] = {}
     for error, one in accepted:
         reasons.setdefault(error, []).append(one)
-    errors: list[RecordError] = []
-    for group in model.catalogue:
-        errors += _errors(group, (), by_id, language)
-    kept = [replace(error, accepted=tuple(reasons.get(error.id, ()))) for error in errors]
+    kept = [
+        _error(groups, error, by_id.get(error.id), tuple(reasons.get(error.id, ())), language)
+        for groups, error in model.errors_with_groups()
+    ]
     known = {error.id for error in kept}
     ours = [replace(each, cells=tuple(cell for cell in each.cells if cell.error in known)) for each in sweeps]
     return TestRecord(head, tuple(kept), tuple(ours), tuple(log))
 
 
-def _errors(
-    group: ErrorGroup, above: tuple[str, ...], rows: dict[str, ErrorRow], language: Language
-) -> list[RecordError]:
-    path = (*above, worded(group.name, group.wordings, language))
-    found = []
-    for error in group.errors:
-        row = rows.get(error.id) or ErrorRow(error.id, error.name, error.severity, code=error.code_text)
-        reaction = row.reaction
-        found.append(
-            RecordError(
-                id=error.id, name=worded(error.name, error.wordings, language), group=" / ".join(path), code=row.code,
-                flag=error.flag_text, severity=error.severity, status=row.status, details=row.details,
-                generated_at=row.generated_at, recovered_at=row.recovered_at, generated_scan=row.generated_scan,
-                recovered_scan=row.recovered_scan, by=row.by or "", origin=row.origin, count=row.count,
-                reaction=None if reaction is None or reaction.found is None else _outputs_only(reaction.found),
-                reaction_note="" if reaction is None else reaction.message,
-            )
-        )  # fmt: skip
-    for inner in group.groups:
-        found += _errors(inner, path, rows, language)
-    return found
+def _error(
+    groups: Iterable[ErrorGroup], error: ErrorEntry, row: ErrorRow | None, accepted: tuple[RecordAccepted, ...],
+    language: Language,
+) -> RecordError:  # fmt: skip
+    row = row or ErrorRow(error.id, error.name, error.severity, code=error.code_text)
+    reaction = row.reaction
+    return RecordError(
+        id=error.id, name=worded(error.name, error.wordings, language),
+        group=path_text(worded(group.name, group.wordings, language) for group in groups), code=row.code,
+        flag=error.flag_text, severity=error.severity, status=row.status, details=row.details,
+        generated_at=row.generated_at, recovered_at=row.recovered_at, generated_scan=row.generated_scan,
+        recovered_scan=row.recovered_scan, by=row.by or "", origin=row.origin, count=row.count,
+        reaction=None if reaction is None or reaction.found is None else _outputs_only(reaction.found),
+        reaction_note="" if reaction is None else reaction.message, accepted=accepted,
+    )  # fmt: skip
 
 
 def worded(name: str, wordings: Iterable[Wording], language: Language) -> str:

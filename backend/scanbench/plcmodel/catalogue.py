@@ -1,6 +1,6 @@
 """The errors that a model knows: codes, flags, details."""
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import Literal
 
@@ -166,7 +166,19 @@ class ErrorGroup:
     wordings: tuple[Wording, ...] = ()
 
     def walk(self) -> Iterator[ErrorEntry]:
-        """Every error of this branch, in the order of the tree."""
-        yield from self.errors
+        """Every error of this branch, in the order of the tree: inner groups first."""
+        for _, error in self.walk_with_groups():
+            yield error
+
+    def walk_with_groups(self) -> Iterator[tuple[tuple["ErrorGroup", ...], ErrorEntry]]:
+        """The same with the groups that each is in, from this one down."""
         for group in self.groups:
-            yield from group.walk()
+            for groups, error in group.walk_with_groups():
+                yield (self, *groups), error
+        for error in self.errors:
+            yield (self,), error
+
+
+def path_text(names: Iterable[str]) -> str:
+    """The names of groups from the top, as one text."""
+    return " / ".join(names)

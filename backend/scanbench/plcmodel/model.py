@@ -229,8 +229,13 @@ class Model:
 
     def errors(self) -> Iterator[ErrorEntry]:
         """Every error of the catalogue, in the order of the tree."""
+        for _, error in self.errors_with_groups():
+            yield error
+
+    def errors_with_groups(self) -> Iterator[tuple[tuple[ErrorGroup, ...], ErrorEntry]]:
+        """The same with the groups that each is in, from the top."""
         for group in self.catalogue:
-            yield from group.walk()
+            yield from group.walk_with_groups()
 
     def error(self, id: str) -> ErrorEntry | None:
         """The error of this id."""

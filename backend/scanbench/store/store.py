@@ -210,12 +210,13 @@ class Store(Errors, Sweeps, ImportedRecords):
             found = select(Log).where(Log.instance_id == instance).order_by(Log.id.desc()).limit(limit)
             return [rows.log(entry) for entry in reversed(session.scalars(found).all())]
 
-    def error_log(self, instance: int, version: int) -> list[LogRow]:
-        """What was raised and recovered while this version of the program ran, oldest first."""
+    def error_log(self, instance: int, version: int, limit: int) -> list[LogRow]:
+        """What was last raised and recovered while this version of the program ran, oldest first."""
         with self._reading() as session:
             the_instance(session, instance)
             of = (Log.instance_id == instance) & (Log.program_version == version) & Log.kind.in_(("error", "recover"))
-            return [rows.log(entry) for entry in session.scalars(select(Log).where(of).order_by(Log.id))]
+            found = select(Log).where(of).order_by(Log.id.desc()).limit(limit)
+            return [rows.log(entry) for entry in reversed(session.scalars(found).all())]
 
     def add_log(self, instance: int, lines: Sequence[LogRow], keep: int | None = None) -> None:
         """More lines, in their order; with `keep` only the last so many lines of the instance stay."""

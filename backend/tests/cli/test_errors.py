@@ -2,6 +2,7 @@
 
 import json
 from dataclasses import dataclass
+from importlib import import_module
 from importlib.resources import files
 from pathlib import Path
 from xml.etree import ElementTree
@@ -10,7 +11,10 @@ import pytest
 from typer.testing import CliRunner
 
 from scanbench.cli import app
+from scanbench.session import starting
+from scanbench.session.protocol import Sources
 
+ERRORS = import_module("scanbench.cli.errors")  # of the package, `errors` is the command
 SAMPLE = str(files("scanbench").joinpath("samples/conveyor"))
 SOURCE = """PROGRAM Main
 VAR
@@ -110,6 +114,52 @@ def test_reports(project: Path) -> None:
     suite = ElementTree.fromstring(junit.read_text("utf-8"))
     assert (suite.get("tests"), suite.get("failures")) == ("4", "3")
     assert "main.st:7" in page.read_text("utf-8")
+
+
+def test_a_report_that_cannot_be_written_is_refused_before_the_sweep(
+    project: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    def never(*_: object) -> None:
+        raise AssertionError("swept")
+
+    monkeypatch.setattr(ERRORS, "sweep", never)
+    good = project.parent / "good.xml"
+    for option in ("--junit", "--html"):
+        other = "--html" if option == "--junit" else "--junit"
+        for bad in (project, project / "none" / "x"):
+            result = scanbench("errors", "sweep", str(project), *FEW, option, str(bad), other, str(good))
+            assert (result.returncode, result.stdout) == (2, "")
+            assert f"{bad} cannot be written: " in result.stderr
+            assert not good.exists()
+
+
+def test_a_sweep_is_told_although_its_report_cannot_be_kept(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The disk may fill up meanwhile."""
+    monkeypatch.setattr(ERRORS, "_must_be_writable", lambda path: None)
+    result = scanbench("errors", "sweep", str(project), *FEW, "--junit", str(project))
+    assert result.returncode == 2
+    assert "memory-error" in result.stdout
+
+
+def test_what_could_not_be_raised_is_said(project: Path) -> None:
+    given = states(project, [{"name": "There", "do": ["5: raise battery-error"]}, {"name": "Else"}])
+    for json_too in ((), ("--json",)):
+        result = scanbench("errors", "sweep", str(project), *FEW, "--states", given, *json_too)
+        assert "scanbench: 1 of 8 cases: the error could not be raised" in result.stderr
+    fine = scanbench("errors", "sweep", str(project), *FEW)
+    assert "could not be raised" not in fine.stderr
+
+
+def test_the_program_of_a_run_that_does_not_compile_any_more(project: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    """The first error is named, not a warning that stands above it."""
+    run = project.parent / "on.scanrun"
+    assert scanbench("run", str(project), "--scans", "50", "--record", str(run)).returncode == 0
+    kept = Sources("CJ1M-CPU63", {"main.st": SOURCE.replace("n : DINT;", "n : DINT; m : INT;").replace("inner THEN", "inned THEN")}, 10_000_000, 1)  # fmt: skip
+    monkeypatch.setattr(starting, "sources_in", lambda program: kept)
+    given = states(project, [{"name": "A", "run": "on.scanrun"}])
+    result = scanbench("errors", "sweep", str(project), *FEW, "--states", given)
+    assert result.returncode == 2
+    assert "state A: of the run's own program: the program cannot be built: main.st:7:6: " in result.stderr, result.stderr
 
 
 def test_the_whole_catalogue_of_the_sample() -> None:

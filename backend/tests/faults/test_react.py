@@ -128,7 +128,8 @@ def test_a_code_that_a_more_serious_error_hides_is_not_read(make: MakeObserved) 
     )  # fmt: skip
     hides = (Generate("Ada", (ref(first.id),)),)
     hidden = attempt(program, (second.id,), make, before=hides)
-    assert hidden == Reaction("never_read", 50)
+    note = f"{first.id} was present before: what follows from both is no difference"
+    assert hidden == Reaction("never_read", 50, note=note)
 
 
 def test_reading_after_it_was_recovered_is_not_reading_it(make: MakeObserved) -> None:
@@ -309,12 +310,33 @@ def test_both_runs_get_what_came_from_outside(later: tuple[tuple[int, Command], 
     assert found == Reaction("never_read", 20)
 
 
-def test_errors_of_one_batch_are_told_apart(make: MakeObserved) -> None:
-    program = checked({"main.st": HANDLERS})
-    assert attempt(program, ("battery-error", "basic-io-error"), make) == Reaction("never_read", 50)
-    found = attempt(program, ("basic-io-error", "battery-error"), make)
+def test_errors_of_one_batch_do_not_hide_each_other(make: MakeObserved) -> None:
+    """Both switch the same lamp on: each is compared as if it had been raised alone."""
+    source = """
+PROGRAM Main
+VAR lamp AT CIO 100.00 : BOOL; basic AT A402.12 : BOOL; bus AT A402.07 : BOOL; END_VAR
+  IF basic OR bus THEN lamp := TRUE; END_IF;
+END_PROGRAM
+"""
+    program = checked({"main.st": source})
+    batch = ("basic-io-error", "cpu-bus-unit-error", "battery-error")
+    recovered = ((20, Recover("Ada", None)),)
+    for first in range(2):
+        found = attempt(program, (*batch[first:], *batch[:first]), make, later=recovered)
+        assert isinstance(found, Reaction)
+        assert (found.verdict, found.first_effect) == ("reacted", 1)
+        assert set(differing(found)) == {"Main.lamp"}
+        assert "raised together with" in found.note
+    found = attempt(program, (batch[2], *batch[:2]), make)
     assert isinstance(found, Reaction)
-    assert found.verdict == "reacted"
+    assert (found.verdict, found.differences) == ("never_read", ())
+
+
+def test_an_error_that_was_there_before_is_named(make: MakeObserved) -> None:
+    """What it switched on already is no difference."""
+    found = reaction(HANDLERS, "battery-error", make, before=(Generate("Ada", (ref("basic-io-error"),)),))
+    assert found.verdict == "never_read"
+    assert "basic-io-error was present before" in found.note
 
 
 def test_a_write_that_only_the_error_makes_possible_is_no_excuse(make: MakeObserved) -> None:

@@ -33,6 +33,7 @@ const view = (over: Partial<CatalogueView> = {}): CatalogueView => ({
   closed: new Set(),
   checked: new Set(),
   history: new Map(),
+  armed: new Set(),
   ...over,
 });
 
@@ -40,6 +41,22 @@ const history = (id: string, status: ErrorHistoryRow["status"], code = "009A") =
   new Map([[id, { id, status, code } as ErrorHistoryRow]]);
 
 describe("catalogueRows", () => {
+  it("takes the verdict of a sweep where the error was not raised here", () => {
+    const swept = { state: "done", verdict: "no_effect", scans: null, message: "" } as const;
+    const reaction = { ...swept, verdict: "reacted", scans: 1 } as const;
+    const told = new Map([
+      ["battery-error", { id: "battery-error", status: "never", reaction: null, swept } as ErrorHistoryRow],
+      ["io-error", { id: "io-error", status: "cleared", reaction, swept } as ErrorHistoryRow],
+    ]);
+    const rows = catalogueRows(groups, view({ history: told, armed: new Set(["unit-error"]) }));
+    expect(rows.find((row) => row.key === "battery-error")).toMatchObject({ reaction: swept, swept: true });
+    expect(rows.find((row) => row.key === "io-error")).toMatchObject({ reaction, swept: false, armed: false });
+    expect(rows.find((row) => row.key === "unit-error")).toMatchObject({ reaction: null, swept: false, armed: true });
+    expect(rows.find((row) => row.key === "/Non-fatal")).toMatchObject({ tested: 2 });
+    const findings = catalogueRows(groups, view({ history: told, reaction: "findings" }));
+    expect(findings.map((row) => row.key)).toEqual(["/Non-fatal", "battery-error"]);
+  });
+
   it("shows groups, inner groups and errors with their levels", () => {
     const rows = catalogueRows(groups, view());
     expect(rows.map((row) => [row.key, row.level])).toEqual([

@@ -26,6 +26,10 @@ export interface LeafRow {
   status: ErrorStatus;
   code: string;
   reaction: ReactionState | null;
+  /** The reaction is what a sweep found out. */
+  swept: boolean;
+  /** A fault with it comes later, or comes back. */
+  armed: boolean;
 }
 
 export type CatalogueRow = GroupRow | LeafRow;
@@ -38,6 +42,7 @@ export interface CatalogueView {
   closed: ReadonlySet<string>;
   checked: ReadonlySet<string>;
   history: ReadonlyMap<string, ErrorHistoryRow>;
+  armed: ReadonlySet<string>;
 }
 
 /** The details of a generated error (`location=io-table-checksum, slot=3`) in the words of the catalogue. */
@@ -110,7 +115,9 @@ function leafRow(error: ErrorInfo, view: CatalogueView, level: number): LeafRow 
     checked: view.checked.has(error.id),
     status,
     code: status === "generated" && raised?.code ? raised.code : error.code,
-    reaction: raised?.reaction ?? null,
+    reaction: reactionOf(raised),
+    swept: isSwept(raised),
+    armed: view.armed.has(error.id),
   };
 }
 
@@ -119,8 +126,16 @@ export function isTested(row: ErrorHistoryRow | undefined): boolean {
   return verdictOf(row) !== null;
 }
 
-export function verdictOf(row: ErrorHistoryRow | undefined): Verdict | null {
-  return row?.reaction?.state === "done" ? row.reaction.verdict : null;
+type Told = Pick<ErrorHistoryRow, "reaction" | "swept"> | undefined;
+
+/** What is known of the reaction: of the last time that it was raised here, else what a sweep found out. */
+export const reactionOf = (row: Told): ReactionState | null => row?.reaction ?? row?.swept ?? null;
+
+export const isSwept = (row: Told): boolean => !row?.reaction && Boolean(row?.swept);
+
+export function verdictOf(row: Told): Verdict | null {
+  const reaction = reactionOf(row);
+  return reaction?.state === "done" ? reaction.verdict : null;
 }
 
 /** What the program missed: nobody read it, or nothing came of it. */

@@ -40,6 +40,24 @@ export function defaultEntries(error: ErrorInfo): Entries {
   );
 }
 
+/** The entries of an error that is present, from what its history says: `rack=2, slot=3`. */
+export function entriesIn(error: ErrorInfo, details: string): Entries {
+  const said = new Map<string, string>();
+  let last = "";
+  for (const part of details.split(", ")) {
+    const name = part.slice(0, Math.max(0, part.indexOf("=")));
+    if (error.details.some((detail) => detail.name === name)) {
+      said.set(name, part.slice(name.length + 1));
+      last = name;
+    } else if (last) said.set(last, `${said.get(last)}, ${part}`); // a text with a comma in it
+  }
+  const found = [...said].flatMap(([name, text]) => {
+    const detail = error.details.find((known) => known.name === name);
+    return detail ? [[name, { text, format: formatOf(detail) }] as const] : [];
+  });
+  return { ...defaultEntries(error), ...Object.fromEntries(found) };
+}
+
 function first(detail: ErrorDetail): string {
   if (detail.default) return detail.default;
   if (detail.control === "List") return detail.choices?.[0]?.id ?? "";

@@ -87,9 +87,9 @@ describe("an imported record", () => {
     const [row] = recordLines(record);
     expect(row).toMatchObject({
       by: null,
-      swept: true,
+      swept: { verdict: "never_read" },
       accepted: "no battery (Eva)",
-      reaction: { verdict: "never_read" },
+      reaction: null,
     });
   });
 });

@@ -1,11 +1,9 @@
 /** The error history as a table: filtered, sorted; of this PLC, of a version that ran before, or of an imported record. */
 import type { ErrorHistoryRow, TestRecord } from "../wire/types";
-import { isFinding, type ReactionFilter, verdictOf } from "./catalogue";
+import { isFinding, type ReactionFilter, reactionOf, verdictOf } from "./catalogue";
 
 /** A row, whoever tells it. */
 export interface HistoryLine extends ErrorHistoryRow {
-  /** Where the verdict comes from when it is not this PLC's own. */
-  swept?: boolean;
   /** Why the finding was accepted, and by whom; empty: it was not. */
   accepted?: string;
 }
@@ -90,7 +88,7 @@ function keyOf(line: HistoryLine, column: Column): string | number | null {
     case "reaction":
       return verdict === null ? null : VERDICT[verdict];
     case "scans":
-      return line.reaction?.scans ?? null;
+      return reactionOf(line)?.scans ?? null;
   }
 }
 
@@ -105,8 +103,9 @@ export function recordLines(record: TestRecord): HistoryLine[] {
   return record.errors.map((error) => ({
     ...error,
     by: error.by || null,
-    reaction: reactionIn(error),
-    swept: error.verdict_from === "sweep",
+    ...(error.verdict_from === "sweep"
+      ? { reaction: null, swept: reactionIn(error) }
+      : { reaction: reactionIn(error), swept: null }),
     accepted: error.accepted.map(({ reason, by }) => `${reason} (${by})`).join("; "),
   }));
 }

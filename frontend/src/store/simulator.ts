@@ -1,11 +1,11 @@
 /** What is chosen in the error simulator, what is typed there, and its commands. */
 import { create } from "zustand";
 import { type ErrorStatus, type ReactionFilter, toggleAll } from "../logic/catalogue";
-import { defaultEntries, type Entries, type Entry, needsDetails, wireDetails } from "../logic/details";
+import { defaultEntries, type Entries, entriesIn, type Entry, needsDetails, wireDetails } from "../logic/details";
 import { withName } from "../logic/expression";
 import { isPlain, plainShape, readShape, type ShapeForm } from "../logic/shapes";
 import { send } from "../wire/send";
-import type { ErrorInfo, GenerateOne } from "../wire/types";
+import type { ErrorHistoryRow, ErrorInfo, GenerateOne } from "../wire/types";
 import { readClock } from "./clock";
 import { usePlc } from "./plc";
 
@@ -85,12 +85,19 @@ export function toggleGroup(key: string): void {
   });
 }
 
-export function entriesOf({ details }: Pick<Simulator, "details">, error: ErrorInfo): Entries {
-  return details[error.id] ?? defaultEntries(error);
+/** Details as edited; else those with which the error is present, else its defaults. */
+export function entriesOf(
+  { details }: Pick<Simulator, "details">,
+  error: ErrorInfo,
+  row: ErrorHistoryRow | undefined,
+): Entries {
+  return details[error.id] ?? (row?.status === "generated" ? entriesIn(error, row.details) : defaultEntries(error));
 }
 
+const entriesNow = (error: ErrorInfo) => entriesOf(get(), error, usePlc.getState().errors.get(error.id));
+
 export function setDetail(error: ErrorInfo, name: string, entry: Entry): void {
-  setEntries(error, { ...entriesOf(get(), error), [name]: entry });
+  setEntries(error, { ...entriesNow(error), [name]: entry });
 }
 
 export function setEntries(error: ErrorInfo, entries: Entries): void {
@@ -129,7 +136,7 @@ export async function generate(errors: readonly ErrorInfo[]): Promise<void> {
 }
 
 export const asWanted = (errors: readonly ErrorInfo[]): GenerateOne[] =>
-  errors.map((error) => ({ id: error.id, details: wireDetails(error, entriesOf(get(), error)) }));
+  errors.map((error) => ({ id: error.id, details: wireDetails(error, entriesNow(error)) }));
 
 /** Raises these in one seam, or arms them when they come later, one by one or not to stay. True when it was accepted. */
 export async function raise(errors: readonly ErrorInfo[], { gap = 0, again = false } = {}): Promise<boolean> {

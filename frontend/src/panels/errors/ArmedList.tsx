@@ -43,14 +43,14 @@ function Fault({ fault, locked }: { fault: ArmedFault; locked: { disabled: boole
     t("armed.by", { by: fault.by }),
   ];
   return (
-    <li>
+    <li title={`${names}: ${fault.text}`}>
       <StateWord
         tone={running ? "generated" : "recording"}
         icon={running ? "refresh" : "clock"}
         word={t(running ? "armed.running" : "armed.waiting")}
       />
       <span className="grow">
-        <p title={`${names}: ${fault.text}`}>
+        <p>
           {names} <span className="muted">{fault.text}</span>
         </p>
         <small className="faint">{facts.filter(Boolean).join(" · ")}</small>

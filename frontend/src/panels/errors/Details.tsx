@@ -5,8 +5,10 @@ import { isPlain } from "../../logic/shapes";
 import { t } from "../../logic/text";
 import { usePlc } from "../../store/plc";
 import { entriesOf, setDetail, useSimulator } from "../../store/simulator";
+import { showSweeps } from "../../store/sweeps";
 import { Icon } from "../../ui/Icon";
-import type { ErrorHistoryRow, ErrorInfo } from "../../wire/types";
+import { ReactionWord } from "../../ui/ReactionWord";
+import type { ErrorHistoryRow, ErrorInfo, ReactionState } from "../../wire/types";
 import { Control } from "./controls";
 import { Preview } from "./Preview";
 import { ReactionView } from "./ReactionView";
@@ -16,9 +18,13 @@ import { ShapeFields } from "./ShapeFields";
 export function Details({ error }: { error: ErrorInfo }) {
   const edited = useSimulator((state) => state.details[error.id] !== undefined);
   const plain = useSimulator((state) => isPlain(state.shape));
-  const entries = useSimulator((state) => state.details[error.id]) ?? entriesOf({ details: {} }, error);
+  const details = useSimulator((state) => state.details);
   const row = usePlc((plc) => plc.errors.get(error.id));
+  const entries = entriesOf({ details }, error, row);
   const raised = row?.status === "generated" ? row : null;
+  // One that comes and goes is as good as present: nothing jumps.
+  const armed = usePlc((plc) => plc.armed.some((fault) => fault.errors.includes(error.id)));
+  const present = raised !== null || armed;
   const refused = troubles(error, entries);
   return (
     <section className="edetail" aria-label={t("errors.details")}>
@@ -49,11 +55,32 @@ export function Details({ error }: { error: ErrorInfo }) {
         </div>
       </div>
       {row?.reaction && <ReactionView error={error} state={row.reaction} />}
-      <ShapeFields />
-      {(!raised || (edited && needsDetails(error))) && (
+      {!row?.reaction && row?.swept && <Swept reaction={row.swept} />}
+      {present ? (
+        <details className="again" open={!plain}>
+          <summary>{t("shape.again")}</summary>
+          <ShapeFields />
+        </details>
+      ) : (
+        <ShapeFields />
+      )}
+      {(!present || (edited && needsDetails(error))) && (
         <Preview errors={[error]} valid={refused.size === 0} again={raised !== null} now={plain} />
       )}
     </section>
+  );
+}
+
+/** Nobody raised it here; a sweep did, in a run of its own. */
+function Swept({ reaction }: { reaction: ReactionState }) {
+  return (
+    <p className="row">
+      <ReactionWord reaction={reaction} />
+      <span className="muted">{t("reaction.swept")}</span>
+      <button type="button" className="link" onClick={showSweeps}>
+        {t("sweep.tab.list")}
+      </button>
+    </p>
   );
 }
 

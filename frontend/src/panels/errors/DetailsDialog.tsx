@@ -4,7 +4,7 @@ import { inNames } from "../../logic/catalogue";
 import { type Entry, kindred, needsDetails, takenOver, troubles } from "../../logic/details";
 import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
-import { useForbidden } from "../../store/plc";
+import { useForbidden, usePlc } from "../../store/plc";
 import { useShape } from "../../store/shape";
 import { closeDialog, entriesOf, raise, setEntries, useSimulator } from "../../store/simulator";
 import { Dialog } from "../../ui/Dialog";
@@ -22,6 +22,7 @@ import { WayOn } from "./WayOn";
 export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
   const state = useSimulator(useShallow(({ details }) => ({ details })));
   const shape = useShape();
+  const history = usePlc((plc) => plc.errors);
   const forbidden = useForbidden("errors");
   const needing = errors.filter(needsDetails);
   // Asked for although nothing has to be: every error has its page, to be looked at.
@@ -33,7 +34,8 @@ export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
   const error = pages[Math.min(page, pages.length - 1)];
   if (!error) return null;
 
-  const bad = (of: ErrorInfo) => troubles(of, entriesOf(state, of)).size > 0;
+  const entriesNow = (of: ErrorInfo) => entriesOf(state, of, history.get(of.id));
+  const bad = (of: ErrorInfo) => troubles(of, entriesNow(of)).size > 0;
   const scans = gapOf(gap);
   const ready = forbidden === null && !errors.some(bad) && shape.ready && scans !== null;
   const { plain } = shape;
@@ -45,14 +47,14 @@ export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
 
   function change(name: string, entry: Entry): void {
     if (!error) return;
-    const entries = { ...entriesOf(state, error), [name]: entry };
+    const entries = { ...entriesNow(error), [name]: entry };
     setEntries(error, entries);
     if (same.has(error.id)) spread(error, entries);
   }
 
-  function spread(from: ErrorInfo, entries = entriesOf(state, from)): void {
+  function spread(from: ErrorInfo, entries = entriesNow(from)): void {
     for (const other of kindred(from, errors))
-      setEntries(other, takenOver(from, entries, other, entriesOf(state, other)));
+      setEntries(other, takenOver(from, entries, other, entriesNow(other)));
   }
 
   function toggleSame(): void {
@@ -112,7 +114,7 @@ export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
           <DetailsPage
             key={error.id}
             error={error}
-            entries={entriesOf(state, error)}
+            entries={entriesNow(error)}
             alike={kindred(error, errors)}
             same={same.has(error.id)}
             onEntry={change}

@@ -107,7 +107,9 @@ function Head() {
       <span role="columnheader" className="c-severity">
         {t("errors.severity")}
       </span>
-      <span role="columnheader">{t("errors.state")}</span>
+      <span role="columnheader" className="c-state">
+        {t("errors.state")}
+      </span>
       <span role="columnheader" className="c-reaction">
         {t("errors.reaction")}
         <span className="scans">{t("errors.reaction.scans")}</span>

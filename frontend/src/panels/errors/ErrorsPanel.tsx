@@ -38,10 +38,12 @@ function Simulator({ model }: { model: ModelInfo }) {
   );
   const { groups, errors, byId } = useCatalogue();
   const history = usePlc((plc) => plc.errors);
+  const faults = usePlc((plc) => plc.armed);
+  const armed = useMemo(() => new Set(faults.flatMap((fault) => fault.errors)), [faults]);
   const locked = useForbidden("errors") !== null;
   const rows = useMemo(
-    () => catalogueRows(groups, { filter, status, severity, reaction, closed, checked, history }),
-    [groups, filter, status, severity, reaction, closed, checked, history],
+    () => catalogueRows(groups, { filter, status, severity, reaction, closed, checked, history, armed }),
+    [groups, filter, status, severity, reaction, closed, checked, history, armed],
   );
   const error = selected === null ? undefined : byId.get(selected);
   const untouched = useMemo(() => [...history.values()].every((row) => row.status === "never"), [history]);

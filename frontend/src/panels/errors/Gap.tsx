@@ -54,7 +54,7 @@ export function Gap({ form, several, onForm }: Props) {
             className={`inp mono count${scans === null ? " bad" : ""}`}
             aria-label={t("dialog.gap")}
             aria-invalid={scans === null}
-            title={scans === null ? t("dialog.gap.bad") : asScans(form, scans)}
+            title={scans === null ? undefined : asScans(form, scans)}
             inputMode="numeric"
             value={form.text}
             onChange={(event) => onForm({ ...form, text: event.target.value })}
@@ -68,6 +68,11 @@ export function Gap({ form, several, onForm }: Props) {
             <option value="scans">{t("dialog.gap.scans")}</option>
             <option value="ms">{t("dialog.gap.ms")}</option>
           </select>
+          {scans === null && (
+            <span className="hint bad" role="alert">
+              {t("dialog.gap.bad")}
+            </span>
+          )}
         </>
       )}
     </>

@@ -24,7 +24,9 @@ interface Props {
 export function Preview({ errors, of, valid, again = false, now = true }: Props) {
   // Another detail is another question.
   useSimulator((state) => state.details);
-  const { preview, refused } = usePreview(valid ? asWanted(errors) : null, again);
+  // What the PLC would write now says nothing of a moment in the past.
+  const past = usePlc((plc) => Boolean(plc.state?.past));
+  const { preview, refused } = usePreview(valid && !past ? asWanted(errors) : null, again);
   const { errors: known } = useCatalogue();
   // While it runs, the number of the scan would be over before it is read.
   const running = usePlc((plc) => plc.state?.state === "running");
@@ -32,6 +34,7 @@ export function Preview({ errors, of, valid, again = false, now = true }: Props)
   const several = of !== undefined && errors.length > 1;
   const writes = preview?.writes ?? [];
   const shown = several && !all ? writes.filter((write) => write.error === of || write.error === "") : writes;
+  if (past) return null;
   const title = again ? "preview.change" : now ? "preview.title" : "preview.title.now";
   return (
     <section className="preview" aria-label={t("preview.title")} aria-busy={valid && !preview && !refused}>
@@ -57,6 +60,7 @@ export function Preview({ errors, of, valid, again = false, now = true }: Props)
           <span>{inNames(known, refused)}</span>
         </p>
       )}
+      {!valid && <p className="faint">{t("preview.invalid")}</p>}
       {preview?.ok && shown.length === 0 && <p className="faint">{t("preview.none")}</p>}
       {shown.length > 0 && (
         <div className="writes">

@@ -1,4 +1,4 @@
-import { memo, type ReactNode } from "react";
+import { memo, type ReactNode, useEffect, useRef } from "react";
 import { shallow } from "zustand/shallow";
 import type { GroupRow, LeafRow } from "../../logic/catalogue";
 import { detailsInWords, inNames } from "../../logic/catalogue";
@@ -60,7 +60,7 @@ export const Leaf = memo(function Leaf({ row, index, selected, children }: LeafP
         aria-level={row.level + 1}
         aria-selected={selected}
         data-key={row.key}
-        title={error.description}
+        title={[error.name, `${row.code} · ${error.flag}`, error.description].filter(Boolean).join("\n")}
         onClick={() => selectError(error.id)}
       >
         <span className="name" role="gridcell">
@@ -87,11 +87,15 @@ export const Leaf = memo(function Leaf({ row, index, selected, children }: LeafP
             word={t(fatal ? "errors.fatal" : "errors.nonfatal")}
           />
         </span>
-        <span role="gridcell">
-          <StateWord tone={row.status} icon={STATUS_ICONS[row.status]} word={t(`errors.status.${row.status}`)} />
+        <span role="gridcell" className="c-state">
+          {row.armed && row.status !== "generated" ? (
+            <StateWord tone="recording" icon="clock" word={t("errors.armed")} title={t("errors.armed.about")} />
+          ) : (
+            <StateWord tone={row.status} icon={STATUS_ICONS[row.status]} word={t(`errors.status.${row.status}`)} />
+          )}
         </span>
         <span role="gridcell" className="c-reaction">
-          {row.reaction && <Reacted reaction={row.reaction} />}
+          {row.reaction && <Reacted reaction={row.reaction} swept={row.swept} />}
         </span>
       </div>
       {children}
@@ -104,11 +108,13 @@ function sameLeaf({ row: before, ...rest }: LeafProps, { row: after, ...others }
 }
 
 /** The reaction, and how many scans it took. */
-function Reacted({ reaction }: { reaction: ReactionState }) {
-  const { verdict, scans } = reaction;
+function Reacted({ reaction, swept }: { reaction: ReactionState; swept: boolean }) {
+  const { verdict, scans, message } = reaction;
+  const title = swept ? [message, t("history.swept")].filter(Boolean).join(" · ") : message;
   return (
     <>
-      <ReactionWord reaction={reaction} />
+      <ReactionWord reaction={reaction} title={title} />
+      {swept && <Icon name="refresh" small className="faint" />}
       {verdict === "reacted" && scans !== null && (
         <span className="scans num" title={t("reaction.scans", { scans })}>
           {scans}
@@ -129,10 +135,14 @@ function refusalOf(error: ErrorInfo, message: string): string {
 export function RefusalRow({ error }: { error: ErrorInfo }) {
   const outcome = useSimulator((state) => state.outcome);
   const { errors } = useCatalogue();
+  const place = useRef<HTMLDivElement>(null);
+  // The tree may be short: what was refused must not stand below its edge.
+  // biome-ignore lint/correctness/useExhaustiveDependencies: another refusal is another reason
+  useEffect(() => place.current?.scrollIntoView({ block: "nearest" }), [outcome]);
   if (!outcome) return null;
   const why = refusalOf(error, outcome.message);
   return (
-    <div className="refusalrow" role="row">
+    <div className="refusalrow" role="row" ref={place}>
       <span role="gridcell">
         <span role="alert">
           <Icon name="error" small />

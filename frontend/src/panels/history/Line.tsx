@@ -1,4 +1,4 @@
-import { detailsInWords } from "../../logic/catalogue";
+import { detailsInWords, isSwept, reactionOf } from "../../logic/catalogue";
 import type { HistoryLine } from "../../logic/history";
 import { dayTime, grouped, wallTime } from "../../logic/numbers";
 import { t } from "../../logic/text";
@@ -29,7 +29,7 @@ export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
       <td>
         <Reaction line={line} />
       </td>
-      <td className="num">{line.reaction?.scans ?? ""}</td>
+      <td className="num">{reactionOf(line)?.scans ?? ""}</td>
       <Moment at={line.generated_at} scan={line.generated_scan} dated={dated} />
       <Moment at={line.recovered_at} scan={line.recovered_scan} dated={dated} />
       <td className="mono c-code">{line.status === "never" ? "" : line.code}</td>
@@ -43,7 +43,9 @@ export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
 }
 
 function Reaction({ line }: { line: HistoryLine }) {
-  const { reaction, swept, accepted } = line;
+  const reaction = reactionOf(line);
+  const swept = isSwept(line);
+  const { accepted } = line;
   if (!reaction) return null;
   const title = [
     reaction.message,
@@ -53,6 +55,7 @@ function Reaction({ line }: { line: HistoryLine }) {
   return (
     <>
       <ReactionWord reaction={reaction} title={title.join(" · ")} />
+      {swept && <span className="faint"> {t("reaction.swept.word")}</span>}
       {accepted && <span className="faint"> {t("sweep.accepted")}</span>}
     </>
   );
