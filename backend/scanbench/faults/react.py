@@ -62,11 +62,12 @@ def react(
     Errors that were raised together would hide each other's effects: each is compared as if it had been raised alone.
     """
     command = generate.command
-    ref = next((each for each in command.errors if each.id == error), None) if isinstance(command, Generate) else None
+    raised = command.errors if isinstance(command, Generate) else ()
+    ref = next((each for each in raised if each.id == error), None)
     if ref is None:
         return Refusal(f"{error} was not raised there: {generate.plan.message}")
     rest = _following(point, generate, following, window, programs)
-    others = [each.id for each in command.errors if each.id != error]
+    others = [each.id for each in raised if each.id != error]
     twin = run_twin(point, _without(generate, rest.given, {error, *others}), rest.window, programs, TRACE_LIMIT)
     comparison = Comparison(point, programs, Prepared(programs.get(point.version).program))
     notes = [rest.note]

@@ -29,6 +29,10 @@ from scanbench.store.store import Store
 
 LOG_LINES = 2000
 """Of a record, the last ones."""
+SWEEPS = 20
+"""Of a record, the newest ones: it is a page to sign, no archive."""
+IMPORTED = 500
+"""Records from elsewhere that a project keeps; each may be megabytes."""
 TOLD = 3
 """Mistakes of a record that are told at once."""
 
@@ -56,8 +60,7 @@ class Records:
         """The versions with a history, the newest first."""
         found = []
         for version in reversed(session.history_versions):
-            build = await asyncio.to_thread(self._store.build, session.project_id, version)
-            rows = session.rows_of(version, self._model(session, version, build))
+            rows, _, build = await self._of_version(session, version)
             raised = sum(row.status != "never" for row in rows)
             found.append(HistoryVersion(version, version == session.history_version, raised, build))
         return found
@@ -69,22 +72,25 @@ class Records:
 
     async def of_instance(self, session: Session, version: int | None, by: str, language: Language) -> TestRecord:
         """The record of a version, or of the one that runs."""
-        rows, model, build = await self._of_version(session, version)
         version = session.history_version if version is None else version
+        rows, model, build = await self._of_version(session, version)
         await self._keeper.flush()
-        project = await asyncio.to_thread(self._store.project, session.project_id)
-        lines = await asyncio.to_thread(self._store.error_log, session.id, version)
-        accepted = await asyncio.to_thread(self._store.acceptances, session.project_id)
-        head = RecordHead(
-            project.name, session.model.name, session.name, version, "" if build is None else build.hash,
-            wall_time(), by, self._tool,
-        )  # fmt: skip
-        return make_record(
-            head, model, rows, language=language,
-            sweeps=await asyncio.to_thread(self._sweeps, session, version),
-            accepted=[(one.error, RecordAccepted(one.state, one.reason, one.by, one.at)) for one in accepted],
-            log=[RecordLine(line.at, line.scan, line.author, line.text) for line in lines[-LOG_LINES:]],
-        )  # fmt: skip
+
+        def make() -> TestRecord:
+            project = self._store.project(session.project_id)
+            lines = self._store.error_log(session.id, version, LOG_LINES)
+            accepted = self._store.acceptances(session.project_id)
+            head = RecordHead(
+                project.name, model.name, session.name, version, "" if build is None else build.hash, wall_time(), by,
+                self._tool,
+            )  # fmt: skip
+            return make_record(
+                head, model, rows, language=language, sweeps=self._sweeps(session, version),
+                accepted=[(one.error, RecordAccepted(one.state, one.reason, one.by, one.at)) for one in accepted],
+                log=[RecordLine(line.at, line.scan, line.author, line.text) for line in lines],
+            )  # fmt: skip
+
+        return await asyncio.to_thread(make)
 
     async def _of_version(self, session: Session, version: int | None) -> tuple[list[ErrorRow], Model, BuildRow | None]:
         wanted = session.history_version if version is None else version
@@ -92,9 +98,13 @@ class Records:
         if wanted not in session.history_versions and not await asyncio.to_thread(self._swept, session, wanted):
             known = ", ".join(map(str, session.history_versions))
             raise NotFound(f"{session.name} has no error history of version {wanted}; there are {known}")
-        build = await asyncio.to_thread(self._store.build, session.project_id, wanted)
-        model = self._model(session, wanted, build)
-        return session.rows_of(wanted, model), model, build
+
+        def read() -> tuple[list[ErrorRow], Model, BuildRow | None]:
+            build = self._store.build(session.project_id, wanted)
+            model = self._model(session, wanted, build)
+            return session.rows_of(wanted, model), model, build
+
+        return await asyncio.to_thread(read)
 
     @staticmethod
     def _model(session: Session, version: int, build: BuildRow | None) -> Model:
@@ -104,10 +114,10 @@ class Records:
         return model_for(device_of(session.model), build.sources)
 
     def _sweeps(self, session: Session, version: int) -> list[RecordSweep]:
-        return [self._sweep(sweep) for sweep in self._swept(session, version)]
+        return [self._sweep(sweep) for sweep in self._swept(session, version)[:SWEEPS]]
 
     def _swept(self, session: Session, version: int) -> list[SweepRow]:
-        """The sweeps of a version on this PLC."""
+        """The sweeps of a version on this PLC, the newest first."""
         found = []
         for sweep in self._store.sweeps(session.project_id):
             ours = sweep.instance_id == session.id and sweep.model == session.model.name
@@ -130,6 +140,8 @@ class Records:
 
     async def bring_in(self, project: int, text: str, by: str) -> RecordInfo:
         """Keeps a record from elsewhere; `Refused` says what is wrong with it, and where."""
+        if len(await self.imported(project)) >= IMPORTED:
+            raise Refused(f"nothing was imported: the project has {IMPORTED} records already, delete one of them first")
         record = await asyncio.to_thread(_read, text)
         return await asyncio.to_thread(self._store.add_record, project, title=record.title[:255], text=text, by=by)
 

@@ -1,9 +1,11 @@
-"""How a route reaches the workbench."""
+"""What routes share: how they reach the workbench, and a file that is the body of a request."""
 
 from typing import Annotated
 
 from fastapi import Depends, Request, WebSocket
 
+from scanbench.plcmodel.document import SIZE_LIMIT
+from scanbench.session.refused import Refused
 from scanbench.session.workbench import Workbench
 
 
@@ -21,3 +23,16 @@ def _socket_bench(socket: WebSocket) -> Workbench:
 
 Bench = Annotated[Workbench, Depends(_bench)]
 SocketBench = Annotated[Workbench, Depends(_socket_bench)]
+
+
+async def xml_body(request: Request) -> str:
+    """The file that is the body; one that is too large is not read to its end."""
+    body = bytearray()
+    async for chunk in request.stream():
+        body += chunk
+        if len(body) > SIZE_LIMIT:
+            raise Refused(f"nothing was imported: the file is larger than {SIZE_LIMIT >> 20} MiB")
+    try:
+        return body.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise Refused(f"nothing was imported: byte {error.start} is not UTF-8: save the file as UTF-8") from error

@@ -1,6 +1,8 @@
 """REST: error histories by version, test records out and in."""
 
+import asyncio
 import re
+from collections.abc import Callable
 from typing import Literal
 from urllib.parse import quote
 
@@ -11,13 +13,11 @@ from scanbench.faults.record import Language, TestRecord
 from scanbench.faults.record_csv import to_csv
 from scanbench.faults.record_html import to_html
 from scanbench.faults.record_xml import to_xml
-from scanbench.plcmodel.document import SIZE_LIMIT
-from scanbench.session.refused import Refused
 from scanbench.web import messages_records as wire
 from scanbench.web import translate, translate_records
 from scanbench.web.auth import user_of
-from scanbench.web.messages_base import Id, Version
-from scanbench.web.reach import Bench
+from scanbench.web.messages_base import Id, Version, Wire
+from scanbench.web.reach import Bench, xml_body
 
 router = APIRouter(prefix="/api", tags=["records"])
 Format = Literal["csv", "xml", "html", "json"]
@@ -46,10 +46,10 @@ async def on_history(bench: Bench, instance: Id, version: Version | None = None)
 async def on_record(
     bench: Bench, request: Request, instance: Id, version: Version | None = None, format: Format = "json",
     lang: Language = "en",
-) -> Response | wire.TestRecord:  # fmt: skip
+) -> Response:  # fmt: skip
     """The test record of a version, or of the one that runs: as a file, or as JSON."""
     record = await bench.records.of_instance(bench.session(instance), version, user_of(request).name, lang)
-    return _as(format, record, lang)
+    return await asyncio.to_thread(_written, format, record, lang, lambda: translate_records.record(record))
 
 
 @router.get("/projects/{project}/records")
@@ -61,27 +61,21 @@ async def on_records(bench: Bench, project: Id) -> list[wire.RecordInfo]:
 @router.post("/projects/{project}/records", status_code=201)
 async def on_import(bench: Bench, request: Request, project: Id) -> wire.RecordInfo:
     """Keeps a test record from elsewhere; the body is its XML."""
-    body = bytearray()
-    async for chunk in request.stream():
-        body += chunk
-        if len(body) > SIZE_LIMIT:
-            raise Refused(f"the file is larger than {SIZE_LIMIT >> 20} MiB, no test record is")
-    try:
-        text = body.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise Refused(f"byte {error.start} is not UTF-8: this is no test record") from error
+    text = await xml_body(request)
     return translate_records.info(await bench.records.bring_in(project, text, user_of(request).name))
 
 
 @router.get("/projects/{project}/records/{record}", response_model=wire.ImportedRecord)
 async def on_imported(
     bench: Bench, project: Id, record: Id, format: Format = "json", lang: Language = "en"
-) -> Response | wire.ImportedRecord:
+) -> Response:
     """A test record that was brought in: as a file, or as JSON."""
     info, found = await bench.records.one(project, record)
-    if format != "json":
-        return _file(format, found, lang)
-    return wire.ImportedRecord(info=translate_records.info(info), record=translate_records.record(found))
+
+    def told() -> wire.ImportedRecord:
+        return wire.ImportedRecord(info=translate_records.info(info), record=translate_records.record(found))
+
+    return await asyncio.to_thread(_written, format, found, lang, told)
 
 
 @router.delete("/projects/{project}/records/{record}", status_code=204)
@@ -90,12 +84,10 @@ async def on_delete(bench: Bench, project: Id, record: Id) -> None:
     await bench.records.delete(project, record)
 
 
-def _as(format: Format, record: TestRecord, language: Language) -> Response | wire.TestRecord:
-    return translate_records.record(record) if format == "json" else _file(format, record, language)
-
-
-def _file(format: Format, record: TestRecord, language: Language) -> Response:
-    """CSV and XML are saved; HTML is shown, and can do nothing but look good."""
+def _written(format: Format, record: TestRecord, language: Language, told: Callable[[], Wire]) -> Response:
+    """CSV and XML are saved; HTML is shown, and can do nothing but look good. It takes a while: to be called in a thread."""
+    if format == "json":
+        return Response(told().model_dump_json(), media_type="application/json")
     if format == "html":
         return Response(to_html(record, language), media_type=_TYPES[format], headers=_STYLE_ONLY)
     text = to_csv(record) if format == "csv" else to_xml(record)

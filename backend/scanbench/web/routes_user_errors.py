@@ -7,14 +7,12 @@ from fastapi import APIRouter, Request, Response
 
 from scanbench.plcmodel import drafts as plc
 from scanbench.plcmodel.check_drafts import DraftProblem
-from scanbench.plcmodel.document import SIZE_LIMIT
 from scanbench.session import user_errors
-from scanbench.session.refused import Refused
 from scanbench.web import messages as shared
 from scanbench.web import messages_user_errors as wire
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id, Version
-from scanbench.web.reach import Bench
+from scanbench.web.reach import Bench, xml_body
 
 router = APIRouter(prefix="/api/projects/{project}/user-errors", tags=["user errors"])
 
@@ -46,16 +44,7 @@ async def on_import_user_errors(
     bench: Bench, request: Request, project: Id, version: Version, how: wire.ImportHow = "replace"
 ) -> wire.UserErrors:
     """Takes the errors of a file, which is the body, in place of the project's own or in addition to them."""
-    body = bytearray()
-    async for chunk in request.stream():
-        body += chunk
-        if len(body) > SIZE_LIMIT:
-            raise Refused(f"nothing was imported: the file is larger than {SIZE_LIMIT >> 20} MiB")
-    try:
-        text = body.decode("utf-8-sig")
-    except UnicodeDecodeError as error:
-        raise Refused(f"nothing was imported: byte {error.start} is not UTF-8: save the file as UTF-8") from error
-    author = user_of(request).name
+    text, author = await xml_body(request), user_of(request).name
     return _shown(await user_errors.bring_in(bench.projects, project, text, version, how == "add", author))
 
 

@@ -15,6 +15,7 @@ import {
   restoreLayout,
   showFixedPanel,
   standardLayout,
+  widePages,
 } from "./layout";
 
 export interface DockHandle {
@@ -47,6 +48,7 @@ export function Dock({ ref }: { ref: Ref<DockHandle> }) {
       const path = panel && fileOf(panel.id);
       if (path) useDocuments.setState({ active: path });
     });
+    widePages(dock);
     dock.onDidRemovePanel((panel) => {
       const path = fileOf(panel.id);
       // Moving a panel removes and adds it; only what is really gone is closed.

@@ -2,6 +2,7 @@ import type { IDockviewHeaderActionsProps } from "dockview-react";
 import { useEffect, useState } from "react";
 import { t } from "../logic/text";
 import { pageOf } from "../store/navigate";
+import { Icon } from "../ui/Icon";
 import { IconButton } from "../ui/IconButton";
 
 /** At the end of the tabs that a page is among: the whole dock for them, or the other panels back. */
@@ -14,12 +15,20 @@ export function PageEnd({ containerApi, panels, group }: IDockviewHeaderActionsP
   if (!wide && !panels.some((panel) => pageOf(panel.id))) return null;
   return (
     <span className="pageend">
-      <IconButton
-        icon={wide ? "layout" : "fit"}
-        label={t(wide ? "sweep.narrow" : "sweep.widen")}
-        small
-        onClick={() => (wide ? containerApi.exitMaximizedGroup() : group.api.maximize())}
-      />
+      {wide ? (
+        <button
+          type="button"
+          className="btn quiet sm"
+          aria-label={t("sweep.narrow")}
+          title={t("sweep.narrow")}
+          onClick={() => containerApi.exitMaximizedGroup()}
+        >
+          <Icon name="layout" small />
+          {t("sweep.narrow.word")}
+        </button>
+      ) : (
+        <IconButton icon="fit" label={t("sweep.widen")} small onClick={() => group.api.maximize()} />
+      )}
     </span>
   );
 }

@@ -67,6 +67,22 @@ export function openPagePanel(dock: DockviewApi, name: PageName): void {
   if (!panel.api.isMaximized()) panel.api.maximize();
 }
 
+/** A page has the whole dock only while it is in front; whoever comes back to it finds it as wide as it was. */
+export function widePages(dock: DockviewApi): void {
+  const wide = new Set<string>();
+  dock.onDidMaximizedGroupChange(() => {
+    const page = dock.activePanel;
+    if (!page || !pageOf(page.id)) return;
+    if (page.api.isMaximized()) wide.add(page.id);
+    else wide.delete(page.id);
+  });
+  dock.onDidActivePanelChange(({ panel }) => {
+    if (!panel || panel.api.isMaximized() === wide.has(panel.id)) return;
+    if (wide.has(panel.id)) panel.api.maximize();
+    else if (dock.hasMaximizedGroup()) dock.exitMaximizedGroup();
+  });
+}
+
 /** Shows a fixed panel; one that is hidden behind a page with the whole dock comes back into sight. */
 export function showFixedPanel(dock: DockviewApi, name: string): void {
   const panel = dock.getPanel(name);

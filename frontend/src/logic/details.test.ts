@@ -3,6 +3,7 @@ import type { ErrorDetail, ErrorInfo } from "../wire/types";
 import {
   defaultEntries,
   type Entry,
+  entriesIn,
   inWords,
   kindred,
   needsDetails,
@@ -34,6 +35,19 @@ const error = (id: string, ...details: ErrorDetail[]) => ({ id, details }) as un
 const hex = (text: string): Entry => ({ text, format: "hex" });
 const decimal = (text: string): Entry => ({ text, format: "decimal" });
 const edit = detail({ name: "address", control: "Edit", kind: "Word", base: 16, maximum: 0x3ff });
+
+describe("the details of an error that is present", () => {
+  it("are read from its history; what is not said there stands at its default", () => {
+    const io = error("io", detail({}), { ...edit, name: "slot" }, list("rom", "ram"));
+    expect(entriesIn(io, "rack=2, slot=1F")).toEqual({ rack: decimal("2"), slot: hex("1F"), part: decimal("rom") });
+  });
+
+  it("keep a comma that belongs to a text", () => {
+    const text = detail({ name: "words", control: "Edit", base: 0, maximum: 20 });
+    const found = entriesIn(error("own", text, detail({})), "words=a=1, b, rack=3");
+    expect(found).toEqual({ words: { text: "a=1, b", format: "text" }, rack: decimal("3") });
+  });
+});
 
 describe("defaults", () => {
   it("are the catalogue's, else the first choice or the least number", () => {

@@ -17,6 +17,7 @@ const line = (id: string, more: Partial<HistoryLine> = {}): HistoryLine => ({
   origin: null,
   count: 0,
   reaction: null,
+  swept: null,
   ...more,
 });
 

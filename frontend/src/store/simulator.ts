@@ -1,7 +1,7 @@
 /** What is chosen in the error simulator, what is typed there, and its commands. */
 import { create } from "zustand";
 import { type ErrorStatus, type ReactionFilter, toggleAll } from "../logic/catalogue";
-import { defaultEntries, type Entries, entriesIn, type Entry, needsDetails, wireDetails } from "../logic/details";
+import { defaultEntries, type Entries, type Entry, entriesIn, needsDetails, wireDetails } from "../logic/details";
 import { withName } from "../logic/expression";
 import { isPlain, plainShape, readShape, type ShapeForm } from "../logic/shapes";
 import { send } from "../wire/send";
@@ -35,6 +35,8 @@ interface Simulator {
   /** The dialog for several errors is open, with these. */
   asking: readonly string[] | null;
   outcome: Outcome | null;
+  /** What the outcome says became of which errors; null when it was a refusal. */
+  told: { ids: readonly string[]; status: ErrorStatus } | null;
 }
 
 const nothing: Simulator = {
@@ -49,6 +51,7 @@ const nothing: Simulator = {
   shape: plainShape,
   asking: null,
   outcome: null,
+  told: null,
 };
 
 export const useSimulator = create<Simulator>(() => nothing);
@@ -164,8 +167,9 @@ export async function changeDetails(errors: readonly ErrorInfo[], outcome: Outco
 /** Recovers those of the chosen errors that are generated; `everything` recovers all there are. */
 export async function recover(everything: boolean): Promise<void> {
   const { errors } = usePlc.getState();
-  const ids = everything ? null : targets(get()).filter((id) => errors.get(id)?.status === "generated");
-  await report(send({ type: "recover", ids }));
+  const present = [...errors.values()].filter((row) => row.status === "generated").map((row) => row.id);
+  const ids = everything ? present : targets(get()).filter((id) => present.includes(id));
+  if (await report(send({ type: "recover", ids: everything ? null : ids }))) set({ told: { ids, status: "cleared" } });
 }
 
 /** Takes faults back; null is all of them. */
@@ -181,12 +185,23 @@ export async function clearFatal(): Promise<boolean> {
 }
 
 async function report(answer: ReturnType<typeof send>, errors: readonly ErrorInfo[] = []): Promise<boolean> {
-  set({ outcome: null });
+  set({ outcome: null, told: null });
   const { ok, message, near } = await answer;
   const ids = errors.map((error) => error.id);
   const raised = usePlc.getState().errors;
   const present = ok ? [] : (near ?? []).filter((id) => ids.includes(id) && raised.get(id)?.status === "generated");
   const others = ok ? [] : (near ?? []).filter((name) => !present.includes(name));
-  set({ outcome: { ok, message, ids, present, near: others } });
+  set({ outcome: { ok, message, ids, present, near: others }, told: ok ? { ids, status: "generated" } : null });
   return ok;
 }
+
+// What was done is said as long as it is so: somebody else may have raised or recovered it since.
+usePlc.subscribe((now, before) => {
+  const { told } = get();
+  if (!told || now.errors === before.errors) return;
+  const undone = told.ids.some((id) => {
+    const status = now.errors.get(id)?.status;
+    return status !== before.errors.get(id)?.status && status !== told.status;
+  });
+  if (undone) set({ outcome: null, told: null });
+});

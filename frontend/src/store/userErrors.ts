@@ -22,6 +22,8 @@ interface State extends UserErrorsDraft {
   conflict: FileText | null;
   /** Saved here and not built since. */
   unbuilt: boolean;
+  /** The fields of a new error that nobody has filled in yet: nothing is wrong with them until it is to be saved. */
+  untouched: readonly string[];
 }
 
 const nothing: Omit<State, "project"> = {
@@ -35,6 +37,7 @@ const nothing: Omit<State, "project"> = {
   trouble: null,
   conflict: null,
   unbuilt: false,
+  untouched: [],
 };
 
 export const useUserErrors = create<State>(() => ({ project: null, ...nothing }));
@@ -104,9 +107,18 @@ function change(draft: Partial<UserErrorsDraft>, selected = get().selected): voi
   scheduleCheck();
 }
 
-export const selectUserError = (selected: number) => set({ selected });
+export const selectUserError = (selected: number) => set({ selected, untouched: [] });
+
+/** What there is to complain about. */
+export const complaints = ({ problems, untouched }: Pick<State, "problems" | "untouched">): readonly UserProblem[] =>
+  problems.filter(({ path }) => !untouched.includes(path));
 
 export function edit(index: number, changed: Partial<UserError>): void {
+  const touched = Object.keys(changed).map((field) => `errors.${index}.${field}`);
+  const rest = get().untouched.filter(
+    (path) => !touched.some((field) => path === field || path.startsWith(`${field}.`)),
+  );
+  set({ untouched: rest });
   change({ errors: get().errors.map((error, at) => (at === index ? { ...error, ...changed } : error)) });
 }
 
@@ -128,17 +140,20 @@ export function rename(index: number, name: string): void {
 export function addError(): void {
   const { errors } = get();
   change({ errors: [...errors, newError(errors, useBench.getState().model)] }, errors.length);
+  set({ untouched: ["id", "code", "flag", "texts.0.name"].map((field) => `errors.${errors.length}.${field}`) });
 }
 
 export function duplicateError(index: number): void {
   const { errors } = get();
   const error = errors[index];
   if (!error) return;
+  set({ untouched: [] });
   const copy = duplicate(error, errors, useBench.getState().model);
   change({ errors: errors.toSpliced(index + 1, 0, copy) }, index + 1);
 }
 
 export function deleteError(index: number): void {
+  set({ untouched: [] });
   const errors = get().errors.toSpliced(index, 1);
   change({ errors }, errors.length === 0 ? null : Math.min(index, errors.length - 1));
 }
@@ -181,6 +196,7 @@ export async function saveUserErrors(): Promise<void> {
   const { project, errors, groups, version } = get();
   if (project === null) return;
   clearTimeout(timer);
+  set({ untouched: [] });
   await storing(project, () => rest.saveUserErrors(project, { errors, groups, version }));
 }
 

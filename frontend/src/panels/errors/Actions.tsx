@@ -24,7 +24,9 @@ export function Actions({ refusedInTree }: { refusedInTree: boolean }) {
   const raised = chosen.filter(({ id }) => history.get(id)?.status === "generated").length;
   const any = [...history.values()].some((row) => row.status === "generated");
   const asks = asksFirst(state, errors);
-  const unready = !asks && (!shape.ready || chosen.some((error) => troubles(error, entriesOf(state, error, history.get(error.id))).size > 0));
+  const unready =
+    !asks &&
+    (!shape.ready || chosen.some((error) => troubles(error, entriesOf(state, error, history.get(error.id))).size > 0));
   return (
     <>
       {!refusedInTree && <Refusal />}

@@ -53,8 +53,7 @@ export function DetailsDialog({ errors }: { errors: readonly ErrorInfo[] }) {
   }
 
   function spread(from: ErrorInfo, entries = entriesNow(from)): void {
-    for (const other of kindred(from, errors))
-      setEntries(other, takenOver(from, entries, other, entriesNow(other)));
+    for (const other of kindred(from, errors)) setEntries(other, takenOver(from, entries, other, entriesNow(other)));
   }
 
   function toggleSame(): void {

@@ -34,7 +34,7 @@ export function ErrorsPanel() {
 function Simulator({ model }: { model: ModelInfo }) {
   // Not the details and the shape: they change with each letter that is typed.
   const { filter, status, severity, reaction, closed, checked, selected, outcome, asking } = useSimulator(
-    useShallow(({ details, shape, ...rest }) => rest),
+    useShallow(({ details, shape, told, ...rest }) => rest),
   );
   const { groups, errors, byId } = useCatalogue();
   const history = usePlc((plc) => plc.errors);

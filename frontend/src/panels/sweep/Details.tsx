@@ -1,5 +1,5 @@
 import { useEffect, useState } from "react";
-import { isFinding } from "../../logic/catalogue";
+import { inNames, isFinding } from "../../logic/catalogue";
 import { grouped } from "../../logic/numbers";
 import { isOpen, NOW } from "../../logic/sweep";
 import { t } from "../../logic/text";
@@ -49,8 +49,9 @@ export function Details({ sweep, error, state, cell }: Props) {
 function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell: SweepCell }) {
   const [reaction, refused] = useReaction(sweep.id, cell);
   const codeWord = useBench((bench) => bench.model?.code_word ?? "");
-  const flag = useCatalogueOf(sweep.model).byId.get(error.id)?.flag ?? "";
-  if (cell.verdict === null) return <p className="muted">{cell.note || t("sweep.none.about")}</p>;
+  const { byId, errors } = useCatalogueOf(sweep.model);
+  const flag = byId.get(error.id)?.flag ?? "";
+  if (cell.verdict === null) return <p className="muted">{inNames(errors, cell.note) || t("sweep.none.about")}</p>;
   return (
     <>
       <p className="muted">{sentence(cell, cell.verdict, sweep.window)}</p>

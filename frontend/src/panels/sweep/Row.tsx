@@ -1,6 +1,6 @@
 import { memo } from "react";
 import { isFinding } from "../../logic/catalogue";
-import { type ErrorRow, isCell, type MatrixRow, type Slot } from "../../logic/sweep";
+import { type ErrorRow, isCell, isPresent, type MatrixRow, type Slot } from "../../logic/sweep";
 import { t } from "../../logic/text";
 import { Icon, type IconName } from "../../ui/Icon";
 import { VERDICT_ICONS } from "../../ui/statuses";
@@ -31,6 +31,7 @@ export const Row = memo(function Row({ sweep, row, index, top, states, column, o
     );
   }
   const { error, slots, line } = row;
+  const select = () => onSelect({ error: error.id, state: states[column ?? 0] ?? "" });
   return (
     <div
       className="gr"
@@ -39,10 +40,10 @@ export const Row = memo(function Row({ sweep, row, index, top, states, column, o
       data-error={error.id}
       style={{ transform: `translateY(${top}px)` }}
     >
-      <span role="rowheader" className="swname cut" title={error.name}>
+      <span role="rowheader" className="swname cut" title={error.name} onClick={select}>
         {error.name}
       </span>
-      <span role="gridcell" className="swcode mono muted">
+      <span role="gridcell" className="swcode mono muted" onClick={select}>
         {error.code}
       </span>
       {line ? (
@@ -51,7 +52,7 @@ export const Row = memo(function Row({ sweep, row, index, top, states, column, o
           look={lookOfLine(row)}
           selected={column !== null}
           span={states.length}
-          onSelect={() => onSelect({ error: error.id, state: states[column ?? 0] ?? "" })}
+          onSelect={select}
         />
       ) : (
         slots.map((slot, at) => (
@@ -77,7 +78,10 @@ function sameRow(before: Props, after: Props): boolean {
   )
     return false;
   const [one, other] = [before.row, after.row];
-  if (one.kind === "group" || other.kind === "group") return one.kind === other.kind;
+  if (one.kind === "group" || other.kind === "group")
+    return one.kind === "group" && other.kind === "group" && one.name === other.name;
+  // The names follow when the catalogue comes.
+  if (one.error.name !== other.error.name) return false;
   return one.slots.length === other.slots.length && one.slots.every((slot, at) => slot === other.slots[at]);
 }
 
@@ -125,7 +129,7 @@ function lookOf(slot: Slot): Look {
       title: t(`sweep.${slot}`),
     };
   const { verdict, note } = slot;
-  if (verdict === null) return { icon: "never", tone: "dim", word: t("sweep.none"), title: note };
+  if (verdict === null) return { icon: "never", tone: "dim", word: notRaised(note), title: note };
   if (isFinding(verdict) && slot.accepted)
     return { icon: "check", tone: "acc", word: t(`verdict.${verdict}`), title: t("sweep.acceptedby", slot.accepted) };
   return { icon: VERDICT_ICONS[verdict], tone: verdict, word: wordOf(slot), ...(note ? { title: note } : {}) };
@@ -137,16 +141,25 @@ function wordOf({ verdict, first_effect: effect }: SweepCell): string {
   return verdict === null ? "" : t(`verdict.${verdict}`);
 }
 
+/** Why an error could not be raised: where there is room for it, in the server's words. */
+function notRaised(note: string, words = ""): string {
+  return isPresent(note) ? t("sweep.present") : words || t("sweep.none");
+}
+
+function stoppedIn(states: number): string {
+  if (states === 1) return t("sweep.line.stopped.one");
+  return states === 2 ? t("sweep.line.stopped.both") : t("sweep.line.stopped", { count: states });
+}
+
 function lookOfLine({ line, slots }: ErrorRow): Look {
-  const many = slots.length > 1;
   if (line?.what === "stopped")
     return {
       icon: "stopped",
       tone: "stopped",
-      word: many ? t("sweep.line.stopped", { count: slots.length }) : t("sweep.line.stopped.one"),
+      word: stoppedIn(slots.length),
     };
   if (line?.what === "note")
-    return { icon: "never", tone: "dim", word: line.note || t("sweep.none"), title: line.note };
+    return { icon: "never", tone: "dim", word: notRaised(line.note, line.note), title: line.note };
   return line?.what === "waiting"
     ? { icon: "wait", tone: "dim", word: t("sweep.waiting") }
     : { icon: "never", tone: "dim", word: t("sweep.missing") };

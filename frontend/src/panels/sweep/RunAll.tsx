@@ -23,6 +23,7 @@ export function RunAll() {
   const instance = useBench((bench) => bench.instance);
   const ticked = useSimulator((simulator) => simulator.checked);
   const scan = usePlc((plc) => plc.state?.past?.live_scan ?? plc.state?.scan ?? 0);
+  const present = usePlc((plc) => [...plc.errors.values()].filter(({ status }) => status === "generated").length);
   const states = useSweeps((sweeps) => sweeps.states);
   const [which, setWhich] = useState<Which>(ticked.size > 1 ? "ticked" : "all");
   const [from, setFrom] = useState<"now" | "states">(states.length > 0 ? "states" : "now");
@@ -105,6 +106,9 @@ export function RunAll() {
           {t("sweep.run.now", { name: instance?.name ?? "" })}{" "}
           <span className="faint">{t("sweep.run.scan", { scan: grouped(scan) })}</span>
         </Radio>
+        {from === "now" && present > 0 && (
+          <p className="hint">{t(present === 1 ? "sweep.run.present.one" : "sweep.run.present", { count: present })}</p>
+        )}
         <Radio name="from" on={from === "states"} disabled={states.length === 0} onChoose={() => setFrom("states")}>
           {t("sweep.run.kept")} <span className="faint">{states.length === 0 ? t("sweep.run.kept.none") : ""}</span>
         </Radio>

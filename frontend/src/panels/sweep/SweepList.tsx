@@ -127,7 +127,7 @@ function Line({ sweep, onMenu }: { sweep: SweepSummary; onMenu: (at: { x: number
           <span key={verdict} className={`st ${verdict}`} title={t(`sweep.count.${verdict}`)}>
             <Icon name={VERDICT_ICONS[verdict]} small />
             {sweep.counts[verdict] ?? 0}
-            <span className="sr"> {t(`sweep.count.${verdict}`)}</span>
+            <span className="word"> {t(`verdict.${verdict}`)}</span>
           </span>
         ))}
         <span className="faint cut">{t("sweep.runs", { done, total })}</span>

@@ -5,6 +5,7 @@ import { useBench } from "../../store/bench";
 import { build } from "../../store/documents";
 import {
   addError,
+  complaints,
   discard,
   exportUserErrors,
   isEdited,
@@ -52,9 +53,9 @@ export function UserErrorsPage() {
         <NoErrors />
       ) : (
         <div className="uesplit">
-          <ErrorList errors={errors} problems={problems} selected={selected} />
+          <ErrorList errors={errors} problems={complaints(state)} selected={selected} />
           {shown && selected !== null ? (
-            <ErrorForm key={selected} index={selected} error={shown} problems={problems} />
+            <ErrorForm key={selected} index={selected} error={shown} problems={complaints(state)} />
           ) : (
             <p className="lonely faint">{t("usererrors.select")}</p>
           )}
