@@ -206,7 +206,7 @@ test('faults with a shape: for some scans, again and again, when a condition hol
     await simulator.refusal.getByRole('button', { name: 'start', exact: true }).click();
     await simulator.generateButton.click();
     await expect(simulator.armed).toContainText('Waiting');
-    await expect(simulator.error(BASIC)).toContainText('Never');
+    await expect(simulator.error(BASIC)).toContainText('Armed');
   });
 
   await test.step('it begins when the condition holds', async () => {
