@@ -22,9 +22,11 @@ from scanbench.faults.reference import find_error
 from scanbench.faults.sweep import Cell, sweep
 from scanbench.faults.sweep_page import sweep_page
 from scanbench.faults.sweep_report import (
+    NO_SWEEP,
     SweepResult,
     compare_text,
     count,
+    is_sweep,
     outcomes_in,
     sweep_json,
     sweep_junit,
@@ -253,9 +255,15 @@ def compare_sweeps(
 
 def _read_outcomes(path: Path) -> list[Outcome]:
     try:
-        return outcomes_in(json.loads(path.read_text("utf-8")))
+        told = json.loads(path.read_text("utf-8"))
     except OSError as error:
         usage(f"{path} cannot be read: {error.strerror}")
+    except (ValueError, RecursionError):
+        usage(f"{path} {NO_SWEEP}")
+    if not is_sweep(told):
+        usage(f"{path} {NO_SWEEP}")
+    try:
+        return outcomes_in(told)
     except ValueError as error:
         usage(f"{path}: {error}")
 

@@ -1,7 +1,7 @@
 """Programs from files and folders, models by name; every complaint says what to do and exits with 2."""
 
 import json
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 from typing import NoReturn
@@ -31,6 +31,12 @@ def usage(message: str) -> NoReturn:
     """Prints what is wrong with the call, and ends with exit code 2."""
     typer.echo(f"scanbench: {message}", err=True)
     raise typer.Exit(2)
+
+
+def with_near(message: str, near: Sequence[str]) -> str:
+    """A sentence with one full stop, and behind it what was perhaps meant, unless it says so itself."""
+    ended = message if message.endswith((".", "?", "!")) else f"{message}."
+    return ended if not near or "id you mean" in message else f"{ended} Near: {', '.join(near)}."
 
 
 def read_sources(paths: list[Path]) -> Sources:

@@ -12,10 +12,12 @@ battery-error + io-bus-error:rack=1 gap 3@10        one 3 scans behind the other
 import re
 from dataclasses import replace
 
+from scanbench.check.condition import BadCondition, compile_condition
 from scanbench.check.program import Program
-from scanbench.cli.inputs import usage
+from scanbench.cli.inputs import usage, with_near
 from scanbench.faults.arm import Arm
 from scanbench.faults.inject import Generate
+from scanbench.faults.lines import find_line
 from scanbench.faults.reference import ErrorRef, parse_reference
 from scanbench.faults.shapes import Shape, Start, Wanted
 from scanbench.runtime.command import Command, Refusal
@@ -37,7 +39,21 @@ def read_raise(program: Program, author: str, text: str) -> tuple[int, Command]:
         return scan, Generate(author, errors)
     numbers, chatter = _numbers(text, words)
     wanted = Wanted(errors, _start(when), _shape(text, numbers, chatter, unless), numbers.get("gap", 0))
+    _must_mean_something(program, text, wanted)
     return scan, Arm(author, wanted)
+
+
+def _must_mean_something(program: Program, text: str, wanted: Wanted) -> None:
+    """Before anything runs: the program is there already, and names and lines can be looked up in it."""
+    start = wanted.start
+    for condition in filter(None, (start.condition, wanted.shape.acknowledge)):
+        bad = compile_condition(program, condition)
+        if isinstance(bad, BadCondition):
+            usage(f"--raise {text}: `{condition}`: {with_near(bad.message, bad.near)}")
+    if start.kind == "line":
+        found = find_line(program, start.file, start.line)
+        if isinstance(found, Refusal):
+            usage(f"--raise {text}: {found.message}")
 
 
 def _at(text: str) -> tuple[str, int]:

@@ -8,7 +8,7 @@ import typer
 
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
-from scanbench.cli.inputs import below, find_model, problem_json, read_sources, usage
+from scanbench.cli.inputs import below, find_model, problem_json, read_sources, usage, with_near
 from scanbench.cli.record import check_whole, recorded
 from scanbench.cli.run_options import Options, find_symbol, read_commands, read_condition, read_interval
 from scanbench.cli.run_report import Result, nothing_ran, report_json, report_text, values
@@ -116,8 +116,8 @@ def run(
 
 def _end(result: Result, until: str | None) -> None:
     for refused in result.refused:
-        near = f" Near: {', '.join(refused.refusal.near)}." if refused.refusal.near else ""
-        typer.echo(f"scanbench: refused before scan {refused.scan}: {refused.refusal.message}.{near}", err=True)
+        why = with_near(refused.refusal.message, refused.refusal.near)
+        typer.echo(f"scanbench: refused before scan {refused.scan}: {why}", err=True)
     trap = result.resource.trap
     if trap is not None:
         typer.echo(

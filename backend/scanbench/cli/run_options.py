@@ -7,7 +7,7 @@ from typing import get_args
 from scanbench.check.condition import Condition, compile_condition
 from scanbench.check.program import Program
 from scanbench.check.symbols import Symbol, UnknownPath, resolve
-from scanbench.cli.inputs import usage
+from scanbench.cli.inputs import usage, with_near
 from scanbench.cli.raising import read_raise
 from scanbench.faults.inject import Recover
 from scanbench.faults.reference import parse_reference
@@ -76,8 +76,7 @@ def read_condition(program: Program, text: str) -> Condition:
     """The condition of --until."""
     condition = compile_condition(program, text)
     if not isinstance(condition, Condition):
-        near = f" Near: {', '.join(condition.near)}." if condition.near else ""
-        usage(f"--until {text}: {condition.message}{near}")
+        usage(f"--until {text}: {with_near(condition.message, condition.near)}")
     return condition
 
 
@@ -106,5 +105,4 @@ def find_symbol(program: Program, path: str) -> Symbol:
     try:
         return resolve(program, path)
     except UnknownPath as error:
-        near = f" Near: {', '.join(error.near)}." if error.near else ""
-        usage(f"{error.message}{near}")
+        usage(with_near(error.message, error.near))

@@ -7,11 +7,11 @@ from typing import Literal
 
 from scanbench.faults.history import ErrorRow, Status
 from scanbench.faults.inject import Origin
-from scanbench.faults.reaction import Reaction, Verdict
-from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, Wording, path_text
+from scanbench.faults.reaction import FINDINGS, Reaction, Verdict
+from scanbench.faults.record_text import Language, RecordLine, details_in_words, in_names, worded
+from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_text
 from scanbench.plcmodel.model import Model
 
-Language = Literal["en", "ja"]
 SweepStatus = Literal["running", "done", "cancelled", "interrupted", "failed"]
 WORST_FIRST: tuple[Verdict, ...] = ("never_read", "no_effect", "stopped", "reacted")
 
@@ -67,6 +67,12 @@ class RecordError:
     reaction_note: str = ""
     """Why there is none, although it was raised."""
     accepted: tuple[RecordAccepted, ...] = ()
+    details_text: str = ""
+    """The details in the words of the catalogue."""
+
+    def accepted_in(self, state: str) -> RecordAccepted | None:
+        """Who accepted last that nothing comes of it in this state."""
+        return next((one for one in reversed(self.accepted) if one.state == state), None)
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,23 +102,24 @@ class RecordSweep:
 
 
 @dataclass(frozen=True, slots=True)
-class RecordLine:
-    """A line of the log about errors."""
-
-    at: datetime
-    scan: int
-    by: str
-    text: str
-
-
-@dataclass(frozen=True, slots=True)
 class Finding:
-    """What is known of one error at the end: from the PLC itself, else from sweeps (the worst of the newest one)."""
+    """What is known of one error at the end: from the PLC itself, else from sweeps (the worst of all states)."""
 
     verdict: Verdict | None
     scans: int | None
     where: Literal["plc", "sweep", ""]
     """Empty: it was not tested, or nothing is known of what the program did."""
+
+
+@dataclass(frozen=True, slots=True)
+class Missed:
+    """An error that the program misses in one state: open until somebody accepts that, for this state."""
+
+    error: RecordError
+    state: str
+    """Empty: raised on the PLC itself, wherever that was."""
+    verdict: Verdict
+    accepted: RecordAccepted | None
 
 
 @dataclass(frozen=True, slots=True)
@@ -128,6 +135,9 @@ class Summary:
     unknown: int
     """Tested, but without a verdict."""
     accepted: int
+    """Findings, one for each error and state, that were accepted."""
+    open: int
+    """And those that were not."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -140,24 +150,42 @@ class TestRecord:
     sweeps: tuple[RecordSweep, ...] = ()
     """The newest first."""
     log: tuple[RecordLine, ...] = ()
-    _swept: dict[str, list[RecordCell]] = field(default_factory=dict, init=False, repr=False, compare=False)
+    _swept: dict[str, dict[str, RecordCell]] = field(default_factory=dict, init=False, repr=False, compare=False)
+    """The newest cell with a verdict, by error and state: a sweep of one state does not hide what is open in another."""
 
     def __post_init__(self) -> None:
         for sweep in reversed(self.sweeps):
-            cells: dict[str, list[RecordCell]] = {}
             for cell in sweep.cells:
-                cells.setdefault(cell.error, []).append(cell)
-            self._swept.update(cells)
+                if cell.verdict is not None:
+                    self._swept.setdefault(cell.error, {})[cell.state] = cell
 
     def finding(self, error: RecordError) -> Finding:
         """What is known of an error."""
         if error.reaction is not None:
             return Finding(error.reaction.verdict, error.reaction.first_effect, "plc")
-        cells = [cell for cell in self._swept.get(error.id, ()) if cell.verdict is not None]
+        cells = self._swept.get(error.id, {}).values()
         if not cells:
             return Finding(None, None, "")
         worst = min(cells, key=lambda cell: WORST_FIRST.index(cell.verdict) if cell.verdict else 0)
         return Finding(worst.verdict, worst.scans, "sweep")
+
+    @property
+    def missed(self) -> list[Missed]:
+        """What the program misses, by error and state; in the order of the catalogue, what is open first."""
+        found = [each for error in self.errors for each in self._missed(error)]
+        return sorted(found, key=lambda each: (each.accepted is not None, each.error.severity != "fatal"))
+
+    def _missed(self, error: RecordError) -> list[Missed]:
+        found = [
+            Missed(error, cell.state, cell.verdict, error.accepted_in(cell.state))
+            for cell in self._swept.get(error.id, {}).values()
+            if cell.verdict in FINDINGS
+        ]
+        # What was seen on the PLC itself is said once more only where no state has it: who accepts does so for a state.
+        seen = None if error.reaction is None else error.reaction.verdict
+        if seen in FINDINGS and all(each.verdict != seen for each in found):
+            found.append(Missed(error, "", seen, None))
+        return found
 
     def tested(self, error: RecordError) -> bool:
         """Whether it was raised at all."""
@@ -168,13 +196,15 @@ class TestRecord:
         """The record in numbers."""
         tested = [error for error in self.errors if self.tested(error)]
         found = [self.finding(error).verdict for error in tested]
+        accepted = [each.accepted is not None for each in self.missed]
         return Summary(
             errors=len(self.errors),
             tested=len(tested),
             generated=sum(error.status == "generated" for error in self.errors),
             verdicts={verdict: found.count(verdict) for verdict in WORST_FIRST},
             unknown=found.count(None),
-            accepted=sum(bool(error.accepted) for error in self.errors),
+            accepted=accepted.count(True),
+            open=accepted.count(False),
         )
 
     @property
@@ -199,7 +229,9 @@ def make_record(
     ]
     known = {error.id for error in kept}
     ours = [replace(each, cells=tuple(cell for cell in each.cells if cell.error in known)) for each in sweeps]
-    return TestRecord(head, tuple(kept), tuple(ours), tuple(log))
+    errors = {error.id: error for error in model.errors()}
+    lines = (replace(line, text=in_names(errors, line.text, language)) for line in log)
+    return TestRecord(head, tuple(kept), tuple(ours), tuple(lines))
 
 
 def _error(
@@ -216,12 +248,8 @@ def _error(
         recovered_scan=row.recovered_scan, by=row.by or "", origin=row.origin, count=row.count,
         reaction=None if reaction is None or reaction.found is None else _outputs_only(reaction.found),
         reaction_note="" if reaction is None else reaction.message, accepted=accepted,
+        details_text=details_in_words(error, row.details, language),
     )  # fmt: skip
-
-
-def worded(name: str, wordings: Iterable[Wording], language: Language) -> str:
-    """A name in a language, or as the model has it."""
-    return next((each.name for each in wordings if each.language == language and each.name), name)
 
 
 def _outputs_only(reaction: Reaction) -> Reaction:

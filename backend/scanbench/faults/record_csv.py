@@ -2,6 +2,7 @@
 
 import csv
 import io
+from collections.abc import Iterable
 from datetime import datetime
 
 from scanbench.faults.reaction import Reaction
@@ -11,7 +12,7 @@ from scanbench.runtime.clock import iso
 COLUMNS = (
     "group", "id", "error", "code", "flag", "severity", "status", "generated", "generated scan", "recovered",
     "recovered scan", "details", "by", "origin", "count", "verdict", "verdict from", "scans until the first effect",
-    "readers", "outputs that differ", "variables that differ", "accepted", "note",
+    "readers", "outputs that differ", "variables that differ", "accepted", "open in", "note",
 )  # fmt: skip
 _BOM = "\ufeff"  # a spreadsheet takes the file for Latin-1 without it
 
@@ -21,22 +22,27 @@ def to_csv(record: TestRecord) -> str:
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\r\n")
     writer.writerow(COLUMNS)
+    open_in: dict[str, list[str]] = {}
+    for missed in record.missed:
+        if missed.accepted is None:
+            open_in.setdefault(missed.error.id, []).append(missed.state or "on the PLC itself")
     for error in record.errors:
-        writer.writerow(map(_harmless, _row(record, error)))
+        writer.writerow(map(_harmless, _row(record, error, open_in.get(error.id, ()))))
     return _BOM + text.getvalue()
 
 
-def _row(record: TestRecord, error: RecordError) -> list[str]:
+def _row(record: TestRecord, error: RecordError, open_in: Iterable[str]) -> list[str]:
     finding, reaction = record.finding(error), error.reaction
     return [
         error.group, error.id, error.name, error.code, error.flag, error.severity, error.status,
         _moment(error.generated_at), _number(error.generated_scan), _moment(error.recovered_at),
-        _number(error.recovered_scan), error.details, error.by, error.origin or "", str(error.count),
+        _number(error.recovered_scan), error.details_text or error.details, error.by, error.origin or "", str(error.count),
         finding.verdict or "", finding.where, _number(finding.scans),
         "" if reaction is None else ", ".join(reaction.reader_places),
         "" if reaction is None else _outputs(reaction),
         "" if reaction is None else str(reaction.difference_count),
         "; ".join(f"{one.state}: {one.reason} ({one.by})" for one in error.accepted),
+        ", ".join(open_in),
         error.reaction_note or ("" if reaction is None else reaction.note),
     ]  # fmt: skip
 

@@ -9,12 +9,13 @@ from itertools import groupby
 from scanbench.faults.reaction import FINDINGS, Difference, Reaction, Verdict
 from scanbench.faults.record import (
     WORST_FIRST,
-    Language,
+    Missed,
     RecordCell,
     RecordError,
     RecordSweep,
     TestRecord,
 )
+from scanbench.faults.record_text import FoldedLine, Language, folded
 from scanbench.faults.record_words import WORDS
 
 SHOWN = 8
@@ -68,6 +69,7 @@ class _Document:
             (self._word("untested"), "", told.errors - told.tested), (self._word("generated_now"), "", told.generated),
             *((self._word(verdict), f"verdict {verdict}", told.verdicts[verdict]) for verdict in reversed(WORST_FIRST)),
             (self._word("unknown"), "verdict unknown", told.unknown), (self._word("accepted"), "", told.accepted),
+            (self._word("open"), "", told.open),
         ]  # fmt: skip
         items = "".join(f'<li><b>{count}</b><span class="{mark}">{word}</span></li>' for word, mark, count in numbers)
         meanings = "".join(
@@ -82,23 +84,22 @@ class _Document:
     # ---- findings -------------------------------------------------------------------------------------------------
 
     def _findings(self) -> str:
-        found = [error for error in self._record.errors if self._record.finding(error).verdict in FINDINGS]
-        found.sort(key=lambda error: (bool(error.accepted), error.severity != "fatal"))
+        found = self._record.missed
         if not found:
             tested = self._record.summary.tested
             return f"<h2>{self._word('findings')}</h2>\n<p>{self._word('no_findings' if tested else 'nothing_tested')}</p>\n"
-        rows = [self._finding_row(error) for error in found]
-        heads = ("error", "code", "severity", "verdict", "status", "reason")
+        rows = map(self._finding_row, found)
+        heads = ("error", "code", "severity", "state", "verdict", "status", "reason")
         return f"<h2>{self._word('findings')}</h2>\n{self._whole_table(heads, rows)}"
 
-    def _finding_row(self, error: RecordError) -> str:
-        accepted = "<br>".join(
-            escape(f"{one.reason} ({one.by}, {_moment(one.at)}; {one.state})") for one in error.accepted
-        )
-        word = self._word("finding_accepted" if error.accepted else "finding_open")
+    def _finding_row(self, missed: Missed) -> str:
+        error, one = missed.error, missed.accepted
+        accepted = "" if one is None else escape(f"{one.reason} ({one.by}, {_moment(one.at)})")
+        word = self._word("finding_open" if one is None else "finding_accepted")
         return _row(
             f'<th scope="row">{escape(error.name)}</th>', _mono(error.code), _cell(self._words[error.severity]),
-            f"<td>{self._verdict(self._record.finding(error).verdict)}</td>", f"<td>{word}</td>", f"<td>{accepted}</td>",
+            _cell(missed.state or self._words["on_plc"]), f"<td>{self._verdict(missed.verdict)}</td>",
+            f"<td>{word}</td>", f"<td>{accepted}</td>",
         )  # fmt: skip
 
     def _untested(self) -> str:
@@ -139,7 +140,7 @@ class _Document:
         finding, reaction = self._record.finding(error), error.reaction
         name = f'<th scope="row">{escape(error.name)}'
         if error.details:
-            name += f'<br><span class="mono faint">{escape(error.details)}</span>'
+            name += f'<br><span class="faint">{escape(error.details_text or error.details)}</span>'
         verdict = self._verdict(finding.verdict) if self._record.tested(error) else ""
         if finding.where == "sweep":
             verdict += f'<br><span class="faint">{self._word("in_sweep")}</span>'
@@ -182,7 +183,7 @@ class _Document:
         return [self._sweep(sweep) for sweep in self._record.sweeps]
 
     def _sweep(self, sweep: RecordSweep) -> str:
-        names = {error.id: error.name for error in self._record.errors}
+        errors = {error.id: error for error in self._record.errors}
         cells: dict[str, dict[str, RecordCell]] = {}
         for cell in sweep.cells:
             cells.setdefault(cell.error, {})[cell.state] = cell
@@ -193,29 +194,39 @@ class _Document:
         head += "".join(f'<th scope="col">{escape(state)}</th>' for state in sweep.states)
         rows = [
             _row(
-                f'<th scope="row">{escape(names.get(error, error))}</th>',
-                *(self._found(by.get(state)) for state in sweep.states),
+                f'<th scope="row">{escape(errors[id].name if id in errors else id)}</th>',
+                *(self._found(by.get(state), errors.get(id)) for state in sweep.states),
             )
-            for error, by in cells.items()
+            for id, by in cells.items()
         ]
         return f"<h2>{self._word('sweep')}: {escape(sweep.instance)}</h2>\n<p>{escape(text)}</p>\n{_table(head, rows)}"
 
-    def _found(self, cell: RecordCell | None) -> str:
+    def _found(self, cell: RecordCell | None, error: RecordError | None) -> str:
         if cell is None:
             return "<td></td>"
         if cell.verdict is None:
             return f'<td><span class="verdict unknown">{self._word("not_raised")}</span><br>{escape(cell.note)}</td>'
         scans = "" if cell.scans is None else f' <span class="faint">{cell.scans}</span>'
-        return f"<td>{self._verdict(cell.verdict)}{scans}</td>"
+        missed = error is not None and cell.verdict in FINDINGS and error.accepted_in(cell.state) is not None
+        accepted = f'<br><span class="faint">{self._word("finding_accepted")}</span>' if missed else ""
+        return f"<td>{self._verdict(cell.verdict)}{scans}{accepted}</td>"
 
     def _log(self) -> str:
         if not self._record.log:
             return ""
-        rows = [
-            _row(_mono(_moment(line.at)), _number(line.scan), _cell(line.by), _cell(line.text))
-            for line in self._record.log
-        ]
+        rows = map(self._line, folded(self._record.log))
         return f"<h2>{self._word('log')}</h2>\n{self._whole_table(('time', 'scan', 'by', 'text'), rows)}"
+
+    def _line(self, line: FoldedLine) -> str:
+        first, last, text = line.first, line.last, "; ".join(line.texts)
+        if line.times == 1:
+            return _row(_mono(_moment(first.at)), _number(first.scan), _cell(first.by), _cell(text))
+        times = escape(self._words["times"].format(count=line.times))
+        return _row(
+            f'<td class="mono">{_moment(first.at)}<br>– {_moment(last.at)}</td>',
+            f'<td class="num">{first.scan}<br>– {last.scan}</td>', _cell(first.by),
+            f"<td>{escape(text)} <b>({times})</b></td>",
+        )  # fmt: skip
 
     def _sign(self) -> str:
         boxes = "".join(

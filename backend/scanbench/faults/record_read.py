@@ -17,11 +17,11 @@ from scanbench.faults.record import (
     RecordCell,
     RecordError,
     RecordHead,
-    RecordLine,
     RecordSweep,
     SweepStatus,
     TestRecord,
 )
+from scanbench.faults.record_text import RecordLine
 from scanbench.plcmodel.document import Document, first_of, parse
 from scanbench.plcmodel.model import Severity
 from scanbench.problems import Problem
@@ -103,6 +103,7 @@ def _error(node: etree._Element) -> RecordError:
             )
             for one in node.findall("Accepted")
         ),
+        details_text=_text(node, "DetailsText"),
     )  # fmt: skip
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from scanbench.faults.record import Language
+from scanbench.faults.record_text import Language
 
 WORDS: Mapping[Language, Mapping[str, str]] = {
     "en": {
@@ -10,7 +10,8 @@ WORDS: Mapping[Language, Mapping[str, str]] = {
         "project": "Project", "model": "PLC model", "instance": "Virtual PLC", "version": "Program version",
         "hash": "Program (SHA-256)", "exported": "Written", "by": "By", "tool": "With",
         "summary": "Summary", "errors": "Errors in the catalogue", "tested": "Tested", "untested": "Not tested",
-        "generated_now": "Still generated", "unknown": "Tested, no verdict", "accepted": "Findings accepted",
+        "generated_now": "Still generated", "unknown": "Tested, no verdict", "accepted": "Findings accepted", "open": "Findings open",
+        "on_plc": "on the PLC itself", "times": "{count} times",
         "findings": "Findings", "no_findings": "None: the program reacted to every error that was tested and can be handled.",
         "nothing_tested": "None: no error was tested.",
         "finding_open": "open", "finding_accepted": "accepted",
@@ -41,7 +42,8 @@ WORDS: Mapping[Language, Mapping[str, str]] = {
         "project": "プロジェクト", "model": "PLC機種", "instance": "仮想PLC", "version": "プログラム版数",
         "hash": "プログラム（SHA-256）", "exported": "作成日時", "by": "作成者", "tool": "作成ソフトウェア",
         "summary": "集計", "errors": "カタログの異常数", "tested": "試験済み", "untested": "未試験",
-        "generated_now": "発生中", "unknown": "試験済み（判定なし）", "accepted": "承認された指摘",
+        "generated_now": "発生中", "unknown": "試験済み（判定なし）", "accepted": "承認された指摘", "open": "未処置の指摘",
+        "on_plc": "PLC上で発生", "times": "{count}回",
         "findings": "指摘事項", "no_findings": "なし：試験した異常のうち処理可能なものすべてにプログラムが反応しました。",
         "nothing_tested": "なし：試験した異常がありません。",
         "finding_open": "未処置", "finding_accepted": "承認済み",

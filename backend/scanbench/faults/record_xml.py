@@ -1,10 +1,11 @@
 """A test record as XML (`record.xsd`), for archives and other tools; `record_read.py` reads it again."""
 
+from collections.abc import Set
 from datetime import UTC, datetime
 
 from lxml import etree
 
-from scanbench.faults.reaction import Reaction
+from scanbench.faults.reaction import FINDINGS, Reaction
 from scanbench.faults.record import RecordError, RecordSweep, TestRecord
 from scanbench.plcmodel.document import xml_text
 
@@ -23,8 +24,9 @@ def to_xml(record: TestRecord) -> str:
     )  # fmt: skip
     for error in record.errors:
         _error(root, error)
+    accepted = {(each.error.id, each.state) for each in record.missed if each.accepted is not None}
     for sweep in record.sweeps:
-        _sweep(root, sweep)
+        _sweep(root, sweep, accepted)
     for line in record.log:
         _add(root, "Line", At=line.at, Scan=line.scan, By=line.by, Text=line.text)
     etree.indent(root)
@@ -34,7 +36,8 @@ def to_xml(record: TestRecord) -> str:
 def _error(root: etree._Element, error: RecordError) -> None:
     node = _add(
         root, "Error", Id=error.id, Name=error.name, Group=error.group, Code=error.code, Flag=error.flag,
-        Severity=error.severity, Status=error.status, Details=error.details or None, GeneratedAt=error.generated_at,
+        Severity=error.severity, Status=error.status, Details=error.details or None,
+        DetailsText=error.details_text or None, GeneratedAt=error.generated_at,
         RecoveredAt=error.recovered_at, GeneratedScan=error.generated_scan, RecoveredScan=error.recovered_scan,
         By=error.by or None, Origin=error.origin, Count=error.count or None,
         ReactionNote=error.reaction_note or None,
@@ -60,16 +63,17 @@ def _reaction(error: etree._Element, reaction: Reaction) -> None:
         _add(node, "Handler", File=line.file, Line=line.line)
 
 
-def _sweep(root: etree._Element, sweep: RecordSweep) -> None:
+def _sweep(root: etree._Element, sweep: RecordSweep, accepted: Set[tuple[str, str]]) -> None:
     node = _add(
         root, "Sweep", At=sweep.at, By=sweep.by, Instance=sweep.instance, Status=sweep.status, Window=sweep.window
     )  # fmt: skip
     for state in sweep.states:
         _add(node, "State", Name=state)
     for cell in sweep.cells:
+        missed = cell.verdict in FINDINGS and (cell.error, cell.state) in accepted
         _add(
             node, "Cell", Error=cell.error, State=cell.state, Verdict=cell.verdict, Scans=cell.scans,
-            Note=cell.note or None,
+            Note=cell.note or None, Accepted="true" if missed else None,
         )  # fmt: skip
 
 

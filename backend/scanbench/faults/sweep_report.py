@@ -18,6 +18,7 @@ WORDS: Mapping[Verdict | None, str] = {
     verdict: record_words.WORDS["en"][verdict or "not_raised"] for verdict in (*get_args(Verdict), None)
 }
 FORMAT = 1
+NO_SWEEP = "is not a sweep's JSON (made with errors sweep --json)"
 _SHOWN = 3
 
 
@@ -160,10 +161,15 @@ def _cell_json(entry: ErrorEntry, cell: Cell) -> dict[str, object]:
     return about
 
 
+def is_sweep(told: object) -> bool:
+    """Whether this is meant to be what `sweep_json` wrote."""
+    return isinstance(told, dict) and isinstance(told.get("results"), list)
+
+
 def outcomes_in(told: object) -> list[Outcome]:
     """What `sweep_json` wrote; ValueError says what is missing or wrong."""
-    if not isinstance(told, dict) or not isinstance(told.get("results"), list):
-        raise ValueError("this is no sweep: write one with `scanbench errors sweep PROJECT --json`")
+    if not isinstance(told, dict) or not is_sweep(told):
+        raise ValueError(f"this {NO_SWEEP}")
     if told.get("format") != FORMAT:
         raise ValueError(f"a sweep of format {told.get('format')!r}; this scanbench reads format {FORMAT}")
     return [_outcome_in(number, each) for number, each in enumerate(told["results"])]

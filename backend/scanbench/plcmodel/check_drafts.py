@@ -82,7 +82,11 @@ def _lacks(error: DraftError) -> Iterator[tuple[str, str]]:
 
 def _says_missing(problem: Problem, path: str, known: set[str]) -> bool:
     """Whether the schema says once more that there is no name."""
-    return problem.code == "M002" and "( Name" in problem.message and f"{path}.texts.0.name" in known
+    return (
+        problem.code == "M002"
+        and (problem.message.endswith("here can stand <Name>") or "lacks <Name>" in problem.message)
+        and f"{path}.texts.0.name" in known
+    )
 
 
 def _field(path: str, problem: Problem) -> tuple[str, Problem]:

@@ -12,6 +12,7 @@ from typing import cast
 
 from lxml import etree
 
+from scanbench.plcmodel.schema_words import in_words
 from scanbench.problems import Problem, Span
 
 SCHEMA = "model.xsd"
@@ -154,7 +155,7 @@ def _violations(document: Document, entries: Iterable[etree._LogEntry]) -> Itera
         found = document.root.xpath(entry.path) if entry.path else []
         node = found[0] if isinstance(found, list) and found else None
         element = node if isinstance(node, etree._Element) else document.root
-        yield Problem("M002", entry.message, document.span(element, attribute))
+        yield Problem("M002", in_words(entry.message), document.span(element, attribute))
 
 
 def _violations_by_line(file: str, text: str, schema: etree.XMLSchema) -> Iterator[Problem]:
@@ -168,7 +169,7 @@ def _violations_by_line(file: str, text: str, schema: etree.XMLSchema) -> Iterat
             log = parser.feed_error_log
             new, seen = list(cast("Iterable[etree._LogEntry]", log))[seen:], len(log)
             for entry in new:
-                yield Problem("M002", entry.message, Span(file, number, 1, number, 2))
+                yield Problem("M002", in_words(entry.message), Span(file, number, 1, number, 2))
 
 
 def _doctype(text: str) -> int | None:

@@ -6,7 +6,7 @@ from scanbench.check.layout import Layout
 from scanbench.runtime.command import Command, Patch, Plan, Refusal, Swapped, View
 from scanbench.runtime.forces import FORCED, hold, table_patches
 from scanbench.runtime.header import Mode
-from scanbench.runtime.programs import Loaded
+from scanbench.runtime.programs import Loaded, NoProgram
 from scanbench.runtime.rights import Right, may
 from scanbench.runtime.swap import swapped
 
@@ -44,8 +44,8 @@ class ProgramChange(Command):
             return Refusal(f"program version {self.version} runs already")
         try:
             loaded = view.programs.get(self.version)
-        except LookupError as error:
-            return Refusal(str(error.args[0]) if error.args else f"there is no program version {self.version}")
+        except NoProgram as error:
+            return Refusal(str(error))
         if loaded.program.layout.model.name != view.model.name:
             return Refusal(
                 f"program version {self.version} is for a {loaded.program.layout.model.name}, this PLC is a "

@@ -170,8 +170,8 @@ class Timeline:
             return Refusal(f"there is a program version {version} in {self.recording.path.name} already")
         try:
             program = self._kept.inner.get(version).program
-        except LookupError as error:
-            return Refusal(str(error.args[0]))
+        except NoProgram as error:
+            return Refusal(str(error))
         try:
             self.recording.program(version, sources, program_digest(program))
         except OSError:
@@ -302,7 +302,7 @@ class Timeline:
             resource.measured = Measured()
             entered = len(resource.journal)
             replay(resource, journal[entered : bisect_right(journal, scan, key=attrgetter("scan"))], scan)
-        except (Diverged, *NOT_AS_RECORDED, LookupError, RunFileError, OSError) as error:
+        except (Diverged, *NOT_AS_RECORDED, NoProgram, RunFileError, OSError) as error:
             return Refusal(f"scan {scan} cannot be shown: {error}")
         return None
 
@@ -347,8 +347,8 @@ def open_at(
     """A resource that stands at a checkpoint of a run file; `RunFileError` when its programs are not what they were."""
     try:
         loaded = programs.get(checkpoint.version)
-    except LookupError as error:
-        raise RunFileError(str(error.args[0])) from error
+    except NoProgram as error:
+        raise RunFileError(str(error)) from error
     model = loaded.program.layout.model
     if model_fingerprint(model) != recording.about.model_fingerprint:
         raise RunFileError(

@@ -128,7 +128,9 @@ def _unexpected(error: Exception) -> str:
     log.exception("a job failed")
     if isinstance(error, MemoryError):
         return "it takes more memory than there is"
-    return f"it failed, which is a fault of Scanbench ({type(error).__name__}: {error}): the log of the server says more"
+    return (
+        f"it failed, which is a fault of Scanbench ({type(error).__name__}: {error}): the log of the server says more"
+    )
 
 
 def main() -> int:

@@ -8,16 +8,15 @@ from typing import cast
 from scanbench.faults.history import ErrorRow
 from scanbench.faults.reaction import Verdict
 from scanbench.faults.record import (
-    Language,
     RecordAccepted,
     RecordCell,
     RecordHead,
-    RecordLine,
     RecordSweep,
     TestRecord,
     make_record,
 )
 from scanbench.faults.record_read import from_xml
+from scanbench.faults.record_text import Language, RecordLine
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import device_of, model_for
 from scanbench.runtime.clock import wall_time

@@ -2,7 +2,7 @@
 
 import asyncio
 import logging
-from collections.abc import Awaitable, Callable, Iterator, Mapping, Sequence
+from collections.abc import Awaitable, Callable, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import partial
@@ -12,10 +12,11 @@ from typing import get_args
 from scanbench.faults.compare import Outcome, SweepChange, compare
 from scanbench.faults.history import Swept, worst
 from scanbench.faults.inject import Generate
-from scanbench.faults.reaction import Reaction, Verdict
+from scanbench.faults.reaction import FINDINGS, Reaction, Verdict
 from scanbench.faults.reaction_json import from_json, to_json
 from scanbench.faults.reference import ErrorRef, find_error
-from scanbench.plcmodel.model import ErrorEntry, ErrorGroup, Model
+from scanbench.plcmodel.catalogue import path_text
+from scanbench.plcmodel.model import Model
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Refusal
 from scanbench.session.events import SweepChanged
@@ -31,7 +32,6 @@ from scanbench.store.store import Store
 log = logging.getLogger("scanbench")
 STOPPED_SERVER = "the server was stopped"
 _TOLD_EVERY_NS = 250_000_000
-_FINDINGS = ("never_read", "no_effect")
 _VERDICTS: dict[str, Verdict] = {verdict: verdict for verdict in get_args(Verdict)}
 
 OpenState = Callable[[int, Path, str, str], Awaitable[Session]]
@@ -234,7 +234,7 @@ class Sweeps:
         """Accepts a finding of this project, for later sweeps too."""
         whole = await self.whole(id)
         cell = next((each for each in whole.cells if (each.error, each.state) == (error, state)), None)
-        if cell is None or cell.verdict not in _FINDINGS:
+        if cell is None or cell.verdict not in FINDINGS:
             raise Refused(f"{error} from {state} is no finding of this sweep: there is nothing to accept")
         made = await asyncio.to_thread(
             lambda: self._store.accept(whole.row.project, error=error, state=state, reason=reason.strip(), by=author)
@@ -365,22 +365,13 @@ def _swept(model: Model, wanted: Sequence[str] | None) -> tuple[SweptError, ...]
         if isinstance(known, Refusal):
             raise Refused(known.message, known.near)
     found = [
-        SweptError(error.id, error.name, error.code_text, error.severity, group)
-        for group, error in _grouped(model.catalogue, "")
+        SweptError(error.id, error.name, error.code_text, error.severity, path_text(group.name for group in groups))
+        for groups, error in model.errors_with_groups()
         if wanted is None or error.id in wanted
     ]
     if not found:
         raise Refused("no error is chosen: there is nothing to sweep")
     return tuple(found)
-
-
-def _grouped(groups: Sequence[ErrorGroup], parent: str) -> Iterator[tuple[str, ErrorEntry]]:
-    """Each error with the path of its group."""
-    for group in groups:
-        name = f"{parent} / {group.name}" if parent else group.name
-        yield from _grouped(group.groups, name)
-        for error in group.errors:
-            yield name, error
 
 
 def _cell(found: CellFound) -> CellRow:

@@ -242,8 +242,10 @@ class PreviewedWrite(Wire):
     address: str = Field(description="in the vendor's notation")
     before: str
     after: str
-    what: Literal["detail", "code", "flag", "log", "other"]
-    error: str = Field(description="which error writes it; empty for the code word and the log")
+    what: Literal["detail", "code", "flag", "log", "time", "outputs", "other"] = Field(
+        description="time: when the latest error came; outputs: switched off by a fatal error"
+    )
+    error: str = Field(description="which error writes it; empty for the code word, the log and the time")
 
 
 class PreviewedErrors(Wire):

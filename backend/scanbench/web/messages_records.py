@@ -62,7 +62,8 @@ class RecordSummary(Wire):
     generated: int = Field(description="still present")
     verdicts: dict[Verdict, int]
     unknown: int = Field(description="tested, without a verdict")
-    accepted: int
+    accepted: int = Field(description="findings, one for each error and state, that were accepted")
+    open: int = Field(description="findings that were not")
 
 
 class RecordCell(Wire):

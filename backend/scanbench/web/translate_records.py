@@ -33,7 +33,7 @@ def record(of: kept.TestRecord) -> wire.TestRecord:
         tool=head.tool,
         summary=wire.RecordSummary(
             errors=summary.errors, tested=summary.tested, generated=summary.generated, verdicts=summary.verdicts,
-            unknown=summary.unknown, accepted=summary.accepted,
+            unknown=summary.unknown, accepted=summary.accepted, open=summary.open,
         ),
         errors=[_error(of, error) for error in of.errors],
         sweeps=list(map(_sweep, of.sweeps)),

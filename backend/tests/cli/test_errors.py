@@ -159,7 +159,9 @@ def test_the_program_of_a_run_that_does_not_compile_any_more(project: Path, monk
     given = states(project, [{"name": "A", "run": "on.scanrun"}])
     result = scanbench("errors", "sweep", str(project), *FEW, "--states", given)
     assert result.returncode == 2
-    assert "state A: of the run's own program: the program cannot be built: main.st:7:6: " in result.stderr, result.stderr
+    assert "state A: of the run's own program: the program cannot be built: main.st:7:6: " in result.stderr, (
+        result.stderr
+    )
 
 
 def test_the_whole_catalogue_of_the_sample() -> None:
@@ -270,7 +272,12 @@ def test_two_sweeps_compared(project: Path) -> None:
     changes = {each["error"]: each["change"] for each in json.loads(worse.stdout)["changes"]}
     assert changes["inner-board-error"] == "worse"
     assert changes["memory-error"] == "same"
-    assert scanbench("errors", "compare", str(before), str(project / "project.json")).returncode == 2
+    page = project / "page.html"
+    page.write_text("<!doctype html>")
+    for other in (page, project / "project.json"):
+        refused = scanbench("errors", "compare", str(before), str(other))
+        assert refused.returncode == 2
+        assert f"{other} is not a sweep's JSON (made with errors sweep --json)\n" in refused.stderr
 
 
 OWN = """<UserErrors>

@@ -43,10 +43,10 @@ def armed(text: str) -> tuple[int, Wanted]:
         ("battery-error every 9", 0, Wanted((BATTERY,), Start(), Shape("intermittent", 1, 9))),
         ("battery-error chatter times 4", 0, Wanted((BATTERY,), Start(), Shape("chatter", times=4))),
         ("battery-error chatter", 0, Wanted((BATTERY,), Start(), Shape("chatter"))),
-        ("battery-error for 9 unless Main.n > 3 AND NOT battery", 0,
-         Wanted((BATTERY,), Start(), Shape("unacknowledged", 9, acknowledge="Main.n > 3 AND NOT battery"))),
+        ("battery-error for 9 unless Main.n > 3 AND NOT Main.battery", 0,
+         Wanted((BATTERY,), Start(), Shape("unacknowledged", 9, acknowledge="Main.n > 3 AND NOT Main.battery"))),
         ("battery-error when Main.n > 3@5", 5, Wanted((BATTERY,), Start("condition", condition="Main.n > 3"))),
-        ("battery-error for 2 when sub/main.st:12", 0, Wanted((BATTERY,), Start("line", file="sub/main.st", line=12), Shape("for", 2))),
+        ("battery-error for 2 when main.st:3", 0, Wanted((BATTERY,), Start("line", file="main.st", line=3), Shape("for", 2))),
         ("battery-error + basic-io-error:rack=1 gap 3@10", 10, Wanted((BATTERY, RACK), gap=3)),
     ],
 )  # fmt: skip
@@ -121,6 +121,13 @@ def test_refused(tmp_path: Path) -> None:
         return ran.output
 
     assert "refused before scan 4: memory-error is fatal" in refused("memory-error for 3@4")
-    assert "the nearest are at" in refused("battery-error when main.st:2")
-    assert "Did you mean `Main`?" in refused("battery-error when Mian.n > 3")
+    for text, says in (
+        ("battery-error when main.st:2", "main.st:2; the nearest are at"),
+        ("battery-error when Main.m > 3", "`Main.m > 3`: `Main` has no member `m`.\n"),
+        ("battery-error for 9 unless Mian.n > 3@5", "Did you mean `Main`?\n"),
+    ):
+        told = refused(text, "--print", "Main.n")
+        assert says in told
+        assert "Main.n = " not in told  # nothing ran
+        assert ".." not in told
     assert "--engine both cannot wait for a line" in refused("battery-error when main.st:3", "--engine", "both")

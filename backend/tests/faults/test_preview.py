@@ -42,7 +42,7 @@ def test_the_example_of_the_format() -> None:
     assert {
         ("A401.15", "0", "1", "flag", "memory-error"), ("A403.05", "0", "1", "detail", "memory-error"),
         ("A400", "0000", "80F4", "code", ""), ("A300", "0000", "0001", "log", ""), ("A100", "0000", "80F4", "log", ""),
-        ("CIO100", "0001", "0000", "other", ""),
+        ("CIO100", "0001", "0000", "outputs", ""),
     } <= told  # fmt: skip
     assert len(told) == len(found.writes)
     assert resource.state == before
@@ -85,9 +85,16 @@ def test_every_error_of_every_model_writes_what_was_told(name: str) -> None:
 
 
 def _shown(resource: Resource, write: PreviewedWrite) -> str:
-    if not write.after:  # a summary of many
-        return ""
-    shown = value(resource, write.address)
+    model, memory = resource.program.layout.model, resource.view.memory
+    if write.what == "code":
+        place = model.code_word
+        assert place is not None
+        assert model.locate(write.address) == place._replace(bits=16)
+        start = resource.program.layout.areas[place.area.name] + place.byte
+        return model.show_code(int.from_bytes(memory[start : start + place.bits // 8], "little"))
+    place = model.locate(write.address)
+    assert place is not None
+    shown = value(resource, model.format(place.area, place.byte, place.bit, 1 if len(write.after) == 1 else 16))
     assert shown is not None
     return str(int(shown)) if len(write.after) == 1 else f"{int(shown) & 0xFFFF:04X}"
 
@@ -98,8 +105,25 @@ def test_how_many_words_are_not_named_is_a_number_and_no_address() -> None:
     writes = "".join(f"w{n} := 1; " for n in range(60))
     resource = at_three(f"PROGRAM Main\nVAR {names}END_VAR\n{writes}\nEND_PROGRAM\n")
     found = preview(resource.view, refs("memory-error:io-table-checksum"), again=False)
-    others = [each for each in found.writes if each.what == "other"]
+    others = [each for each in found.writes if each.what == "outputs"]
     assert all(value(resource, each.address) is not None for each in found.writes)
     assert (len(others), found.more) == (40, 20)
     assert isinstance(resource.submit(Generate("Ada", refs("memory-error:io-table-checksum"))), Entry)
     assert sum(value(resource, f"CIO{word}") == 0 for word in range(100, 160)) == 60
+
+
+def test_words_that_have_a_name_are_told_by_it() -> None:
+    """An NJ has no such addresses: the numbers are the bench's own."""
+    resource = at_three(PLAIN, "NJ501-1300")
+    found = preview(resource.view, (ErrorRef("user-program-transfer-error"),), again=False)
+    told = {(each.address, each.before, each.after, each.what) for each in found.writes}
+    assert ("_PLC_ErrSta.07", "0", "1", "flag") in told
+    assert ("SV20", "00000000", "10200000", "code") in told  # no device has a name for it; one number of two words
+    assert not {each.address for each in found.writes} & {"SV1", "SV1.07", "SV21"}
+
+
+def test_codes_in_the_form_of_the_device_and_the_time_of_the_error() -> None:
+    found = preview(at_three(PLAIN, "Q03UD").view, (ErrorRef("end-not-executed"),), again=False)
+    told = {each.address: each for each in found.writes}
+    assert (told["SD0"].before, told["SD0"].after, told["SD0"].what) == ("0", "1010", "code")
+    assert {told[address].what for address in ("SD1", "SD2")} == {"time"}

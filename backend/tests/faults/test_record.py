@@ -19,7 +19,6 @@ from scanbench.faults.record import (
     RecordCell,
     RecordError,
     RecordHead,
-    RecordLine,
     RecordSweep,
     SweepStatus,
     TestRecord,
@@ -28,8 +27,10 @@ from scanbench.faults.record import (
 from scanbench.faults.record_csv import COLUMNS, to_csv
 from scanbench.faults.record_html import to_html
 from scanbench.faults.record_read import from_xml
+from scanbench.faults.record_text import RecordLine, folded
 from scanbench.faults.record_words import WORDS
 from scanbench.faults.record_xml import to_xml
+from scanbench.plcmodel.document import TOLD
 from tests.runtime.bench import model
 
 NOON = datetime(2026, 11, 21, 12, 0, 0, 123456, tzinfo=UTC)
@@ -91,9 +92,111 @@ def test_the_verdict_is_the_plcs_own_or_the_worst_of_the_newest_sweep() -> None:
     both = replace(record, sweeps=(record.sweeps[0], older))
     assert both.finding(find(both, "fal")).verdict == "never_read"
     told = record.summary
-    assert (told.errors, told.tested, told.generated, told.accepted) == (len(record.errors), 3, 1, 1)
+    assert (told.errors, told.tested, told.generated) == (len(record.errors), 3, 1)
+    assert (told.accepted, told.open) == (1, 0)
     assert told.verdicts == {"never_read": 1, "no_effect": 0, "stopped": 0, "reacted": 1}
     assert told.unknown == 1
+
+
+def missed_in_two_states() -> TestRecord:
+    """Accepted for one of them; the other one, of an older sweep, is open still."""
+    cells = (RecordCell("fal", "Running", "never_read"), RecordCell("battery-error", "Running", "reacted", 3))
+    newest = RecordSweep(NOON, "Ada", "line-1", "done", 200, ("Running",), cells)
+    older = replace(newest, states=("Running", "Stopped"), cells=(
+        RecordCell("fal", "Running", "reacted", 1), RecordCell("fal", "Stopped", "no_effect"),
+    ))  # fmt: skip
+    accepted = [("fal", RecordAccepted("Running", "not on this line", "Eva", NOON))]
+    seen = Reaction("never_read", 200)
+    row = ErrorRow(
+        "basic-io-error", "x", "nonfatal", "cleared", "009A", "rack=2, slot=3", NOON, NOON, 7, 9, "Ada", "simulator", 1,
+        RowReaction("done", seen), 3,
+    )  # fmt: skip
+    return make_record(HEAD, model(), [row], sweeps=[newest, older], accepted=accepted)
+
+
+def test_a_finding_is_open_until_it_is_accepted_in_each_state() -> None:
+    record = missed_in_two_states()
+    found = {(each.error.id, each.state): (each.verdict, each.accepted is not None) for each in record.missed}
+    assert found == {
+        ("basic-io-error", ""): ("never_read", False),
+        ("fal", "Stopped"): ("no_effect", False),
+        ("fal", "Running"): ("never_read", True),
+    }
+    assert record.missed[-1].state == "Running"  # what is open stands first
+    assert (record.summary.open, record.summary.accepted) == (2, 1)
+    again = from_xml(to_xml(record))
+    assert isinstance(again, TestRecord)
+    assert again.missed == record.missed
+
+
+def test_what_is_open_is_so_in_every_form() -> None:
+    record = missed_in_two_states()
+    page = etree.fromstring(to_html(record), etree.HTMLParser())
+    tables = page.findall(".//table")
+    rows = [[" ".join(map(str, cell.itertext())) for cell in row] for row in tables[0].findall("tbody/tr")]
+    name = find(record, "fal").name
+    assert [[row[0], *row[3:6]] for row in rows if row[0] == name] == [
+        [name, "Stopped", "read, no effect", "open"], [name, "Running", "never read", "accepted"],
+    ]  # fmt: skip
+    assert [row[3] for row in rows if row[0] == find(record, "basic-io-error").name] == ["on the PLC itself"]
+    matrix = {row[0].text: "".join(map(str, row[1].itertext())) for row in tables[2].findall("tbody/tr")}
+    assert matrix[name] == "never readaccepted"
+    assert "accepted" not in matrix["Battery error"]
+    head, *lines = list(csv.reader(io.StringIO(to_csv(record).removeprefix("\ufeff"))))
+    by_id = {line[1]: dict(zip(head, line, strict=True)) for line in lines}
+    assert by_id["fal"]["open in"] == "Stopped"
+    assert by_id["basic-io-error"]["open in"] == "on the PLC itself"
+    assert by_id["battery-error"]["open in"] == ""
+    cells = etree.fromstring(to_xml(record).encode()).findall("Sweep/Cell")
+    assert [(cell.get("Error"), cell.get("State"), cell.get("Accepted")) for cell in cells] == [
+        ("fal", "Running", "true"), ("battery-error", "Running", None), ("fal", "Running", None), ("fal", "Stopped", None),
+    ]  # fmt: skip
+
+
+def test_people_read_names_and_details_in_words() -> None:
+    log = [
+        RecordLine(NOON, 7, "Ada", "generated memory-error (location=io-table-checksum), code 80F4; the program is stopped"),
+        RecordLine(NOON, 8, "Ada", "armed 1: battery-error, now, for 20 scans"),
+        RecordLine(NOON, 9, "Ada", "recovered memory-error"),
+    ]  # fmt: skip
+    row = ErrorRow("memory-error", "x", "fatal", "generated", "80F4", "location=io-table-checksum", NOON)
+    record = make_record(HEAD, model(), [row], log=log)
+    choice = model().error("memory-error").detail("location").choice("io-table-checksum")  # type: ignore[union-attr]
+    assert choice is not None
+    texts = [line.text for line in record.log]
+    assert texts == [
+        f"generated Memory error ({choice.description}), code 80F4; the program is stopped",
+        "armed 1: Battery error, now, for 20 scans",
+        "recovered Memory error",
+    ]
+    memory = find(record, "memory-error")
+    assert (memory.details, memory.details_text) == ("location=io-table-checksum", choice.description)
+    for text in (to_html(record), to_csv(record)):
+        assert choice.description in text
+        assert "location=" not in text
+    japanese = make_record(HEAD, model(), [row], log=log, language="ja")
+    words = next(each.description for each in choice.wordings if each.language == "ja")
+    name = find(japanese, "memory-error").name
+    assert find(japanese, "memory-error").details_text == words
+    assert japanese.log[0].text == f"発生：{name} ({words})、コード 80F4（プログラム停止）"
+
+
+def test_rounds_of_a_fault_are_one_line_of_the_log() -> None:
+    def line(scan: int, text: str, by: str = "Ada") -> RecordLine:
+        return RecordLine(NOON + timedelta(seconds=scan), scan, by, text)
+
+    rounds = [line(10 * n + k, text) for n in range(35) for k, text in enumerate(("generated fal", "recovered fal"))]
+    lines = [line(1, "armed 4: fal"), *rounds, line(900, "generated fal"), line(901, "generated fal", "Bob")]
+    told = folded(lines)
+    assert [(each.times, each.first.scan, each.last.scan) for each in told] == [
+        (1, 1, 1), (35, 0, 341), (1, 900, 900), (1, 901, 901),
+    ]  # fmt: skip
+    assert told[1].texts == ("generated fal", "recovered fal")
+    assert [each.times for each in folded(rounds[:4])] == [1, 1, 1, 1]  # twice is not again and again
+    page = etree.fromstring(to_html(replace(made(), log=tuple(lines))), etree.HTMLParser())
+    last = page.findall(".//table")[-1].findall("tbody/tr")
+    assert len(last) == 4
+    assert "generated fal; recovered fal (35 times)" in "".join(map(str, last[1].itertext()))
 
 
 def test_names_in_japanese_where_the_model_has_them() -> None:
@@ -189,7 +292,7 @@ ERRORS = st.builds(
     RecordError, NAME, TEXT, TEXT, TEXT, TEXT, st.sampled_from(["fatal", "nonfatal"]),
     st.sampled_from(["never", "generated", "cleared"]), TEXT, st.none() | AT, st.none() | AT, SCAN, SCAN, TEXT,
     st.sampled_from([None, "simulator", "plc", "program"]), COUNT, st.none() | REACTIONS, TEXT,
-    st.lists(st.builds(RecordAccepted, TEXT, TEXT, TEXT, AT), max_size=2).map(tuple),
+    st.lists(st.builds(RecordAccepted, TEXT, TEXT, TEXT, AT), max_size=2).map(tuple), TEXT,
 )  # fmt: skip
 
 
@@ -248,7 +351,12 @@ def test_json_that_is_no_reaction(change: dict[str, object], says: str) -> None:
         ('Status="cleared"', 'Status="mended"', None, "mended"),
         ('Verdict="reacted" Window', 'Verdict="good" Window', None, "good"),
         ('GeneratedAt="2026-11-21', 'GeneratedAt="2026-02-31', None, "2026-02-31"),
-        ('GeneratedAt="2026-11-21T12:00:00.123456+00:00"', 'GeneratedAt="2026-11-21T12:00:00"', None, "pattern"),
+        (
+            'GeneratedAt="2026-11-21T12:00:00.123456+00:00"',
+            'GeneratedAt="2026-11-21T12:00:00"',
+            None,
+            "write a moment as",
+        ),
         ('ExportedAt="2026-11-21T12:00:00.123456+00:00"', 'ExportedAt="0001-01-01T00:00:00+14:00"', 2, "no moment"),
         ('Cell Error="fal"', 'Cell Error="fail"', None, "there is no Error with the Id 'fail'"),
         ('State="empty" Verdict', 'State="full" Verdict', None, "no State with the Name 'full'"),
@@ -270,6 +378,31 @@ def test_a_broken_record_is_refused_with_its_line(old: str, new: str, line: int 
     wanted = line or text[: text.index(old)].count("\n") + 1
     assert abs(place.line - wanted) <= 1
     assert place.column >= 1
+
+
+@pytest.mark.parametrize(
+    ("old", "new", "says"),
+    [
+        ('At="2026-11-21T12:00:00.123456+00:00', 'At="0001-01-01T00:00:00+14:00', "is no moment"),
+        ('Scan="7"', 'Scan="seven"', "seven"),
+        ('State="S"', 'State="T"', "no State with the Name 'T'"),
+    ],
+)
+def test_of_a_record_that_is_wrong_throughout_the_first_problems_are_told(old: str, new: str, says: str) -> None:
+    """To find the place of each took minutes in a file of megabytes."""
+    errors = tuple(RecordError(f"e{n}", "", "", "", "", "fatal", "never") for n in range(3000))
+    cells = tuple(RecordCell(error.id, "S", None) for error in errors)
+    sweep = RecordSweep(NOON + timedelta(days=1), "Ada", "line-1", "done", 200, ("S",), cells)
+    lines = tuple(RecordLine(NOON, 7, "Ada", "generated") for _ in range(3000))
+    record = TestRecord(replace(HEAD, exported_at=NOON + timedelta(days=1)), errors, (sweep,), lines)
+    text = to_xml(record)
+    assert from_xml(text) == record
+    found = from_xml(text.replace(old, new))
+    assert isinstance(found, list)
+    assert len(found) == TOLD + 1
+    assert says in found[0].message
+    assert text.split("\n")[found[0].span.line - 1].count(old) == 1
+    assert found[-1].message.startswith("there are more problems from here on")
 
 
 def test_what_is_no_record_at_all() -> None:

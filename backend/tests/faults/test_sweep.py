@@ -146,8 +146,8 @@ def test_json_is_read_again_and_names_readers_and_variables() -> None:
 @pytest.mark.parametrize(
     ("told", "why"),
     [
-        ([], "no sweep"),
-        ({"results": 3}, "no sweep"),
+        ([], "is not a sweep's JSON"),
+        ({"results": 3}, "is not a sweep's JSON"),
         ({"results": [], "format": 9}, "format 9"),
         ({"results": [3], "format": 1}, "no object"),
         ({"results": [{"id": "a"}], "format": 1}, "no `id` and `state`"),
@@ -181,14 +181,14 @@ def test_every_cell_of_the_page_leads_to_what_was_found() -> None:
     known = result()
     page = etree.fromstring(sweep_page(known, "2026-01-01"), etree.HTMLParser())
     links = [str(each.get("href")) for each in page.iterfind(".//td/a")]
-    ids = [each.get("id") for each in page.iter(etree.Element) if each.get("id")]
+    ids = [str(each.get("id")) for each in page.iter(etree.Element) if each.get("id")]
     assert links == [f"#{error}/Here" for error in ERRORS[:3]]
     assert sorted(ids) == sorted(link.removeprefix("#") for link in links)
     twice = replace(known, states=(("A B", 1), ("A_B", 2)), cells=tuple(
         replace(cell, point=point) for cell in known.cells for point in ("A B", "A_B")
     ))  # fmt: skip
     page = etree.fromstring(sweep_page(twice, "2026-01-01"), etree.HTMLParser())
-    ids = [each.get("id") for each in page.iter(etree.Element) if each.get("id")]
+    ids = [str(each.get("id")) for each in page.iter(etree.Element) if each.get("id")]
     assert len(set(ids)) == len(ids) == 6
 
 

@@ -121,7 +121,12 @@ def test_who_knows_a_catalogue_does_not_wait_for_who_reads_another(
     other.start()
     assert reads.wait(30)
     answered = threading.Event()
-    asks = threading.Thread(target=lambda: with_user_errors(cj1m, known) == first and answered.set())
+
+    def ask() -> None:
+        if with_user_errors(cj1m, known) == first:
+            answered.set()
+
+    asks = threading.Thread(target=ask)
     asks.start()
     told = answered.wait(30)
     go_on.set()

@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from scanbench.plcmodel.catalogue import path_text
 from scanbench.plcmodel.check_drafts import check_drafts
 from scanbench.plcmodel.document import Document
 from scanbench.plcmodel.drafts import (
@@ -81,18 +82,18 @@ def test_the_same_text_on_another_model_is_another_catalogue(cj1m: Model, models
         ("pair-twice", 8, 38, "M005", "belongs to 'pump-hot'"),
         ("code-short", 5, 37, "M007", "have 4"),
         ("bad-id", 5, 16, "M002", "'Pump Hot'"),
-        ("no-priority", 5, 5, "M002", "'Priority' is required"),
-        ("bad-severity", 5, 72, "M002", "'fatal', 'nonfatal'"),
-        ("no-name", 5, 5, "M002", "Expected is ( Name )"),
+        ("no-priority", 5, 5, "M002", "<Error> has no Priority"),
+        ("bad-severity", 5, 72, "M002", "fatal or nonfatal"),
+        ("no-name", 5, 5, "M002", "<Error> lacks <Name>"),
         ("list-choice-without-id", 9, 11, "M008", "needs an Id"),
         ("spin-without-limits", 9, 11, "M008", "needs Min and Max"),
         ("limits-crossed", 9, 56, "M007", "greater than Max"),
         ("detail-outside", 9, 52, "M003", "the last word is W511"),
         ("default-of-no-choice", 8, 56, "M008", "none of the choices: a"),
         ("too-wide", 9, 64, "M007", "does not fit into 8 bits"),
-        ("unknown-element", 7, 7, "M002", "'Cause'"),
-        ("group-without-name", 4, 5, "M002", "Expected is ( Name )"),
-        ("error-outside-of-a-group", 2, 5, "M002", "Expected is ( ErrorGroup )"),
+        ("unknown-element", 7, 7, "M002", "<Cause> does not belong here"),
+        ("group-without-name", 4, 5, "M002", "here can stand <Name>"),
+        ("error-outside-of-a-group", 2, 5, "M002", "here can stand <ErrorGroup>"),
         ("a-model", 1, 1, "M002", "here belongs <UserErrors>"),
         ("not-closed", 8, 1, "M001", "Premature end of data"),
         ("doctype", 2, 1, "M001", "DOCTYPE"),
@@ -373,3 +374,21 @@ def test_a_problem_is_at_its_field(cj1m: Model, error: DraftError, path: str, me
     (found,) = problems_of(cj1m, first, error)
     assert found[0] == path
     assert message in found[1]
+
+
+def test_errors_stand_in_the_order_of_the_tree_inner_groups_first(cj1m: Model) -> None:
+    """As the browser shows them: sweeps, records and lists of one catalogue have one order."""
+    error = (
+        '<Error Id="{}" ErrorCode="{}" ErrorFlag="W10.00" Severity="nonfatal" Priority="9" Source="x" Verified="no">'
+        "<Name>Pump</Name></Error>"
+    )
+    text = (
+        f"<UserErrors><ErrorGroup><Name>Pumps</Name>{error.format('outer', 'C001')}"
+        f"<ErrorSubGroup><Name>Hot</Name>{error.format('inner', 'C002')}</ErrorSubGroup></ErrorGroup></UserErrors>"
+    )
+    model, problems = with_user_errors(cj1m, text)
+    assert model is not None, problems
+    found = [(path_text(group.name for group in groups), each.id) for groups, each in model.errors_with_groups()]
+    assert found[-2:] == [("User-defined / Pumps / Hot", "inner"), ("User-defined / Pumps", "outer")]
+    assert [id for _, id in found] == [each.id for each in model.errors()]
+    assert [each.id for each in model.catalogue[-1].walk()] == ["inner", "outer"]

@@ -9,7 +9,7 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.program_change import ProgramChange
-from scanbench.runtime.programs import EngineFactory, Loaded
+from scanbench.runtime.programs import EngineFactory, Loaded, NoProgram
 from scanbench.runtime.recording import DEFAULT_LIMIT
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.timeline import Timeline
@@ -39,7 +39,7 @@ class SourcePrograms:
 
     def get(self, version: int) -> Loaded:
         if version not in self.sources:
-            raise LookupError(f"there is no program version {version}")
+            raise NoProgram(f"there is no program version {version}")
         if version not in self._loaded:
             self._loaded[version] = Loaded.make(program(self.sources[version]), self._engine, version)
         return self._loaded[version]

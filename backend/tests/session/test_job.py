@@ -7,7 +7,7 @@ import signal
 import struct
 import subprocess
 import sys
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from pathlib import Path
 
 import pytest
@@ -22,7 +22,7 @@ from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.contents import Codec
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
-from scanbench.runtime.programs import Loaded, Shelf
+from scanbench.runtime.programs import Loaded, NoProgram, Shelf
 from scanbench.runtime.recording import Recording
 from scanbench.runtime.timeline import Timeline
 from scanbench.runtime.write import Write
@@ -239,7 +239,9 @@ def test_only_a_file_that_was_replaced_is_read_again(tmp_path: Path, monkeypatch
     assert len(times) == 1
 
 
-@pytest.mark.parametrize("error", [KeyError(3), IndexError("list index out of range"), ValueError("x"), NotImplementedError()])
+@pytest.mark.parametrize(
+    "error", [KeyError(3), IndexError("list index out of range"), ValueError("x"), NotImplementedError()]
+)
 def test_a_fault_of_our_own_is_logged_and_told_as_one(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, caplog: pytest.LogCaptureFixture, error: Exception
 ) -> None:
@@ -265,6 +267,23 @@ def test_a_fault_of_our_own_is_logged_and_told_as_one(
         assert told.startswith(f"it failed, which is a fault of Scanbench ({type(error).__name__}: ")
     traces = [record.exc_info[1] for record in caplog.records if record.exc_info is not None]
     assert traces == [error, error]
+
+
+def test_why_there_is_no_program_is_told_and_a_fault_in_its_build_is_none_of_these(tmp_path: Path) -> None:
+    timeline, entry = raised(tmp_path / "1.run")
+    timeline.close()
+    asked = (tmp_path / "1.run", "basic-io-error", entry.scan, entry.scan + 20, 200)
+
+    def failing(error: Exception) -> Callable[[Sources], Program]:
+        def build(wanted: Sources) -> Program:
+            raise error
+
+        return build
+
+    with pytest.raises(NoStart, match="is wrong"):
+        reaction_in(*asked, failing(NoProgram("main.st:2 is wrong")), MAKES["native"])
+    with pytest.raises(KeyError):
+        reaction_in(*asked, failing(KeyError(3)), MAKES["native"])
 
 
 def test_a_sweep_over_states(job: Job, tmp_path: Path) -> None:

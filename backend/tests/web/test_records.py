@@ -1,7 +1,16 @@
 """Histories by version and test records, through the whole server."""
 
+import asyncio
+import threading
+from datetime import UTC, datetime
+from typing import cast
+
+import pytest
 from lxml import etree
 
+from scanbench.faults.record import RecordHead, TestRecord
+from scanbench.session.workbench import Workbench
+from scanbench.web import routes_records
 from tests.web.server import Browser, Server
 
 MODEL = "CJ1M-CPU63"
@@ -87,7 +96,7 @@ def test_every_version_has_a_history(server: Server) -> None:
     assert [(each["version"], each["running"], each["raised"]) for each in told] == [(2, True, 1), (1, False, 1)]
     assert all(each["at"] for each in told)
     old = server.http.get(f"/api/instances/{instance}/record", params={"version": 1}).json()
-    assert {line["text"].split(",")[0] for line in old["log"]} == {"generated battery-error", "recovered battery-error"}
+    assert {line["text"].split(",")[0] for line in old["log"]} == {"generated Battery error", "recovered Battery error"}
     refused = server.http.get(f"/api/instances/{instance}/history", params={"version": 7})
     assert refused.status_code == 404
     assert "no error history of version 7; there are 1, 2" in refused.json()["message"]
@@ -100,7 +109,7 @@ def test_what_is_no_record_is_refused_with_its_place(server: Server) -> None:
         (b"<TestRecord\n Version='1'>", "record.xml:"),
         (b"\xff\xfe", "byte 0 is not UTF-8"),
         (b"<Model/>", "here belongs <TestRecord>"),
-        (b" " * 5_000_000, "larger than 4 MiB"),
+        (b" " * 5_000_000, "nothing was imported: the file is larger than 4 MiB"),
     ):
         refused = server.http.post(at, content=body)
         assert refused.status_code == 422
@@ -117,3 +126,26 @@ def test_a_record_of_another_project_is_not_there(server: Server) -> None:
     other = server.project("not theirs", MODEL, main=SOURCE)
     assert server.http.get(f"/api/projects/{other}/records/{id}").status_code == 404
     assert server.http.delete(f"/api/projects/{other}/records/{id}").status_code == 404
+
+
+def test_a_record_is_written_where_nobody_waits_for_it(monkeypatch: pytest.MonkeyPatch) -> None:
+    """The event loop drives every PLC and browser."""
+    threads = []
+
+    def noted(found: TestRecord, language: str) -> str:
+        threads.append(threading.get_ident())
+        return f"{found.head.project} {language}"
+
+    class Known:
+        records: "Known"
+
+        async def one(self, project: int, id: int) -> tuple[None, TestRecord]:
+            return None, record
+
+    head = RecordHead("line", MODEL, "line-1", 1, "", datetime(2026, 11, 21, tzinfo=UTC), "Ada", "Scanbench")
+    record, bench = TestRecord(head, ()), Known()
+    bench.records = bench
+    monkeypatch.setattr(routes_records, "to_html", noted)
+    answer = asyncio.run(routes_records.on_imported(cast(Workbench, bench), 1, 1, "html", "ja"))
+    assert answer.body == b"line ja"
+    assert threading.get_ident() not in threads

@@ -248,9 +248,9 @@ def test_arming_a_fault_leaves_the_window_of_another_error_alone(server: Server)
     instance = server.instance("two windows", MODEL, main=PROGRAM)
     with server.browser(instance) as browser:
         assert browser.ask(type="generate", errors=[{"id": "plc-setup-error"}])["ok"]
-        assert browser.ask(
-            type="arm", errors=[{"id": "battery-error"}], start={"kind": "scan", "scan": 1_000_000_000}
-        )["ok"]
+        assert browser.ask(type="arm", errors=[{"id": "battery-error"}], start={"kind": "scan", "scan": 1_000_000_000})[
+            "ok"
+        ]
         assert reaction_of(browser, "plc-setup-error")["state"] == "done"
         told = server.http.get(f"/api/instances/{instance}/errors/plc-setup-error/reaction").json()
         assert (told["verdict"], told["window"]) == ("never_read", 200)

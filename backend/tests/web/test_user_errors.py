@@ -141,7 +141,10 @@ def test_import_is_whole_or_nothing(server: Server) -> None:
         refused = server.http.post(f"{address}/import?version=0", content=path.read_bytes())
         assert refused.status_code == 422, path
         assert "nothing was imported: line " in refused.json()["message"], path
-    assert "not UTF-8" in server.http.post(f"{address}/import?version=0", content=b"\xff\xfe").json()["message"]
+    for body, says in ((b"<a>\xff\xfe", "byte 3 is not UTF-8"), (b" " * 5_000_000, "the file is larger than 4 MiB")):
+        refused = server.http.post(f"{address}/import?version=0", content=body)
+        assert refused.status_code == 422
+        assert refused.json()["message"].startswith(f"nothing was imported: {says}")
     assert server.http.get(address).json()["version"] == 0
     good = (BROKEN / "GOOD.xml").read_bytes()
     taken = server.http.post(f"{address}/import?version=0", content=good)

@@ -35,7 +35,7 @@ interface Simulator {
   /** The dialog for several errors is open, with these. */
   asking: readonly string[] | null;
   outcome: Outcome | null;
-  /** What the outcome says became of which errors; null when it was a refusal. */
+  /** What the outcome says became of which errors, or why it was refused: they are present. */
   told: { ids: readonly string[]; status: ErrorStatus } | null;
 }
 
@@ -191,7 +191,7 @@ async function report(answer: ReturnType<typeof send>, errors: readonly ErrorInf
   const raised = usePlc.getState().errors;
   const present = ok ? [] : (near ?? []).filter((id) => ids.includes(id) && raised.get(id)?.status === "generated");
   const others = ok ? [] : (near ?? []).filter((name) => !present.includes(name));
-  set({ outcome: { ok, message, ids, present, near: others }, told: ok ? { ids, status: "generated" } : null });
+  set({ outcome: { ok, message, ids, present, near: others }, told: { ids: ok ? ids : present, status: "generated" } });
   return ok;
 }
 

@@ -2234,14 +2234,15 @@ export interface components {
             before: string;
             /**
              * Error
-             * @description which error writes it; empty for the code word and the log
+             * @description which error writes it; empty for the code word, the log and the time
              */
             error: string;
             /**
              * What
+             * @description time: when the latest error came; outputs: switched off by a fatal error
              * @enum {string}
              */
-            what: "detail" | "code" | "flag" | "log" | "other";
+            what: "detail" | "code" | "flag" | "log" | "time" | "outputs" | "other";
         };
         /**
          * PreviewErrors
@@ -2519,7 +2520,10 @@ export interface components {
         };
         /** RecordSummary */
         RecordSummary: {
-            /** Accepted */
+            /**
+             * Accepted
+             * @description findings, one for each error and state, that were accepted
+             */
             accepted: number;
             /** Errors */
             errors: number;
@@ -2528,6 +2532,11 @@ export interface components {
              * @description still present
              */
             generated: number;
+            /**
+             * Open
+             * @description findings that were not
+             */
+            open: number;
             /** Tested */
             tested: number;
             /**

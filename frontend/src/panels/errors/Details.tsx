@@ -74,13 +74,17 @@ export function Details({ error }: { error: ErrorInfo }) {
 /** Nobody raised it here; a sweep did, in a run of its own. */
 function Swept({ reaction }: { reaction: ReactionState }) {
   return (
-    <p className="row">
-      <ReactionWord reaction={reaction} />
-      <span className="muted">{t("reaction.swept")}</span>
-      <button type="button" className="link" onClick={showSweeps}>
-        {t("sweep.tab.list")}
-      </button>
-    </p>
+    <section className="reaction" aria-label={t("reaction.label")}>
+      <p className="row">
+        <ReactionWord reaction={reaction} />
+        <span className="grow muted">
+          {t("reaction.swept")}{" "}
+          <button type="button" className="link" onClick={showSweeps}>
+            {t("sweep.tab.list")}
+          </button>
+        </span>
+      </p>
+    </section>
   );
 }
 

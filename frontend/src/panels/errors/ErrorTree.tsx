@@ -124,9 +124,10 @@ function useRowInSight(grid: { current: HTMLDivElement | null }, selected: strin
     const tree = grid.current;
     if (selected === null || !tree) return;
     // Called at once, and again whenever the details grow.
-    const resized = new ResizeObserver(() =>
-      tree.querySelector(`[data-key="${CSS.escape(selected)}"]`)?.scrollIntoView({ block: "nearest" }),
-    );
+    const resized = new ResizeObserver(() => {
+      for (const row of tree.querySelectorAll(`[data-key="${CSS.escape(selected)}"], .refusalrow`))
+        row.scrollIntoView({ block: "nearest" });
+    });
     resized.observe(tree);
     return () => resized.disconnect();
   }, [grid, selected]);

@@ -138,7 +138,7 @@ export function RefusalRow({ error }: { error: ErrorInfo }) {
   const place = useRef<HTMLDivElement>(null);
   // The tree may be short: what was refused must not stand below its edge.
   // biome-ignore lint/correctness/useExhaustiveDependencies: another refusal is another reason
-  useEffect(() => place.current?.scrollIntoView({ block: "nearest" }), [outcome]);
+  useEffect(() => void place.current?.scrollIntoView({ block: "nearest" }), [outcome]);
   if (!outcome) return null;
   const why = refusalOf(error, outcome.message);
   return (

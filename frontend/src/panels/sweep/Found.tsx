@@ -47,7 +47,9 @@ export function Found({ reaction }: { reaction: Reaction }) {
         {({ file, line, pou, what, scan }) => (
           <>
             <Place file={file} line={line} />
-            <span className="faint cut">{t("sweep.reader", { pou, what: t(`reaction.what.${what}`) })}</span>
+            <span className="faint cut" title={t("sweep.reader", { pou, what: t(`reaction.what.${what}`) })}>
+              {t(`reaction.what.${what}`)}
+            </span>
             <span className="faint end">{t("sweep.inscan", { scan })}</span>
           </>
         )}

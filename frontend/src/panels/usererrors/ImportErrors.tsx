@@ -55,7 +55,7 @@ export function ImportErrors({ onClose }: { onClose: () => void }) {
           {(["add", "replace"] as const).map((each) => (
             <label key={each} className="row">
               <input type="radio" name="how" checked={how === each} onChange={() => setHow(each)} />
-              {t(`usererrors.import.${each}`, { count })}
+              {count === 1 ? t(`usererrors.import.${each}.one`) : t(`usererrors.import.${each}`, { count })}
             </label>
           ))}
         </fieldset>
