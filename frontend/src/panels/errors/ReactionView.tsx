@@ -1,6 +1,8 @@
 import { useState } from "react";
+import { inNames } from "../../logic/catalogue";
 import { nextStep, readersOf, sentenceOf, stretchesOf } from "../../logic/reaction";
 import { t } from "../../logic/text";
+import { useCatalogue } from "../../store/catalogue";
 import { openFile } from "../../store/navigate";
 import { useReaction } from "../../store/reaction";
 import { ReactionWord } from "../../ui/ReactionWord";
@@ -33,9 +35,10 @@ function Facts({ error, reaction }: { error: ErrorInfo; reaction: Reaction }) {
   const next = nextStep(reaction.verdict, error.flag);
   const readers = readersOf(reaction);
   const handlers = stretchesOf(reaction);
+  const { errors } = useCatalogue();
   return (
     <>
-      {reaction.note && <p className="muted">{reaction.note}</p>}
+      {reaction.note && <p className="muted">{inNames(errors, reaction.note)}</p>}
       {next && (
         <p>
           <b>{t("reaction.next")}</b> {next}

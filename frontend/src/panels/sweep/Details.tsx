@@ -55,7 +55,7 @@ function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell:
   return (
     <>
       <p className="muted">{sentence(cell, cell.verdict, sweep.window)}</p>
-      {cell.note && <p className="muted">{cell.note}</p>}
+      {cell.note && <p className="muted">{inNames(errors, cell.note)}</p>}
       {reaction ? (
         <Facts reaction={reaction} raised={cell.raised_scan} flag={flag} codeWord={codeWord} code={error.code} />
       ) : (
