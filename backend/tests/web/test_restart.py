@@ -105,12 +105,12 @@ def test_a_slow_browser_gets_a_snapshot_and_the_others_do_not_wait(server: Serve
         quick.wait(lambda: time.monotonic() > start + 4)  # the slow one reads nothing all this time
         assert quick.frames - frames > 20
         seen: list[tuple[int, int, int]] = []
-        end = time.monotonic() + 20
-        while not (seen and seen[-1][0]):
+        end = time.monotonic() + 60
+        # What was on its way when it stopped reading may be a snapshot too, an old one.
+        while not (seen and seen[-1][0] and seen[-1][2] > first + 300):
             data = slow.recv(end - time.monotonic())
             if isinstance(data, bytes):
                 _, full, _, values, scan, _ = struct.unpack_from("<BBHIQq", data)
                 seen.append((full, values, scan))
         assert seen[-1][1] == count + 1  # with the other's path: a frame is made once for all
-        assert seen[-1][2] > first + 300
         assert len(seen) < 70
