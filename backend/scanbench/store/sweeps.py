@@ -35,14 +35,6 @@ class Sweeps(Connected):
             found = select(ProgramState).where(ProgramState.project_id == project).order_by(ProgramState.name)
             return [rows.state(each) for each in session.scalars(found)]
 
-    def state(self, state: int) -> StateRow:
-        """One kept state."""
-        with self._reading() as session:
-            found = session.get(ProgramState, state)
-            if found is None:
-                raise NotFound(f"there is no state {state}")
-            return rows.state(found)
-
     def create_state(
         self, project: int, name: str, *, instance: str, scan: int, program_version: int, by: str
     ) -> StateRow:
