@@ -24,6 +24,15 @@ class StatementSite:
     """In which POU it stands; the text of one statement has several sites where several POUs are made of it."""
 
 
+@dataclass(frozen=True, slots=True)
+class Outcome:
+    """One way a statement can go: a branch of an IF or CASE (`THEN`, `ELSIF 2`, `ELSE`, `CASE 3`), a loop's `BODY` or that
+    it runs no round at all, `NO ROUND`. `ELSE` also stands for no branch where none is written."""
+
+    site: int
+    name: str
+
+
 class Sites:
     """The sites of one program. The numbers are the same wherever the same program is checked."""
 

@@ -34,6 +34,8 @@ class Reason(StrEnum):
     stands in the image in any case, but that a condition held is not found out later."""
     TRAP = "trap"
     """The program trapped; the scan is not counted, phase 4 did not run."""
+    HALTED = "halted"
+    """A debug engine halted inside of a scan, see `engines.debug`; the scan is not counted."""
 
 
 @dataclass(frozen=True, slots=True)

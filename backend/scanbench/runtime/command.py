@@ -115,12 +115,15 @@ class Command(ABC):
 
 @dataclass(frozen=True, slots=True)
 class Entry:
-    """One line of the journal: applied in the seam before `scan`."""
+    """One line of the journal: applied in the seam before `scan`, or inside of it, where a debugger had halted it."""
 
     scan: int
     at: datetime
     command: Command
     plan: Plan
+    step: int = 0
+    """Applied in front of the statement of this count of the scan (`engines.debug`); 0 is the seam. Such a plan has
+    patches only, and may reach temporaries behind `Layout.state_size`."""
 
 
 @dataclass(frozen=True, slots=True)

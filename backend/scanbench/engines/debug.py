@@ -1,0 +1,96 @@
+"""The contract of the debug flavour: code that can halt in front of any statement, and tells of reads and writes.
+
+A *position* inside of a scan is a count: how many statements with a site (`check.sites`) have begun in the scan, the one in
+front of which it stands included; 0 is the seam in front of the scan. As a run is determined by image and journal, a
+position is reached again by running the scan again from its beginning: so nothing has to be kept of a scan that is halted
+but its beginning, and a step back is a run to a smaller count. The image of a halted scan is whole: all variables stand in
+it, temporaries and parameters in their frames (no register holds any). `Layout.SCAN` is still that of the scan.
+
+Other code pays nothing: this is another flavour, which the owner of the engine puts in place between two scans. It is
+observed code too (`observer`). Statements that come from nobody's text (no site) are passed over, as are the library, the
+system program and the plant: nothing is told of them, but that a library's accesses are told as those of the statement
+that called it.
+"""
+
+from abc import abstractmethod
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from scanbench.check.program import Pou
+from scanbench.check.sites import Sites
+from scanbench.engines.engine import Engine
+from scanbench.engines.observe import Observer
+
+READ, WRITE = 1, 2
+"""Bits of `Listen.bytes`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Frame:
+    """A POU of the user's that runs."""
+
+    pou: Pou
+    instance: int
+    """Byte offset of the instance in the image; 0 in a FUNCTION (a method's instance is what its THIS refers to)."""
+    site: int
+    """The statement that is next (innermost frame) or that calls the next frame."""
+
+
+@dataclass(frozen=True, slots=True)
+class Listen:
+    """What the hook is called for."""
+
+    sites: frozenset[int] = frozenset()
+    """When one of these statements is to begin."""
+    every: bool = False
+    """When any statement is to begin."""
+    count: int = 0
+    """When the statement of this count is to begin; 0: none."""
+    bytes: Mapping[int, int] = field(default_factory=dict)
+    """Byte offset (anywhere in the image) -> READ | WRITE: which accesses of the user's program are told."""
+
+
+NOTHING = Listen()
+
+
+class Hook(Protocol):
+    """Decides where to halt. Called in the thread that runs, in the middle of a scan: it may read and write the image, and
+    call `DebugEngine.listen`, `frames`, `knock`, nothing else. What it raises ends the scan and comes out of `run`."""
+
+    def statement(self, site: int, count: int, depth: int) -> bool:
+        """The statement is to begin, `depth` frames deep (1: a program's body). True halts in front of it."""
+
+    def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
+        """The statement has read, or written, these bytes, of which at least one is listened for. Told after a write,
+        and after or before a read. To halt behind the statement's access: listen to `every` statement, and `knock`."""
+
+
+class DebugEngine(Engine):
+    """`run` ends with `Reason.HALTED` when the hook halts. Then the image stands inside of the scan. To go on, the owner
+    puts back `begin` and runs again, with a hook that lets the scan pass up to where it wants to be."""
+
+    sites: Sites
+    observer: Observer
+
+    @abstractmethod
+    def hook(self, hook: Hook | None) -> None:
+        """Who is called from now on."""
+
+    @abstractmethod
+    def listen(self, listen: Listen) -> None:
+        """What the hook is called for from now on, at once when it is called from the hook."""
+
+    @property
+    @abstractmethod
+    def begin(self) -> bytes:
+        """The whole image as the scan began that is halted, or that ran last."""
+
+    @property
+    @abstractmethod
+    def count(self) -> int:
+        """Statements that have begun in the scan that is halted (the one it stands in front of included) or ran last."""
+
+    @abstractmethod
+    def frames(self) -> tuple[Frame, ...]:
+        """Innermost first, where it halted, or where the hook is called now."""

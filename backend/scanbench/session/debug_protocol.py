@@ -1,0 +1,329 @@
+"""What the parent asks a PLC's host of debugging, and what it hears; goes with `protocol.py`, packed by `codec.py`.
+
+Each request carries a `ref` and is answered by exactly one message with it; a refusal is an `Ack` that is not ok.
+"""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from scanbench.debug.breakpoint import Breakpoint, DataAccess, Verdict
+from scanbench.debug.halt import Halt
+
+# ---- parent to host ------------------------------------------------------------------------------------------------
+
+StepAction = Literal["continue", "pause", "in", "over", "out", "statement", "scan", "to", "back", "reverse", "entry"]
+"""`in`: to the next statement anywhere, into calls. `over`: to the next statement of this frame or one further out. `out`:
+to the next statement of the frame that called. `statement`: as `in`. `scan`: to the first statement of the next scan.
+`to`: to a line. `back`: to the statement before. `reverse`: back to where a breakpoint would have halted last (or the
+first scan that is kept). `entry`: to the first statement of the next scan, from a run that goes on. Behind the last statement of a scan the next scan begins at
+once. Steps from a PLC that runs halt first, at its next statement."""
+
+
+@dataclass(frozen=True, slots=True)
+class SetBreakpoints:
+    """All breakpoints of a group from now on; `file` narrows that to its line breakpoints, `kind` to that kind. Answered
+    with `BreakpointsAre` of these."""
+
+    ref: int
+    group: str
+    kind: str | None
+    file: str | None
+    breakpoints: tuple[Breakpoint, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Step:
+    """Moves a PLC as a debugger does; answered with `Ack` when it is under way (a halt follows in `HostState.halt`), for
+    steps back when it is done."""
+
+    ref: int
+    action: StepAction
+    author: str
+    file: str = ""
+    line: int = 0
+    path: str = ""
+    """`reverse` to the last write of this variable, whatever breakpoints there are."""
+
+
+@dataclass(frozen=True, slots=True)
+class WantStack:
+    """Answered with `Stack`; refused while the PLC is not halted."""
+
+    ref: int
+
+
+@dataclass(frozen=True, slots=True)
+class WantScopes:
+    """The scopes of a frame (index into `Stack`); answered with `Scopes`."""
+
+    ref: int
+    frame: int
+
+
+@dataclass(frozen=True, slots=True)
+class WantVariables:
+    """What stands below an expression that is a place: members, elements; answered with `Variables`.
+
+    `scope` (one of the names in `Scopes`) with an empty expression: the variables of that scope.
+    """
+
+    ref: int
+    frame: int
+    scope: str
+    expression: str
+    start: int = 0
+    count: int = 0
+    """0: all, but no more than 1,000."""
+
+
+@dataclass(frozen=True, slots=True)
+class Evaluate:
+    """An expression of ST in a frame's scope, or of the whole program (`frame` None, also while it runs); answered with
+    `Evaluated`. Calls run on a copy of the image, so nothing is changed; `effects`: an assignment or call that is to change
+    it is entered through the one door."""
+
+    ref: int
+    frame: int | None
+    text: str
+    author: str
+    effects: bool = False
+
+
+@dataclass(frozen=True, slots=True)
+class SetExpression:
+    """Gives a place of a frame's scope (or of the whole program) a value, through the one door; answered with
+    `Evaluated` of what it is then."""
+
+    ref: int
+    frame: int | None
+    target: str
+    value: str
+    author: str
+
+
+@dataclass(frozen=True, slots=True)
+class WantPlaces:
+    """Where breakpoints can be in a file, from line to line; answered with `Places`."""
+
+    ref: int
+    file: str
+    first: int
+    last: int
+
+
+@dataclass(frozen=True, slots=True)
+class WantBinding:
+    """What an in-out is bound to; answered with `Binding`."""
+
+    ref: int
+    path: str
+
+
+@dataclass(frozen=True, slots=True)
+class SetCoverage:
+    """Notes what is reached from now on, or no longer; `reset` forgets what was noted. Answered with `Ack`."""
+
+    ref: int
+    on: bool
+    reset: bool
+    author: str
+
+
+@dataclass(frozen=True, slots=True)
+class WantCoverage:
+    """Answered with `Coverage`."""
+
+    ref: int
+
+
+# ---- host to parent ------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class BreakpointsAre:
+    """Answer to `SetBreakpoints`; with ref None: all there are, whenever they or their counts changed."""
+
+    ref: int | None
+    verdicts: tuple[Verdict, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class LogpointSaid:
+    """A logpoint was reached."""
+
+    breakpoint: int
+    text: str
+    scan: int
+    file: str
+    line: int
+
+
+@dataclass(frozen=True, slots=True)
+class Halted:
+    """The PLC is halted (again), or goes on (None)."""
+
+    halt: Halt | None
+
+
+@dataclass(frozen=True, slots=True)
+class FrameInfo:
+    """One frame of the call stack."""
+
+    index: int
+    name: str
+    """`Main.line.station (Station)`; of a FUNCTION its name."""
+    pou: str
+    instance: str
+    task: str
+    file: str
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+
+
+@dataclass(frozen=True, slots=True)
+class Stack:
+    ref: int
+    frames: tuple[FrameInfo, ...]
+    """Innermost first."""
+
+
+@dataclass(frozen=True, slots=True)
+class ScopeInfo:
+    """Variables of one section: VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR, VAR_TEMP, VAR_EXTERNAL, RESULT, GLOBAL, ..."""
+
+    name: str
+    count: int
+
+
+@dataclass(frozen=True, slots=True)
+class Scopes:
+    ref: int
+    scopes: tuple[ScopeInfo, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class VariableInfo:
+    """One variable, element or result, as text."""
+
+    name: str
+    expression: str
+    """What names it in the scope of its frame, for `Evaluate`, `SetExpression` and `WantVariables`."""
+    value: str
+    type: str
+    path: str
+    """Instance path or address, for watch and data breakpoints; empty for temporaries."""
+    alias: str = ""
+    """Of an in-out or reference: `-> Main.tank[3].level (D120)`."""
+    address: str = ""
+    children: int = 0
+    indexed: bool = False
+    """Its children are elements of an array."""
+    writable: bool = True
+
+
+@dataclass(frozen=True, slots=True)
+class Variables:
+    ref: int
+    variables: tuple[VariableInfo, ...]
+    total: int
+
+
+@dataclass(frozen=True, slots=True)
+class Evaluated:
+    ref: int
+    ok: bool
+    message: str
+    variable: VariableInfo | None
+    near: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class PlaceInfo:
+    """A statement that a breakpoint can stand at."""
+
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+    pou: str
+
+
+@dataclass(frozen=True, slots=True)
+class Places:
+    ref: int
+    places: tuple[PlaceInfo, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class BoundTo:
+    """One call site of an in-out, and what it passes."""
+
+    actual: str
+    """Path of the variable, `Main.tank[3].level`; empty when it is not known yet."""
+    address: str
+    """Vendor notation where it is located; else empty."""
+    file: str
+    line: int
+    column: int
+    call: str
+    """The path of the calling instance, `Main.line`."""
+    scan: int | None
+    """Scan of the last execution; None: never, or not known (no debug flavour ran: see `last`)."""
+    last: bool
+    """It is the one that ran last: what a write goes to."""
+    message: str = ""
+    """Why a write cannot go there: a constant, a read-only area."""
+
+
+@dataclass(frozen=True, slots=True)
+class Binding:
+    """Answer to `WantBinding`."""
+
+    ref: int
+    ok: bool
+    message: str
+    """Why it is bound to nothing: `not called yet`, ..."""
+    convention: Literal["reference", "value"]
+    sites: tuple[BoundTo, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class CoveredSite:
+    """A statement, how it went so far, and the ways it can go."""
+
+    line: int
+    column: int
+    end_line: int
+    end_column: int
+    pou: str
+    reached: bool
+    outcomes: tuple[tuple[str, bool], ...] = ()
+    """Name (`check.sites.Outcome`) and whether it went that way."""
+
+
+@dataclass(frozen=True, slots=True)
+class CoveredFile:
+    file: str
+    sites: tuple[CoveredSite, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class Coverage:
+    """Answer to `WantCoverage`; with ref None while it is on, whenever something more was reached."""
+
+    ref: int | None
+    on: bool
+    since_scan: int
+    scans: int
+    """How many scans were noted."""
+    files: tuple[CoveredFile, ...]
+
+
+DebugRequest = (
+    SetBreakpoints | Step | WantStack | WantScopes | WantVariables | Evaluate | SetExpression | WantPlaces | WantBinding
+    | SetCoverage | WantCoverage
+)  # fmt: skip
+DebugAnswer = Stack | Scopes | Variables | Evaluated | Places | Binding | Coverage | BreakpointsAre
+__all__ = ["DataAccess", "DebugAnswer", "DebugRequest"]
