@@ -20,6 +20,7 @@ from scanbench.check.symbols import RAW_TYPES, UnknownPath, resolve
 from scanbench.check.types import (
     BOOL,
     ArrayType,
+    Elementary,
     Enumeration,
     Kind,
     Member,
@@ -60,6 +61,16 @@ class Condition:
 
 
 @dataclass(frozen=True, slots=True)
+class Signal:
+    """Something with a value: an instance path, an address, `Main.a + Main.b`. As a `Condition` otherwise, but that a trap
+    inside leaves it without a value."""
+
+    text: str
+    expr: Expr
+    type: Elementary
+
+
+@dataclass(frozen=True, slots=True)
 class BadCondition:
     """Why a text is no condition: one sentence for people, and names that were perhaps meant."""
 
@@ -81,6 +92,23 @@ def compile_condition(program: Program, text: str) -> Condition | BadCondition:
     report = Report()
     try:
         return Condition(text, _ConditionChecker(program, report).condition(node))
+    except Rejected:
+        problem = report.problems[0]
+        return _bad(problem, _near(program, text, problem) if problem.code == "T001" else ())
+
+
+def compile_signal(program: Program, text: str) -> Signal | BadCondition:
+    """The value that the text says about this program: a number, a BOOL, a time; or what is wrong with it."""
+    if not text.strip():
+        return BadCondition("There is no signal. Name a variable, e.g. `Main.count`.")
+    if len(text) > MAX_LENGTH:
+        return BadCondition(f"The signal has {len(text)} characters; it may have {MAX_LENGTH}.")
+    node = _parsed(_joined(program, text))
+    if isinstance(node, BadCondition):
+        return node
+    report = Report()
+    try:
+        return _ConditionChecker(program, report).signal(node, text)
     except Rejected:
         problem = report.problems[0]
         return _bad(problem, _near(program, text, problem) if problem.code == "T001" else ())
@@ -151,6 +179,16 @@ class _ConditionChecker(CallChecker):
                 "T006", f"The condition is {value.type}, and it must be BOOL{_how(value)}", node.span
             )
         return value
+
+    def signal(self, node: tree.Expression, text: str) -> Signal:
+        """A whole signal."""
+        value = settle(self.plain(self.expr(node, None), node.span))
+        if not isinstance(value.type, Elementary) or isinstance(value.type, Reference):
+            raise self.report.reject(
+                "T006", f"`{text.strip()}` is {value.type}, and what is recorded over time must be a number, a BOOL or a "
+                "time: name one of its parts.", node.span,
+            )  # fmt: skip
+        return Signal(text, value, value.type)
 
     def _constant(self, node: tree.Expression, type: Type | None) -> Const:
         return self.constant(node, type)

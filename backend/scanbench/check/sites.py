@@ -27,7 +27,8 @@ class StatementSite:
 @dataclass(frozen=True, slots=True)
 class Outcome:
     """One way a statement can go: a branch of an IF or CASE (`THEN`, `ELSIF 2`, `ELSE`, `CASE 3`), a loop's `BODY` or that
-    it runs no round at all, `NO ROUND`. `ELSE` also stands for no branch where none is written."""
+    it runs no round at all, `NO ROUND`. `ELSE` also stands for no branch where none is written. A REPEAT, whose body runs
+    in any case, has none; nor have IFs that the compiler made (EN, S=, JMPC)."""
 
     site: int
     name: str
@@ -47,6 +48,9 @@ class Sites:
         self.statements = tuple(StatementSite(span, name) for name, _, span in named)
         """Ordered by file, line and column, and what stands in one place as the program has it."""
         self._numbers = {id(stmt): number for number, (_, stmt, _) in enumerate(named)}
+        self._first: dict[int, int] = {}
+        self.outcomes: tuple[Outcome, ...] = tuple(self._number_outcomes([(stmt, span) for _, stmt, span in named]))
+        """In the order of their statements, and for each as `outcome` counts them."""
         bodies: dict[Pou, list[int]] = {}
         for pou, stmt, _ in found:
             bodies.setdefault(pou, []).append(self._numbers[id(stmt)])
@@ -59,6 +63,26 @@ class Sites:
     def number(self, stmt: Stmt) -> int | None:
         """The number of this very statement, or None if it has none."""
         return self._numbers.get(id(stmt))
+
+    def outcome(self, stmt: Stmt, way: int) -> int | None:
+        """The number of a way that this very statement can go, an index into `outcomes`; None if it has none.
+
+        `way`: of an IF or CASE the index of the branch, or how many there are for ELSE; of a FOR or WHILE 0 is BODY, 1
+        is NO ROUND.
+        """
+        first = self._first.get(id(stmt))
+        return None if first is None else first + way
+
+    def _number_outcomes(self, ordered: Iterable[tuple[Stmt, Span]]) -> Iterator[Outcome]:
+        count = 0
+        for site, (stmt, span) in enumerate(ordered):
+            if _goes_around_itself(stmt, span):
+                continue
+            names = _ways(stmt)
+            if names:
+                self._first[id(stmt)] = count
+                count += len(names)
+                yield from (Outcome(site, name) for name in names)
 
     def at_line(self, file: str, line: int) -> tuple[int, ...]:
         """The statements that begin in this line."""
@@ -100,10 +124,27 @@ def _of_statement(stmt: Stmt, span: Span) -> Iterator[tuple[Stmt, Span]]:
             yield from _in_order(body)
         return
     yield stmt, span
-    if any(own == span for body in bodies for _, own in body):
-        return  # it goes around what the statement itself is: EN, S=, JMPC, what an argument needs before a call
+    if _goes_around_itself(stmt, span):
+        return
     for body in bodies:
         yield from _in_order(body)
+
+
+def _goes_around_itself(stmt: Stmt, span: Span) -> bool:
+    """Whether it was made around what the text says: EN, S=, JMPC, what an argument needs before a call."""
+    return any(each.span.plain() == span for body in _bodies(stmt) for each in body)
+
+
+def _ways(stmt: Stmt) -> tuple[str, ...]:
+    match stmt:
+        case If(branches):
+            return ("THEN", *(f"ELSIF {number}" for number in range(1, len(branches))), "ELSE")
+        case Case(_, branches):
+            return (*(f"CASE {number}" for number in range(1, len(branches) + 1)), "ELSE")
+        case For() | While():
+            return ("BODY", "NO ROUND")
+        case _:
+            return ()
 
 
 def _bodies(stmt: Stmt) -> tuple[tuple[Stmt, ...], ...]:

@@ -19,6 +19,7 @@ from typing import Protocol
 
 from scanbench.check.program import Pou
 from scanbench.check.sites import Sites
+from scanbench.check.types import Section
 from scanbench.engines.engine import Engine
 from scanbench.engines.observe import Observer
 
@@ -35,6 +36,15 @@ class Frame:
     """Byte offset of the instance in the image; 0 in a FUNCTION (a method's instance is what its THIS refers to)."""
     site: int
     """The statement that is next (innermost frame) or that calls the next frame."""
+
+
+def frame_of(pou: Pou, instance: int, site: int, memory: bytearray) -> Frame:
+    """The frame of a POU that runs now: a method's instance is read from where its THIS stands."""
+    this = pou.frame.members.get("THIS") if pou.kind == "function" else None
+    if this is None or this.section is not Section.IN_OUT:
+        return Frame(pou, instance, site)
+    at = pou.frame_offset + this.offset
+    return Frame(pou, int.from_bytes(memory[at : at + 4], "little"), site)
 
 
 @dataclass(frozen=True, slots=True)

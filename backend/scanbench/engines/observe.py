@@ -42,6 +42,8 @@ class Seen:
     """Of watched bits, each (site, byte) once, in the order in which they were first read."""
     lost: int = 0
     """Reads that found no room any more."""
+    outcomes: frozenset[int] = frozenset()
+    """Ways that statements went (indices into `Sites.outcomes`); noted by the debug flavour alone."""
 
 
 class Observer(ABC):

@@ -10,6 +10,8 @@ from dataclasses import fields
 import msgpack  # type: ignore[import-untyped]
 
 from scanbench.check.violations import Violation, Violations
+from scanbench.debug.breakpoint import Breakpoint, Verdict
+from scanbench.debug.halt import Halt
 from scanbench.faults.arm import ARMED, NUMBERED, Arm, ArmedInfo, Disarm, Missed
 from scanbench.faults.clear import ClearErrorLog, ClearErrors
 from scanbench.faults.inject import ACTIVE, Active, Generate, Raised, Recover
@@ -30,7 +32,8 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped
 from scanbench.runtime.write import Write
-from scanbench.session import job_protocol, protocol
+from scanbench.session import debug_protocol, job_protocol, protocol
+from scanbench.taps.covered import CoveredFile, CoveredSite
 
 LENGTH = struct.Struct("<I")
 LARGEST = 1 << 30
@@ -52,6 +55,14 @@ _CLASSES: dict[str, type] = {
         protocol.PreviewedErrors, Difference, Line, Reaction, Reader,
         job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.Reacted,
         job_protocol.RunSweep, job_protocol.StartPoint, job_protocol.Trying, Raised,
+        Breakpoint, Verdict, Halt, debug_protocol.SetBreakpoints, debug_protocol.Step, debug_protocol.WantStack,
+        debug_protocol.WantScopes, debug_protocol.WantVariables, debug_protocol.Evaluate, debug_protocol.SetExpression,
+        debug_protocol.WantPlaces, debug_protocol.WantBinding, debug_protocol.SetCoverage, debug_protocol.WantCoverage,
+        debug_protocol.BreakpointsAre, debug_protocol.LogpointSaid, debug_protocol.FrameInfo,
+        debug_protocol.Stack, debug_protocol.ScopeInfo, debug_protocol.Scopes, debug_protocol.VariableInfo,
+        debug_protocol.Variables, debug_protocol.Evaluated, debug_protocol.PlaceInfo, debug_protocol.Places,
+        debug_protocol.BoundTo, debug_protocol.Binding, CoveredSite, CoveredFile,
+        debug_protocol.Coverage,
     )
 }  # fmt: skip
 _CLASSES["FaultStart"] = FaultStart  # there is another Start

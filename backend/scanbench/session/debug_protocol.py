@@ -6,8 +6,8 @@ Each request carries a `ref` and is answered by exactly one message with it; a r
 from dataclasses import dataclass
 from typing import Literal
 
-from scanbench.debug.breakpoint import Breakpoint, DataAccess, Verdict
-from scanbench.debug.halt import Halt
+from scanbench.debug.breakpoint import Breakpoint, Verdict
+from scanbench.taps.covered import CoveredFile
 
 # ---- parent to host ------------------------------------------------------------------------------------------------
 
@@ -159,13 +159,6 @@ class LogpointSaid:
 
 
 @dataclass(frozen=True, slots=True)
-class Halted:
-    """The PLC is halted (again), or goes on (None)."""
-
-    halt: Halt | None
-
-
-@dataclass(frozen=True, slots=True)
 class FrameInfo:
     """One frame of the call stack."""
 
@@ -290,26 +283,6 @@ class Binding:
 
 
 @dataclass(frozen=True, slots=True)
-class CoveredSite:
-    """A statement, how it went so far, and the ways it can go."""
-
-    line: int
-    column: int
-    end_line: int
-    end_column: int
-    pou: str
-    reached: bool
-    outcomes: tuple[tuple[str, bool], ...] = ()
-    """Name (`check.sites.Outcome`) and whether it went that way."""
-
-
-@dataclass(frozen=True, slots=True)
-class CoveredFile:
-    file: str
-    sites: tuple[CoveredSite, ...]
-
-
-@dataclass(frozen=True, slots=True)
 class Coverage:
     """Answer to `WantCoverage`; with ref None while it is on, whenever something more was reached."""
 
@@ -326,4 +299,3 @@ DebugRequest = (
     | SetCoverage | WantCoverage
 )  # fmt: skip
 DebugAnswer = Stack | Scopes | Variables | Evaluated | Places | Binding | Coverage | BreakpointsAre
-__all__ = ["DataAccess", "DebugAnswer", "DebugRequest"]

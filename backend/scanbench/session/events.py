@@ -6,11 +6,14 @@ from datetime import datetime
 from typing import Protocol
 
 from scanbench.check.violations import Violations
+from scanbench.debug.breakpoint import Verdict
+from scanbench.debug.halt import Halt
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.history import ErrorRow
 from scanbench.runtime.forces import Force
 from scanbench.runtime.recording import RecordingInfo
 from scanbench.runtime.trap import TrapInfo
+from scanbench.session import debug_protocol
 from scanbench.session.builds import BuildOutcome
 from scanbench.session.protocol import RunMark, WatchItem
 from scanbench.store.records import AcceptedRow, CellRow, SweepRow
@@ -49,6 +52,9 @@ class PlcState:
     late_us: float = 0.0
     """Mean lateness of scans since the pace was set; `worst_us` is the most."""
     worst_us: float = 0.0
+    halt: Halt | None = None
+    flavour: str = ""
+    """Which code runs: empty is the ordinary one, `debug`, `probed`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -174,7 +180,38 @@ class SweepChanged:
     accepted: Mapping[tuple[str, str], AcceptedRow]
 
 
-Event = (
+@dataclass(frozen=True, slots=True)
+class WatchListChanged:
+    """Somebody saved or deleted (version 0) a watch list; with an `owner` it is nobody else's business."""
+
+    id: int
+    owner: str
+    version: int
+    author: str
+
+
+@dataclass(frozen=True, slots=True)
+class BreakpointsChanged:
+    """All breakpoints and what became of them, whenever that changes."""
+
+    verdicts: tuple[Verdict, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class LogpointSaid:
+    """A logpoint was reached."""
+
+    said: debug_protocol.LogpointSaid
+
+
+@dataclass(frozen=True, slots=True)
+class CoverageChanged:
+    """Something more was reached, or coverage was switched."""
+
+    coverage: debug_protocol.Coverage
+
+
+Told = (
     StateChanged
     | ErrorsChanged
     | Logged
@@ -188,8 +225,15 @@ Event = (
     | TimelineChanged
     | ArmedChanged
     | SweepChanged
+    | WatchListChanged
+    | BreakpointsChanged
+    | CoverageChanged
     | Watching
 )
+
+"""What everybody is told."""
+Event = Told | LogpointSaid
+"""And what debug sessions say in their own words."""
 
 
 class Subscriber(Protocol):

@@ -18,6 +18,7 @@ from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Command
 from scanbench.session import protocol
 from scanbench.session.codec import LENGTH, BadMessage, pack, unpack
+from scanbench.session.debug_protocol import DebugAnswer, DebugRequest
 from scanbench.session.events import PlcState
 from scanbench.session.nursery import NoProcess, Process, nursery
 from scanbench.session.runs import bring_back, set_aside
@@ -216,6 +217,8 @@ class Instance:
                 self._on_message(message)
             case protocol.Ack() | protocol.Found() | protocol.Previewed() | protocol.PreviewedErrors():
                 self._answer(message.ref, message)
+            case _ if isinstance(message, DebugAnswer) and message.ref is not None:
+                self._answer(message.ref, message)
             case _:
                 self._on_message(message)
 
@@ -229,7 +232,7 @@ class Instance:
             interval_ns=state.interval_ns, cycle_us=state.cycle_us, speed=state.speed, pid=pid, trap=state.trap,
             forces=state.forces, version=state.version, live_scan=state.live_scan, past_by=state.past_by,
             target=state.target, previous_version=state.previous_version, late_percent=state.late_percent,
-            late_us=state.late_us, worst_us=state.worst_us,
+            late_us=state.late_us, worst_us=state.worst_us, halt=state.halt, flavour=state.flavour,
         )  # fmt: skip
 
     def _set_state(self, **changes: object) -> None:
@@ -305,6 +308,12 @@ class Instance:
         """Members of a path, completions of a text."""
         answer = await self._ask(lambda ref: protocol.Lookup(ref, kind, text))
         assert isinstance(answer, protocol.Found)
+        return answer
+
+    async def debug(self, make: Callable[[int], DebugRequest]) -> DebugAnswer | protocol.Ack:
+        """Asks something of debugging; `make` makes the request with this ref."""
+        answer = await self._ask(make)
+        assert isinstance(answer, DebugAnswer | protocol.Ack)
         return answer
 
     def tell(self, message: Telling) -> bool:

@@ -2,6 +2,7 @@
 
 from collections.abc import Sequence
 
+from scanbench.debug.halt import Halt
 from scanbench.faults.arm import Arm, Disarm, Missed
 from scanbench.faults.clear import ClearErrorLog
 from scanbench.faults.inject import Generate, Recover
@@ -59,6 +60,11 @@ class Marks:
     def add(self, entries: Sequence[Entry]) -> TimelineChanged:
         """Marks of new entries; the event for everybody."""
         return self.take(RunMarks(self._info, marks_of(entries), fresh=False))
+
+    def halted(self, halt: Halt) -> TimelineChanged:
+        """A mark where a debugger halted the PLC, though the journal knows nothing of it."""
+        mark = RunMark(halt.scan, "halt", halt.by or "PLC", f"halted: {halt.text}"[:_LONGEST])
+        return self.take(RunMarks(self._info, (mark,), fresh=False))
 
     @property
     def all(self) -> TimelineChanged:

@@ -8,6 +8,7 @@ its command; `Standing` and `RunMarks` say what holds after all entries so far, 
 from dataclasses import dataclass
 
 from scanbench.check.violations import Violations
+from scanbench.debug.halt import Halt
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.inject import Active
 from scanbench.faults.preview import PreviewedWrite
@@ -234,6 +235,10 @@ class HostState:
     late_us: float = 0.0
     """Mean lateness of scans since the pace was set."""
     worst_us: float = 0.0
+    halt: Halt | None = None
+    """Where a debugger halted it; then `state` is `halted` (`past` while that is in the past)."""
+    flavour: str = ""
+    """Which code runs, for people: empty is the ordinary one, `debug`, `probed`."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,6 +1,7 @@
 """One PLC and the people at it: commands in, events out, history and log kept."""
 
-from collections.abc import Awaitable, Iterable, Mapping, Sequence
+import asyncio
+from collections.abc import Awaitable, Callable, Iterable, Mapping, Sequence
 from pathlib import Path
 
 from scanbench.check.violations import Violations
@@ -14,8 +15,10 @@ from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import Force
 from scanbench.runtime.write import Write
-from scanbench.session import events, protocol
+from scanbench.session import debug_protocol, events, protocol
 from scanbench.session.builds import BuildOutcome
+from scanbench.session.debug_protocol import DebugAnswer, DebugRequest
+from scanbench.session.debugging import Debugging
 from scanbench.session.events import Event, LogEntry, PlcState, Subscriber, User
 from scanbench.session.instance import Instance, Remembered, Unavailable
 from scanbench.session.keeper import Keeper
@@ -30,8 +33,9 @@ from scanbench.store.records import InstanceRow
 LOG_LINES = 500
 LISTED = 100
 """Entries of one moment that get a line each."""
+SPEEDS = 0.01, 1000.0
 _EVERYBODY = 0
-_LIVING = ("running", "paused", "stopped", "trapped", "fatal")
+_LIVING = ("running", "paused", "halted", "stopped", "trapped", "fatal")
 """States that a host tells of itself, with the version that runs."""
 
 
@@ -64,6 +68,9 @@ class Session:
         self._timeline = Marks()
         self._instance = Instance(memory, self._on_state, self._on_message, cache)
         self._last_state = self._instance.state
+        self.debugging = Debugging(self._instance.debug, self._publish)
+        self._halted = 0
+        self._resending: asyncio.Task[None] | None = None
 
     # ---- what it is -----------------------------------------------------------------------------------------------
 
@@ -199,6 +206,10 @@ class Session:
         self, action: str, speed: float | None, author: str, scans: int | None = None, until: str | None = None
     ) -> protocol.Ack:
         """Pace of the run: continue (so many scans, until a condition holds), pause, one scan."""
+        low, high = SPEEDS
+        if speed is not None and speed != 0 and not low <= speed <= high:
+            message = f"speed {speed:g} is outside of x{low:g} to x{high:g}; 0 is without limit"
+            return protocol.Ack(0, False, message, self.state.scan)
         drive = protocol.Drive(0, action, speed, author, scans, until)
         return self._logged(await self._refusing(self._instance.drive(drive)), author)
 
@@ -270,6 +281,36 @@ class Session:
         except Unavailable as error:
             return protocol.Ack(0, False, str(error), self.state.scan)
 
+    async def debug(self, make: Callable[[int], DebugRequest]) -> DebugAnswer | protocol.Ack:
+        """Asks something of debugging; `make` makes the request with the ref that it is given. Breakpoints are set through
+        `debugging`. A refusal is an `Ack` that is not ok, also when the PLC is away."""
+        try:
+            return await self._instance.debug(make)
+        except Unavailable as error:
+            return protocol.Ack(0, False, str(error), self.state.scan)
+
+    async def cover(self, on: bool, reset: bool, author: str) -> protocol.Ack:
+        """Notes which statements are reached from now on, or no longer."""
+        answer = await self.debug(lambda ref: debug_protocol.SetCoverage(ref, on, reset, author))
+        assert isinstance(answer, protocol.Ack)
+        return answer
+
+    async def coverage(self) -> debug_protocol.Coverage:
+        """What was reached so far; `Refused` says why nobody knows."""
+        answer = await self.debug(debug_protocol.WantCoverage)
+        if isinstance(answer, protocol.Ack):
+            raise Refused(answer.message, answer.near)
+        assert isinstance(answer, debug_protocol.Coverage)
+        return answer
+
+    async def binding(self, path: str) -> debug_protocol.Binding:
+        """What an in-out is bound to; `Refused` when there is none of this path."""
+        answer = await self.debug(lambda ref: debug_protocol.WantBinding(ref, path))
+        if isinstance(answer, protocol.Ack):
+            raise Refused(answer.message, answer.near)
+        assert isinstance(answer, debug_protocol.Binding)
+        return answer
+
     # ---- looking --------------------------------------------------------------------------------------------------
 
     def join(self, subscriber: Subscriber) -> int:
@@ -318,6 +359,7 @@ class Session:
     def _on_state(self, state: PlcState) -> None:
         before, self._last_state = self._last_state, state
         self._publish(events.StateChanged(state))
+        self._see_halt(state)
         if state.pid is not None and not state.past_by and state.state in _LIVING:
             self._see_version(state.version, state.scan)
         if not state.past_by:
@@ -330,6 +372,16 @@ class Session:
             if state.state == "off":
                 return
             self._add_line(LogEntry(wall_time(), state.scan, "server", state.message, "system"))
+
+    def _see_halt(self, state: PlcState) -> None:
+        """A halt that nobody stepped to gets a line of the log, and a mark."""
+        halt = state.halt
+        if halt is None or halt.number == self._halted:
+            return
+        self._halted = halt.number
+        if halt.reason not in ("step", "goto", "entry") and not halt.past:
+            self._add_line(LogEntry(wall_time(), halt.scan, halt.by or "PLC", f"halted: {halt.text}", "halt"))
+            self._publish(self._timeline.halted(halt))
 
     def _on_message(self, message: object) -> None:
         match message:
@@ -350,6 +402,8 @@ class Session:
                 self._publish_rows((), fresh=True)  # the errors that it has more
             case protocol.Watching():
                 self._on_watching(message)
+            case _:
+                self.debugging.on_message(message)
 
     def _on_frame(self, frame: protocol.Frame) -> None:
         if frame.to is None:
@@ -432,6 +486,7 @@ class Session:
             self._instance.tell(protocol.WatchPaths(_EVERYBODY, self._watches.all()))
         for question, (_, _, pairs) in self._questions.items():
             self._instance.tell(protocol.WatchPaths(question, pairs))
+        self._resending = asyncio.get_running_loop().create_task(self.debugging.resend())
 
     def _on_watching(self, answer: protocol.Watching) -> None:
         if answer.ref is None or answer.ref == _EVERYBODY:

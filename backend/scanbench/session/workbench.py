@@ -28,6 +28,7 @@ from scanbench.session.samples import samples
 from scanbench.session.session import LOG_LINES, Session
 from scanbench.session.states import States
 from scanbench.session.sweeps import Sweeps
+from scanbench.session.watch_lists import WatchLists
 from scanbench.store.records import InstanceRow, Limits, NotFound, ProjectRow
 from scanbench.store.store import Store
 
@@ -54,6 +55,7 @@ class Workbench:
         self.projects = Projects(store, self.models, self._checker, self._sessions_of)
         self._reactions = Reactions(self._cache)
         self.records = Records(store, self._keeper, f"Scanbench {__version__}")
+        self.watch_lists = WatchLists(store, self._sessions_of)
         self.states = States(store, data / "states")
         self.sweeps = Sweeps(
             store, self.states, self._cache, self._sessions_of, self.projects.built, self._open_state

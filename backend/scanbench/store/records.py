@@ -239,6 +239,46 @@ class LogRow:
     """That ran then; None in lines of before this was kept."""
 
 
+@dataclass(frozen=True, slots=True)
+class WatchEntry:
+    """A line of a watch list: a path or address, its group ('' is none), and how its value is shown."""
+
+    path: str
+    group: str = ""
+    format: str = "default"
+
+
+@dataclass(frozen=True, slots=True)
+class WatchContent:
+    """What a watch list holds, in order."""
+
+    groups: tuple[str, ...] = ()
+    entries: tuple[WatchEntry, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class WatchListRow:
+    """A watch list of a project. `owner` is empty when everybody shares it; `version` counts its saves, from 1."""
+
+    id: int
+    project: int
+    owner: str
+    name: str
+    content: WatchContent
+    version: int
+    by: str
+    """Who saved this version."""
+    at: datetime
+
+
+class ListConflict(Exception):
+    """Somebody else saved this watch list first: nothing was written. `theirs` is what they saved."""
+
+    def __init__(self, theirs: WatchListRow) -> None:
+        super().__init__(f"{theirs.name} was saved by {theirs.by} in the meantime; nothing was written")
+        self.theirs = theirs
+
+
 class Conflict(Exception):
     """Somebody else saved first: nothing was written."""
 

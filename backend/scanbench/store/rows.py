@@ -21,6 +21,9 @@ from scanbench.store.records import (
     SweepRow,
     SweepStatus,
     SweptError,
+    WatchContent,
+    WatchEntry,
+    WatchListRow,
 )
 from scanbench.store.tables import (
     AcceptedFinding,
@@ -34,6 +37,7 @@ from scanbench.store.tables import (
     Sweep,
     SweepCell,
     TestRecord,
+    WatchList,
 )
 
 
@@ -118,3 +122,12 @@ def record(row: TestRecord) -> RecordInfo:
 def log(row: Log) -> LogRow:
     """A line of the log."""
     return LogRow(row.at, row.scan, row.author, row.kind, row.text, row.program_version)
+
+
+def watch_list(row: WatchList) -> WatchListRow:
+    """A watch list."""
+    content = cast(dict[str, list[object]], row.content)
+    entries = cast(list[list[str]], content["entries"])
+    groups = cast(list[str], content["groups"])
+    kept = WatchContent(tuple(groups), tuple(WatchEntry(*entry) for entry in entries))
+    return WatchListRow(row.id, row.project_id, row.owner, row.name, kept, row.version, row.by, row.at)

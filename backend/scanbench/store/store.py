@@ -27,9 +27,10 @@ from scanbench.store.records import (
 )
 from scanbench.store.sweeps import Sweeps
 from scanbench.store.tables import AUTHOR, NAME, PATH, File, Instance, Log, ProgramVersion, Project
+from scanbench.store.watchlists import WatchLists
 
 
-class Store(Errors, Sweeps, ImportedRecords):
+class Store(Errors, Sweeps, ImportedRecords, WatchLists):
     """A database, with today's tables: here projects, files, builds, instances and their log; `close` it at the end."""
 
     # ---- projects -----------------------------------------------------------------------------------------------

@@ -219,6 +219,22 @@ class TestRecord(Base):
     at: Mapped[datetime] = mapped_column(Moment)
 
 
+class WatchList(Base):
+    """A watch list of a project; `owner` is empty when everybody shares it. A save must know the version it started from."""
+
+    __tablename__ = "watch_list"
+    __table_args__ = (UniqueConstraint("project_id", "owner", "name"),)
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    project_id: Mapped[int] = mapped_column(ForeignKey("project.id", ondelete="CASCADE"))
+    owner: Mapped[str] = mapped_column(String(AUTHOR))
+    name: Mapped[str] = mapped_column(String(NAME))
+    content: Mapped[dict[str, object]] = mapped_column(JSON)
+    version: Mapped[int]
+    by: Mapped[str] = mapped_column(String(AUTHOR))
+    at: Mapped[datetime] = mapped_column(Moment)
+
+
 class Log(Base):
     """What was done to an instance, in order."""
 

@@ -15,7 +15,7 @@ from scanbench import __version__
 from scanbench.session.instance import Unavailable
 from scanbench.session.refused import Refused
 from scanbench.session.workbench import Workbench
-from scanbench.store.records import Conflict, NameTaken, NotFound, NotStorable, StoreError
+from scanbench.store.records import Conflict, ListConflict, NameTaken, NotFound, NotStorable, StoreError
 from scanbench.web import messages as wire
 from scanbench.web import (
     routes_errors,
@@ -25,6 +25,7 @@ from scanbench.web import (
     routes_records,
     routes_sweeps,
     routes_user_errors,
+    routes_values,
     translate,
 )
 from scanbench.web.auth import Gate, Guard
@@ -69,7 +70,7 @@ def bare_app() -> FastAPI:
     )  # fmt: skip
     for routes in (
         routes_instances, routes_errors, routes_sweeps, routes_records, routes_projects, routes_user_errors,
-        routes_models,
+        routes_models, routes_values,
     ):  # fmt: skip
         app.include_router(routes.router)
     for error, status in _STATUS.items():

@@ -9,6 +9,7 @@ from typing import Annotated, Literal
 from pydantic import Field
 
 from scanbench.web.messages_base import Id, Scan, Version, Wire
+from scanbench.web.messages_debug import BreakpointInfo, Breakpoints, Coverage, Dap, DapOut, HaltInfo, SetCoverage
 from scanbench.web.messages_errors import (
     Arm,
     Armed,
@@ -20,6 +21,7 @@ from scanbench.web.messages_errors import (
     Recover,
     SweepProgress,
 )
+from scanbench.web.messages_watch import WatchListChanged
 
 # ---- programs, files, problems -------------------------------------------------------------------------------
 
@@ -177,9 +179,9 @@ class ModelInfo(ModelSummary):
 # ---- instances ---------------------------------------------------------------------------------------------------
 
 RunState = Literal[
-    "starting", "running", "paused", "stopped", "fatal", "trapped", "restarting", "failed", "past", "off"
+    "starting", "running", "paused", "halted", "stopped", "fatal", "trapped", "restarting", "failed", "past", "off"
 ]
-"""`past`: everybody is shown an earlier scan, the PLC waits at its live one. `off`: somebody switched the instance off."""
+"""`halted`: by the debugger, inside of a scan or in front of one. `past`: everybody is shown an earlier scan, the PLC waits at its live one. `off`: somebody switched the instance off."""
 Mode = Literal["PROGRAM", "MONITOR", "RUN"]
 RestartKind = Literal["cold", "warm", "power"]
 """cold: everything initial; warm: RETAIN variables and retained areas are kept; power: as the model does at power-on."""
@@ -225,6 +227,8 @@ class InstanceState(Wire):
         description="where a run that was asked for ends: `scan 4711`, `until Main.count > 3`; or empty"
     )
     late_percent: float = Field(description="scans of the last seconds that began after the next one was due")
+    halt: HaltInfo | None = Field(description="where the debugger halted it, also in the past; null while it runs")
+    flavour: str = Field(description="which code runs: empty is the ordinary one, `debug`, `probed`")
 
 
 class InstanceLoad(Wire):
@@ -277,7 +281,7 @@ class Mark(Wire):
     """A point of the timeline."""
 
     scan: int
-    kind: Literal["write", "force", "error", "recover", "mode", "run", "build", "system"]
+    kind: Literal["write", "force", "error", "recover", "mode", "run", "build", "system", "halt"]
     author: str
     text: str
 
@@ -359,7 +363,7 @@ class LogLine(Wire):
     scan: int
     author: str
     text: str
-    kind: Literal["write", "force", "error", "recover", "mode", "run", "build", "system"]
+    kind: Literal["write", "force", "error", "recover", "mode", "run", "build", "system", "halt"]
 
 
 class User(Wire):
@@ -482,7 +486,9 @@ ClientMessage = Annotated[
     | NewRun
     | Travel
     | RollBack
-    | ClearDiagnostics,
+    | ClearDiagnostics
+    | SetCoverage
+    | DapOut,
     Field(discriminator="type"),
 ]
 
@@ -528,6 +534,8 @@ class Hello(Wire):
     armed: list[ArmedFault]
     diagnostics: Diagnostics
     timeline: Timeline
+    breakpoints: list[BreakpointInfo]
+    coverage: Coverage | None
 
 
 class State(Wire):
@@ -644,6 +652,10 @@ ServerMessage = Annotated[
     | Written
     | Armed
     | SweepProgress
+    | WatchListChanged
+    | Dap
+    | Breakpoints
+    | Coverage
     | Alive,
     Field(discriminator="type"),
 ]

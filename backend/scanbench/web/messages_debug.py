@@ -26,7 +26,9 @@ class HaltInfo(Wire):
     """The PLC is halted by the debugger; part of the instance's state, so that everybody sees it at once."""
 
     number: int = Field(description="another number is another halt")
-    reason: Literal["breakpoint", "data breakpoint", "step", "pause", "entry", "goto", "error", "violation", "trap", "scan"]
+    reason: Literal[
+        "breakpoint", "data breakpoint", "step", "pause", "entry", "goto", "error", "violation", "trap", "scan"
+    ]
     text: str
     by: str
     file: str = Field(description="of the statement that is next; empty in the seam")

@@ -265,13 +265,6 @@ class CommandResult(Wire):
     near: list[str] = Field(default_factory=list)
 
 
-class WriteValue(Wire):
-    """Write a variable or an address, with the rights of a tool."""
-
-    path: str
-    value: str
-
-
 class GenerateErrors(Wire):
     errors: list[GenerateOne] = Field(min_length=1)
     again: bool = False

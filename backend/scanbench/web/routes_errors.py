@@ -1,17 +1,16 @@
-"""REST: what can be done to one PLC from a script: raise and recover errors, write; and how its program reacted."""
+"""REST: what can be done to one PLC from a script: raise and recover errors; and how its program reacted."""
 
 from fastapi import APIRouter, Request
 
 from scanbench.faults.clear import ClearErrorLog, ClearErrors
 from scanbench.faults.inject import Generate, Recover
-from scanbench.runtime.write import Write
-from scanbench.session.protocol import Ack
 from scanbench.session.refused import Refused
 from scanbench.web import messages as wire
 from scanbench.web import messages_errors, translate, translate_errors
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id
 from scanbench.web.reach import Bench
+from scanbench.web.translate_errors import command_result
 
 router = APIRouter(prefix="/api/instances/{instance}", tags=["errors"])
 
@@ -28,7 +27,9 @@ async def on_generate(
 ) -> messages_errors.CommandResult:
     """Raises errors, all in one seam, or none of them."""
     refs = translate_errors.refs(wanted.errors)
-    return _result(await bench.session(instance).submit(Generate(user_of(request).name, refs, again=wanted.again)))
+    return command_result(
+        await bench.session(instance).submit(Generate(user_of(request).name, refs, again=wanted.again))
+    )
 
 
 @router.post("/errors/recover")
@@ -37,7 +38,7 @@ async def on_recover(
 ) -> messages_errors.CommandResult:
     """Recovers these errors, or all that are generated."""
     ids = None if wanted.ids is None else tuple(wanted.ids)
-    return _result(await bench.session(instance).submit(Recover(user_of(request).name, ids)))
+    return command_result(await bench.session(instance).submit(Recover(user_of(request).name, ids)))
 
 
 @router.post("/errors/clear")
@@ -45,13 +46,13 @@ async def on_clear(
     bench: Bench, request: Request, instance: Id, wanted: messages_errors.ClearErrors
 ) -> messages_errors.CommandResult:
     """Clears errors as a tool does it on the device (FINS 2101)."""
-    return _result(await bench.session(instance).submit(ClearErrors(user_of(request).name, wanted.what)))
+    return command_result(await bench.session(instance).submit(ClearErrors(user_of(request).name, wanted.what)))
 
 
 @router.post("/errors/log/clear")
 async def on_clear_log(bench: Bench, request: Request, instance: Id) -> messages_errors.CommandResult:
     """Empties the PLC's own error log, as a tool does it on the device (FINS 2103)."""
-    return _result(await bench.session(instance).submit(ClearErrorLog(user_of(request).name)))
+    return command_result(await bench.session(instance).submit(ClearErrorLog(user_of(request).name)))
 
 
 @router.post("/errors/preview")
@@ -63,14 +64,6 @@ async def on_preview(
     return translate_errors.previewed(await bench.session(instance).preview_errors(refs, wanted.again))
 
 
-@router.post("/write")
-async def on_write(
-    bench: Bench, request: Request, instance: Id, wanted: messages_errors.WriteValue
-) -> messages_errors.CommandResult:
-    """Writes a variable or an address, with the rights of a tool: error memory is read-only here."""
-    return _result(await bench.session(instance).submit(Write(user_of(request).name, wanted.path, wanted.value)))
-
-
 @router.get("/errors/{error}/reaction")
 async def on_reaction(bench: Bench, instance: Id, error: str) -> messages_errors.Reaction:
     """How the program reacted to an error the last time it was raised here."""
@@ -78,9 +71,3 @@ async def on_reaction(bench: Bench, instance: Id, error: str) -> messages_errors
     if found is None:
         raise Refused(f"nobody has compared yet how the program reacts to {error}: raise it, and wait for the window")
     return translate_errors.reaction(found)
-
-
-def _result(ack: Ack) -> messages_errors.CommandResult:
-    if not ack.ok:
-        raise Refused(ack.message, ack.near)
-    return messages_errors.CommandResult(ok=True, message=ack.message, scan=ack.scan, near=list(ack.near))

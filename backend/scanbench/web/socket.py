@@ -25,15 +25,15 @@ from scanbench.session.events import Event, User
 from scanbench.session.protocol import Ack
 from scanbench.session.session import Session
 from scanbench.web import messages as wire
+from scanbench.web import messages_debug as debugger
 from scanbench.web import messages_errors as simulator
-from scanbench.web import translate, translate_errors
+from scanbench.web import translate, translate_debug, translate_errors
 
 WAITING_FRAMES = 4
 """So many frames not yet sent: the browser is slow, and gets a snapshot instead."""
 WAITING_MESSAGES = 20_000
 ALIVE_AFTER_S = 5.0
 """So long without anything to tell: an `Alive` is sent. Browsers give up after 12 s of silence."""
-_SPEEDS = (0.01, 1000.0)
 _Commanding = (
     wire.Write
     | wire.Force
@@ -46,7 +46,7 @@ _Commanding = (
     | wire.Restart
     | wire.ClearDiagnostics
 )
-_Wanted = _Commanding | wire.Run | wire.Travel | wire.NewRun | wire.RollBack
+_Wanted = _Commanding | wire.Run | wire.Travel | wire.NewRun | wire.RollBack | debugger.SetCoverage
 
 _INCOMING: TypeAdapter[wire.ClientMessage] = TypeAdapter(wire.ClientMessage)
 
@@ -71,6 +71,10 @@ class Client:
 
     def on_event(self, event: Event) -> None:
         """Queues it; of states only the newest is worth sending."""
+        if isinstance(event, events.LogpointSaid):
+            return
+        if isinstance(event, events.WatchListChanged) and event.owner not in ("", self.user.name):
+            return
         if isinstance(event, events.StateChanged):
             self._state = event
         elif isinstance(event, events.Watching):
@@ -122,6 +126,8 @@ class Client:
             armed=list(map(translate_errors.armed, self._session.armed)),
             diagnostics=translate.diagnostics(self._session.violations),
             timeline=translate.timeline(self._session.timeline),
+            breakpoints=list(map(translate_debug.breakpoint, self._session.debugging.verdicts)),
+            coverage=translate_debug.coverage(covered) if (covered := self._session.debugging.coverage) else None,
         )
         self._texts.appendleft(hello.model_dump_json())
         writer = asyncio.get_running_loop().create_task(self._write())
@@ -178,6 +184,8 @@ class Client:
         match message:
             case wire.Watch():
                 self._session.watch(self._id, message.ref, message.paths)
+            case debugger.DapOut():
+                pass
             case wire.Unwatch():
                 self._ids.difference_update(message.ids)
                 self._session.unwatch(self._id, message.ids)
@@ -196,21 +204,17 @@ class Client:
         session, author = self._session, self.user.name
         match message:
             case wire.Run():
-                return await self._run(message)
+                return await session.drive(message.action, message.speed, author, message.scans, message.until)
             case wire.Travel():
                 return await session.travel(message.scan, author)
             case wire.NewRun():
                 return await session.begin_anew(author)
             case wire.RollBack():
                 return await session.roll_back(author)
+            case debugger.SetCoverage():
+                return await session.cover(message.on, message.reset, author)
             case _:
                 return await session.submit(self._command(message))
-
-    async def _run(self, run: wire.Run) -> Ack:
-        low, high = _SPEEDS
-        if run.speed is not None and run.speed != 0 and not low <= run.speed <= high:
-            return Ack(0, False, f"speed {run.speed:g} is outside of x{low:g} to x{high:g}; 0 is without limit", 0)
-        return await self._session.drive(run.action, run.speed, self.user.name, run.scans, run.until)
 
     def _command(self, message: _Commanding) -> Command:
         author = self.user.name

@@ -15,8 +15,10 @@ from scanbench.session.protocol import SymbolInfo, WatchItem
 from scanbench.session.session import Session
 from scanbench.store.records import FileInfo, FileRow, ProjectRow
 from scanbench.web import messages as wire
+from scanbench.web import messages_debug as debugger
 from scanbench.web import messages_errors as simulator
-from scanbench.web import translate_errors, translate_sweeps
+from scanbench.web import translate_debug, translate_errors, translate_sweeps
+from scanbench.web.messages_watch import WatchListChanged
 
 
 def user(who: User) -> wire.User:
@@ -106,6 +108,7 @@ def state(now: PlcState) -> wire.InstanceState:
             "past": {"live_scan": now.live_scan, "by": now.past_by} if now.past_by else None,
             "previous_version": now.previous_version,
             "target": now.target, "late_percent": round(now.late_percent, 2),
+            "halt": translate_debug.halt(now.halt), "flavour": now.flavour,
             "trap": None if trap is None else {
                 "kind": trap.kind, "message": trap.message, "file": trap.file, "line": trap.line,
                 "column": trap.column, "scan": trap.scan,
@@ -206,9 +209,11 @@ def _violation(found: Violation) -> wire.Violation:
     )  # fmt: skip
 
 
-def event(happened: events.Event) -> wire.ServerMessage:
+def event(happened: events.Told) -> wire.ServerMessage:
     """What a session tells, as a message."""
     match happened:
+        case events.ProgramBuilt() | events.FileSaved() | events.FileDeleted():
+            return _of_project(happened)
         case events.StateChanged():
             return wire.State(state=state(happened.state))
         case events.ErrorsChanged():
@@ -217,13 +222,6 @@ def event(happened: events.Event) -> wire.ServerMessage:
             return wire.Log(lines=list(map(log_line, happened.lines)))
         case events.UsersChanged():
             return wire.Users(users=list(map(user, happened.users)))
-        case events.ProgramBuilt():
-            return wire.Built(author=happened.author, result=build_result(happened.outcome))
-        case events.FileSaved():
-            file = wire.FileInfo(path=happened.path, version=happened.version, author=happened.author)
-            return wire.Saved(author=happened.author, file=file)
-        case events.FileDeleted():
-            return wire.Deleted(path=happened.path, author=happened.author)
         case events.ForcesChanged():
             return wire.Forces(forces=list(map(force, happened.forces)))
         case events.DiagnosticsChanged():
@@ -234,12 +232,29 @@ def event(happened: events.Event) -> wire.ServerMessage:
             return simulator.Armed(faults=list(map(translate_errors.armed, happened.faults)))
         case events.SweepChanged():
             return translate_sweeps.progress(happened)
+        case events.BreakpointsChanged():
+            return debugger.Breakpoints(breakpoints=list(map(translate_debug.breakpoint, happened.verdicts)))
+        case events.CoverageChanged():
+            return translate_debug.coverage(happened.coverage)
+        case events.WatchListChanged():
+            return WatchListChanged(id=happened.id, version=happened.version, author=happened.author)
         case events.ValueWritten():
             return wire.Written(
                 path=happened.path, author=happened.author, scan=happened.scan, forced=happened.forced
             )  # fmt: skip
         case events.Watching():
             return wire.Watching(ref=happened.ref, items=list(map(watched, happened.items)))
+
+
+def _of_project(happened: events.ProgramBuilt | events.FileSaved | events.FileDeleted) -> wire.ServerMessage:
+    match happened:
+        case events.ProgramBuilt():
+            return wire.Built(author=happened.author, result=build_result(happened.outcome))
+        case events.FileSaved():
+            file = wire.FileInfo(path=happened.path, version=happened.version, author=happened.author)
+            return wire.Saved(author=happened.author, file=file)
+        case events.FileDeleted():
+            return wire.Deleted(path=happened.path, author=happened.author)
 
 
 # ---- models ------------------------------------------------------------------------------------------------------

@@ -8,7 +8,8 @@ from scanbench.faults.history import RowReaction, Swept
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.shapes import Shape, Start, Wanted
 from scanbench.plcmodel import model as plc
-from scanbench.session.protocol import PreviewedErrors
+from scanbench.session.protocol import Ack, PreviewedErrors
+from scanbench.session.refused import Refused
 from scanbench.web import messages_errors as wire
 
 
@@ -127,3 +128,10 @@ def _default(address: plc.ErrorAddress) -> str:
 
 def _wordings(of: Iterable[plc.Wording]) -> list[wire.Wording]:
     return [wire.Wording(language=each.language, name=each.name, description=each.description) for each in of]
+
+
+def command_result(ack: Ack) -> wire.CommandResult:
+    """What became of a command that came by REST; `Refused` says why nothing did."""
+    if not ack.ok:
+        raise Refused(ack.message, ack.near)
+    return wire.CommandResult(ok=True, message=ack.message, scan=ack.scan, near=list(ack.near))

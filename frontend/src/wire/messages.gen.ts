@@ -272,6 +272,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/force": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Force
+         * @description Holds a variable or an address at a value until it is released.
+         */
+        post: operations["on_force_api_instances__instance__force_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/forces": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Forces
+         * @description The forces that hold.
+         */
+        get: operations["on_forces_api_instances__instance__forces_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/history": {
         parameters: {
             query?: never;
@@ -352,6 +392,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/release": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Release
+         * @description Ends a force, or all.
+         */
+        post: operations["on_release_api_instances__instance__release_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/run": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Run
+         * @description Lets the PLC run, pauses it, runs one scan. The answer comes when it is under way, not when it is done.
+         */
+        post: operations["on_run_api_instances__instance__run_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/states": {
         parameters: {
             query?: never;
@@ -404,6 +484,26 @@ export interface paths {
          * @description The members below a path; programs and globals below ''.
          */
         get: operations["on_symbols_api_instances__instance__symbols_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/value": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Read
+         * @description The value of a variable, an address or an expression: `Main.level`, `D100`, `Main.level > 3 AND motor`.
+         */
+        get: operations["on_read_api_instances__instance__value_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1162,6 +1262,87 @@ export interface components {
             scan?: number | null;
         };
         /**
+         * BreakpointInfo
+         * @description A breakpoint of this instance, whoever manages it.
+         */
+        BreakpointInfo: {
+            /**
+             * Access
+             * @enum {string}
+             */
+            access: "read" | "write" | "change" | "access";
+            /** Assign */
+            assign: string;
+            /** At Column */
+            at_column: number;
+            /**
+             * At Line
+             * @description where it really is; 0 for other kinds
+             */
+            at_line: number;
+            /** Author */
+            author: string;
+            /** Condition */
+            condition: string;
+            /** Enabled */
+            enabled: boolean;
+            /** Error */
+            error: string;
+            /** File */
+            file: string;
+            /**
+             * Group
+             * @description empty: the list that all browsers share; else a session of another tool
+             */
+            group: string;
+            /** Hits */
+            hits: string;
+            /** Id */
+            id: number;
+            /** Instance */
+            instance: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "line" | "data" | "error" | "violation" | "trap" | "scan";
+            /**
+             * Line
+             * @description as asked for
+             */
+            line: number;
+            /** Log */
+            log: string;
+            /** Message */
+            message: string;
+            /** Path */
+            path: string;
+            /**
+             * Reached
+             * @description how often, since it was set
+             */
+            reached: number;
+            /** Scan */
+            scan: number;
+            /** Task */
+            task: string;
+            /** Verified */
+            verified: boolean;
+        };
+        /**
+         * Breakpoints
+         * @description All breakpoints of the instance, whenever they or their counts change; also in `hello`.
+         */
+        Breakpoints: {
+            /** Breakpoints */
+            breakpoints: components["schemas"]["BreakpointInfo"][];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "breakpoints";
+        };
+        /**
          * Build
          * @description `agreed`: variables may be initialised anew; without it a build that would do so only reports what it would do.
          */
@@ -1278,7 +1459,7 @@ export interface components {
              */
             what: ("current" | "all") | number;
         };
-        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["SetMode"] | components["schemas"]["Run"] | components["schemas"]["Restart"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["ClearDiagnostics"];
+        ClientMessage: components["schemas"]["Watch"] | components["schemas"]["Unwatch"] | components["schemas"]["Write"] | components["schemas"]["Force"] | components["schemas"]["Release"] | components["schemas"]["Generate"] | components["schemas"]["Recover"] | components["schemas"]["Arm"] | components["schemas"]["Disarm"] | components["schemas"]["SetMode"] | components["schemas"]["Run"] | components["schemas"]["Restart"] | components["schemas"]["NewRun"] | components["schemas"]["Travel"] | components["schemas"]["RollBack"] | components["schemas"]["ClearDiagnostics"] | components["schemas"]["SetCoverage"] | components["schemas"]["DapOut"];
         /**
          * CommandResult
          * @description What became of a command that came by REST.
@@ -1292,6 +1473,86 @@ export interface components {
             ok: boolean;
             /** Scan */
             scan: number;
+        };
+        /**
+         * Coverage
+         * @description Sent while coverage is on, when something more was reached; `GET /api/instances/{id}/coverage`, `.../coverage.lcov`.
+         */
+        Coverage: {
+            /** Files */
+            files: components["schemas"]["CoveredFile"][];
+            /** On */
+            on: boolean;
+            /** Scans */
+            scans: number;
+            /** Since Scan */
+            since_scan: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "coverage";
+        };
+        /** CoveredFile */
+        CoveredFile: {
+            /** File */
+            file: string;
+            /** Sites */
+            sites: components["schemas"]["CoveredSite"][];
+        };
+        /** CoveredOutcome */
+        CoveredOutcome: {
+            /** Name */
+            name: string;
+            /** Taken */
+            taken: boolean;
+        };
+        /** CoveredSite */
+        CoveredSite: {
+            /** Column */
+            column: number;
+            /** End Column */
+            end_column: number;
+            /** End Line */
+            end_line: number;
+            /** Line */
+            line: number;
+            /** Outcomes */
+            outcomes: components["schemas"]["CoveredOutcome"][];
+            /** Pou */
+            pou: string;
+            /** Reached */
+            reached: boolean;
+        };
+        /**
+         * Dap
+         * @description A DAP response or event for this browser.
+         */
+        Dap: {
+            /** Message */
+            message: {
+                [key: string]: components["schemas"]["JsonValue"];
+            };
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "dap";
+        };
+        /**
+         * DapOut
+         * @description A DAP request of the browser; each connection is a debug session of its own, which is attached from the start.
+         */
+        DapOut: {
+            /** Message */
+            message: {
+                [key: string]: components["schemas"]["JsonValue"];
+            };
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "dap";
         };
         /**
          * Deleted
@@ -1382,6 +1643,29 @@ export interface components {
              * @enum {string}
              */
             type: "done";
+        };
+        /**
+         * Drive
+         * @description As `Run` on the socket.
+         */
+        Drive: {
+            /**
+             * Action
+             * @enum {string}
+             */
+            action: "continue" | "pause" | "scan" | "speed";
+            /** Scans */
+            scans?: number | null;
+            /**
+             * Speed
+             * @description 0.01 to 1000; 0 is as fast as possible
+             */
+            speed?: number | null;
+            /**
+             * Until
+             * @description a BOOL expression over instance paths and addresses
+             */
+            until?: string | null;
         };
         /**
          * EmbeddedCheck
@@ -1781,6 +2065,52 @@ export interface components {
             id: string;
         };
         /**
+         * HaltInfo
+         * @description The PLC is halted by the debugger; part of the instance's state, so that everybody sees it at once.
+         */
+        HaltInfo: {
+            /** By */
+            by: string;
+            /** Column */
+            column: number;
+            /**
+             * Count
+             * @description statements of the scan that have begun, the next one included; 0 is the seam
+             */
+            count: number;
+            /** End Column */
+            end_column: number;
+            /** End Line */
+            end_line: number;
+            /**
+             * File
+             * @description of the statement that is next; empty in the seam
+             */
+            file: string;
+            /** Instance */
+            instance: string;
+            /** Line */
+            line: number;
+            /**
+             * Number
+             * @description another number is another halt
+             */
+            number: number;
+            /** Past */
+            past: boolean;
+            /** Pou */
+            pou: string;
+            /**
+             * Reason
+             * @enum {string}
+             */
+            reason: "breakpoint" | "data breakpoint" | "step" | "pause" | "entry" | "goto" | "error" | "violation" | "trap" | "scan";
+            /** Task */
+            task: string;
+            /** Text */
+            text: string;
+        };
+        /**
          * HandlerLine
          * @description A statement that was reached only with the error.
          */
@@ -1797,6 +2127,9 @@ export interface components {
         Hello: {
             /** Armed */
             armed: components["schemas"]["ArmedFault"][];
+            /** Breakpoints */
+            breakpoints: components["schemas"]["BreakpointInfo"][];
+            coverage: components["schemas"]["Coverage"] | null;
             diagnostics: components["schemas"]["Diagnostics"];
             /** Errors */
             errors: components["schemas"]["ErrorHistoryRow"][];
@@ -1921,8 +2254,15 @@ export interface components {
              * @description measured duration of a scan
              */
             cycle_us: number;
+            /**
+             * Flavour
+             * @description which code runs: empty is the ordinary one, `debug`, `probed`
+             */
+            flavour: string;
             /** Forces */
             forces: number;
+            /** @description where the debugger halted it, also in the past; null while it runs */
+            halt: components["schemas"]["HaltInfo"] | null;
             /** Interval Ns */
             interval_ns: number;
             /**
@@ -1963,7 +2303,7 @@ export interface components {
              * State
              * @enum {string}
              */
-            state: "starting" | "running" | "paused" | "stopped" | "fatal" | "trapped" | "restarting" | "failed" | "past" | "off";
+            state: "starting" | "running" | "paused" | "halted" | "stopped" | "fatal" | "trapped" | "restarting" | "failed" | "past" | "off";
             /**
              * Target
              * @description where a run that was asked for ends: `scan 4711`, `until Main.count > 3`; or empty
@@ -1973,6 +2313,7 @@ export interface components {
             time_ns: number;
             trap: components["schemas"]["TrapInfo"] | null;
         };
+        JsonValue: unknown;
         /** Log */
         Log: {
             /** Lines */
@@ -1996,7 +2337,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "write" | "force" | "error" | "recover" | "mode" | "run" | "build" | "system";
+            kind: "write" | "force" | "error" | "recover" | "mode" | "run" | "build" | "system" | "halt";
             /** Scan */
             scan: number;
             /** Text */
@@ -2029,7 +2370,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "write" | "force" | "error" | "recover" | "mode" | "run" | "build" | "system";
+            kind: "write" | "force" | "error" | "recover" | "mode" | "run" | "build" | "system" | "halt";
             /** Scan */
             scan: number;
             /** Text */
@@ -2617,6 +2958,14 @@ export interface components {
              */
             type: "release";
         };
+        /** ReleaseForces */
+        ReleaseForces: {
+            /**
+             * Path
+             * @description null releases all
+             */
+            path?: string | null;
+        };
         /** Restart */
         Restart: {
             /**
@@ -2726,7 +3075,24 @@ export interface components {
             /** Version */
             version: number;
         };
-        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["Alive"];
+        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Coverage"] | components["schemas"]["Alive"];
+        /** SetCoverage */
+        SetCoverage: {
+            /** On */
+            on: boolean;
+            /** Ref */
+            ref: number;
+            /**
+             * Reset
+             * @default false
+             */
+            reset: boolean;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "set_coverage";
+        };
         /** SetMode */
         SetMode: {
             /**
@@ -3399,6 +3765,34 @@ export interface components {
             name: string;
         };
         /**
+         * Value
+         * @description A variable, an address or an expression of ST, as it is between two scans (or where the PLC is halted).
+         */
+        Value: {
+            /**
+             * Address
+             * @description vendor notation where it is located; else empty
+             */
+            address: string;
+            /**
+             * Alias
+             * @description of an in-out or reference: what it leads to, `-> Main.tank[3].level (D120)`
+             */
+            alias: string;
+            /**
+             * Path
+             * @description instance path or address; empty for what is computed
+             */
+            path: string;
+            /** Type */
+            type: string;
+            /**
+             * Value
+             * @description as it would be typed: TRUE, 42, T#5s, 'text'; of a structure how many members it has
+             */
+            value: string;
+        };
+        /**
          * Violation
          * @description A place and instance at which a value left its subrange.
          */
@@ -3477,6 +3871,26 @@ export interface components {
             type: "watching";
         };
         /**
+         * WatchListChanged
+         * @description Somebody saved or deleted a watch list that this browser may see.
+         */
+        WatchListChanged: {
+            /** Author */
+            author: string;
+            /** Id */
+            id: number;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "watch_list";
+            /**
+             * Version
+             * @description 0: it is deleted
+             */
+            version: number;
+        };
+        /**
          * Wording
          * @description Name and description in another language than English; empty where the model has none.
          */
@@ -3515,7 +3929,10 @@ export interface components {
         WriteValue: {
             /** Path */
             path: string;
-            /** Value */
+            /**
+             * Value
+             * @description as typed: TRUE, 42, 16#FF, T#5s, 1.5, 'text'
+             */
             value: string;
         };
         /**
@@ -4065,6 +4482,72 @@ export interface operations {
             };
         };
     };
+    on_force_api_instances__instance__force_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["WriteValue"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
+                };
+            };
+        };
+    };
+    on_forces_api_instances__instance__forces_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ForceInfo"][];
+                };
+            };
+        };
+    };
     on_history_api_instances__instance__history_get: {
         parameters: {
             query?: {
@@ -4195,6 +4678,76 @@ export interface operations {
             };
         };
     };
+    on_release_api_instances__instance__release_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ReleaseForces"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
+                };
+            };
+        };
+    };
+    on_run_api_instances__instance__run_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["Drive"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
+                };
+            };
+        };
+    };
     on_new_state_api_instances__instance__states_post: {
         parameters: {
             query?: never;
@@ -4294,6 +4847,39 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Symbol"][];
+                };
+            };
+        };
+    };
+    on_read_api_instances__instance__value_get: {
+        parameters: {
+            query: {
+                path: string;
+            };
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Value"];
                 };
             };
         };

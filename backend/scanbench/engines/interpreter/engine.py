@@ -33,7 +33,8 @@ class ReferenceEngine(Engine):
         self.record = recorder(memory, program.layout.violations)
         self._bodies: dict[Pou, Body] = {}
         for pou in program.pous:
-            self._bodies[pou] = Statements(self, pou).block(pou.body)
+            body = Statements(self, pou).block(pou.body)
+            self._bodies[pou] = body if observer is None else observer.body(pou, body)
         self._common = [self._silent(self._program(each)) for each in program.common]
         self._plant = [self._silent(self._program(each)) for each in program.plant]
         self._tasks = [(self._due(task), [self._program(each) for each in task.programs]) for task in program.tasks]
@@ -47,13 +48,18 @@ class ReferenceEngine(Engine):
     def _program(self, instance: ProgramInstance) -> Callable[[], None]:
         """One program instance of a task, with what is connected to it."""
         make = Statements(self, replace(instance.pou, first_trap=0, first_check=0))
-        before, body, after = make.block(instance.before), self._bodies[instance.pou], make.block(instance.after)
+        body = self._bodies[instance.pou]
+        before, after = (self._connected(instance, make.block(each)) for each in (instance.before, instance.after))
 
         def run() -> None:
             before(0)
             body(instance.offset)
             after(0)
 
+        return run
+
+    def _connected(self, instance: ProgramInstance, run: Body) -> Body:
+        """What is connected to a program instance, on one side of it; called without an instance."""
         return run
 
     def _silent(self, run: Callable[[], None]) -> Callable[[], None]:

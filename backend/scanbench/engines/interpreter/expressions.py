@@ -30,7 +30,7 @@ from scanbench.engines.interpreter import arithmetic
 from scanbench.engines.interpreter.arithmetic import Operand
 from scanbench.engines.interpreter.intrinsics import intrinsic
 from scanbench.engines.interpreter.memory import Put, Value, decode, putter
-from scanbench.engines.interpreter.observer import ObservedPlaces, ReferenceObserver
+from scanbench.engines.interpreter.observer import ReferenceObserver
 from scanbench.engines.interpreter.places import Places, Read, Trapped, Write
 from scanbench.engines.interpreter.violations import Record
 
@@ -64,7 +64,7 @@ class Expressions(ABC):
         self.memory = bodies.memory
         found = bodies.memory, bodies.state_size, pou.frame_offset, self.evaluate, pou.first_trap
         observer = None if is_system(pou.span) else bodies.observer
-        self.places = Places(*found) if observer is None else ObservedPlaces(observer, *found)
+        self.places = Places(*found) if observer is None else observer.places(*found)
 
     @abstractmethod
     def block(self, statements: Sequence[Stmt]) -> Body:

@@ -3,7 +3,7 @@
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 
-from scanbench.check.program import Expr, Place, Program, Stmt
+from scanbench.check.program import Expr, Place, Pou, Program, Stmt
 from scanbench.engines.interpreter.memory import Value, getter
 from scanbench.engines.interpreter.places import BIT_SHIFT, BYTE_OFFSET, Places, Read
 from scanbench.engines.observe import LIMIT, Observer, ReadAt, Seen
@@ -31,6 +31,25 @@ class ReferenceObserver(Observer):
         seen = Seen(frozenset(self._reached), reads, self._lost)
         self._reached, self._reads, self._lost = set(), {}, 0
         return seen
+
+    def places(
+        self,
+        memory: bytearray,
+        state_size: int,
+        frame_offset: int,
+        evaluate: Callable[[Expr], Read],
+        first_trap: int,
+    ) -> Places:
+        """The places of the body of one POU."""
+        return ObservedPlaces(self, memory, state_size, frame_offset, evaluate, first_trap)
+
+    def body(self, pou: Pou, run: Callable[[int], int]) -> Callable[[int], int]:
+        """The closure of a whole body."""
+        return run
+
+    def way(self, node: Stmt, way: int, run: Callable[[int], int]) -> Callable[[int], int]:
+        """The closure of one way that a statement can go, see `Sites.outcome`."""
+        return run
 
     # ---- while the program runs -----------------------------------------------------------------------------
 

@@ -126,7 +126,7 @@ class Places:
 
     def _through(self, place: Place, size: int) -> Reference:
         if place.slot is not None:
-            follow = self.read(place.slot)
+            follow = self.follow(place.slot)
         else:
             assert place.reference is not None
             follow = self.evaluate(place.reference)
@@ -144,6 +144,10 @@ class Places:
             return (found & kept) + offset | bit
 
         return through
+
+    def follow(self, slot: Place) -> Read:
+        """What an in-out slot holds."""
+        return self.read(slot)
 
     def address(self, place: Place, size: int = 0) -> Address:
         """The byte offset of a place."""
@@ -192,6 +196,16 @@ class Places:
             return lambda instance, value: put(fixed, value)
         where = self.address(place)
         return lambda instance, value: put(where(instance), value)
+
+    def set_bytes(self, place: Place, data: bytes) -> Callable[[int], None]:
+        """Stores fixed bytes in a place."""
+        memory, where = self.memory, self.address(place)
+
+        def set_bytes(instance: int) -> None:
+            at = where(instance)
+            memory[at : at + len(data)] = data
+
+        return set_bytes
 
 
 def _reach(place: Place, size: int) -> int:

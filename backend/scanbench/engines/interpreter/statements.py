@@ -55,6 +55,10 @@ class Statements(Expressions):
         run, observer = self._statement(node), self.bodies.observer
         return run if observer is None else observer.statement(node, run)
 
+    def _way(self, node: Stmt, way: int, run: Body) -> Body:
+        observer = self.bodies.observer
+        return run if observer is None else observer.way(node, way, run)
+
     def _statement(self, node: Stmt) -> Body:
         match node:
             case Assign():
@@ -100,11 +104,10 @@ class Statements(Expressions):
         return assign
 
     def _set_bytes(self, node: SetBytes) -> Body:
-        memory, where, data = self.memory, self.places.address(node.target), node.data
+        store = self.places.set_bytes(node.target, node.data)
 
         def set_bytes(instance: int) -> int:
-            at = where(instance)
-            memory[at : at + len(data)] = data
+            store(instance)
             return GO_ON
 
         return set_bytes
@@ -168,8 +171,9 @@ class Statements(Expressions):
     # ---- choices ------------------------------------------------------------------------------------------------
 
     def _if(self, node: If) -> Body:
-        branches = [(self.evaluate(condition), self.block(body)) for condition, body in node.branches]
-        orelse = self.block(node.orelse)
+        bodies = [self._way(node, way, self.block(body)) for way, (_, body) in enumerate(node.branches)]
+        branches = [(self.evaluate(each), body) for (each, _), body in zip(node.branches, bodies, strict=True)]
+        orelse = self._way(node, len(branches), self.block(node.orelse))
         if len(branches) == 1:
             condition, then = branches[0]
             return lambda instance: then(instance) if condition(instance) else orelse(instance)
@@ -183,8 +187,9 @@ class Statements(Expressions):
         return choose
 
     def _case(self, node: Case) -> Body:
-        selector, orelse = self.evaluate(node.selector), self.block(node.orelse)
-        branches = [(ranges, self.block(body)) for ranges, body in node.branches]
+        selector, orelse = self.evaluate(node.selector), self._way(node, len(node.branches), self.block(node.orelse))
+        bodies = [self._way(node, way, self.block(body)) for way, (_, body) in enumerate(node.branches)]
+        branches = [(ranges, body) for (ranges, _), body in zip(node.branches, bodies, strict=True)]
 
         def choose(instance: int) -> int:
             value = selector(instance)
@@ -211,17 +216,21 @@ class Statements(Expressions):
         return spend
 
     def _while(self, node: While) -> Body:
-        condition, body, spend = self.evaluate(node.condition), self.block(node.body), self._spender(node.trap)
+        condition, spend = self.evaluate(node.condition), self._spender(node.trap)
+        body, none = self._way(node, 0, self.block(node.body)), self._way(node, 1, self.block(()))
 
         def loop(instance: int) -> int:
-            while condition(instance):
+            if not condition(instance):
+                return none(instance)
+            while True:
                 spend(1)
                 end = body(instance)
                 if end == EXIT:
                     return GO_ON
                 if end == RETURN:
                     return RETURN
-            return GO_ON
+                if not condition(instance):
+                    return GO_ON
 
         return loop
 
@@ -243,7 +252,8 @@ class Statements(Expressions):
 
     def _for(self, node: For) -> Body:
         start, end, step = (self.evaluate(each) for each in (node.start, node.end, node.step))
-        store, body, spend = self.places.write(node.variable), self.block(node.body), self._spender(node.trap)
+        store, spend = self.places.write(node.variable), self._spender(node.trap)
+        body, none = self._way(node, 0, self.block(node.body)), self._way(node, 1, self.block(()))
         type = node.variable.type
         assert isinstance(type, Elementary)
         wrap, each_round, (low, high) = arithmetic.wrapper(type), node.exits, node.bounds or bounds(type)
@@ -256,6 +266,8 @@ class Statements(Expressions):
             rounds = 0 if by == 0 else max((last - first) // by + 1, 0)
             if not each_round:
                 spend(rounds)
+            if rounds == 0:
+                none(instance)
             counter = first
             for _ in range(rounds):
                 if each_round:

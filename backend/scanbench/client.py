@@ -1,0 +1,178 @@
+"""A PLC of a running server, for scripts and tests in Python.
+
+    from scanbench.client import connect
+
+    plc = connect("http://127.0.0.1:8000/?token=...").plc("conveyor")
+    plc.write("Main.level", 7)            # an in-out goes to what it is bound to; the answer says where
+    assert plc.read("Main.level") == "7"
+    with plc.forced("D100", 5):
+        plc.run(scans=10)
+
+Everything goes through the server's REST API, and so through the one door: the journal names you. Values come and go as
+they are typed in the watch table: `TRUE`, `42`, `T#5s`, `'text'`.
+"""
+
+import json
+from collections.abc import Iterator, Mapping
+from contextlib import contextmanager
+from time import monotonic_ns, sleep
+from urllib.error import HTTPError
+from urllib.parse import parse_qs, quote, urlencode, urlsplit
+from urllib.request import Request, urlopen
+
+Json = None | bool | int | float | str | list["Json"] | dict[str, "Json"]
+Value = str | int | float | bool
+
+_TIMEOUT_S = 60
+_LOOK_S = 0.02
+
+
+class Refused(Exception):
+    """The server refused; the message says what to do, `near` names what was perhaps meant."""
+
+    def __init__(self, message: str, near: tuple[str, ...] = ()) -> None:
+        super().__init__(message)
+        self.near = near
+
+
+class Server:
+    """A running server."""
+
+    def __init__(self, address: str, token: str, user: str) -> None:
+        """See `connect`."""
+        self._address, self._token, self._user = address.rstrip("/"), token, user
+
+    def plcs(self) -> Mapping[str, int]:
+        """Instances by name, with their numbers."""
+        answer = self.ask("GET", "/api")
+        assert isinstance(answer, dict)
+        found = answer["instances"]
+        assert isinstance(found, list)
+        return {str(each["name"]): int(str(each["id"])) for each in found if isinstance(each, dict)}
+
+    def plc(self, name: str | int) -> "Plc":
+        """The instance of this name or number."""
+        if isinstance(name, int):
+            return Plc(self, name)
+        known = self.plcs()
+        if name not in known:
+            raise Refused(f"there is no instance `{name}`", tuple(known))
+        return Plc(self, known[name])
+
+    def ask(self, method: str, path: str, body: Json = None) -> Json:
+        """One request; `Refused` when the server says no, `OSError` when there is none."""
+        request = Request(self._address + path, method=method)
+        request.add_header("Authorization", f"Bearer {self._token}")
+        request.add_header("Cookie", f"scanbench_user={quote(self._user)}")
+        if body is not None:
+            request.add_header("Content-Type", "application/json")
+            request.data = json.dumps(body).encode()
+        try:
+            with urlopen(request, timeout=_TIMEOUT_S) as answer:
+                return _json(answer.read())
+        except HTTPError as error:
+            told = _json(error.read())
+            if not isinstance(told, dict) or "message" not in told:
+                raise
+            near = told.get("near")
+            raise Refused(str(told["message"]), tuple(map(str, near)) if isinstance(near, list) else ()) from None
+
+
+class Plc:
+    """One virtual PLC."""
+
+    def __init__(self, server: Server, id: int) -> None:
+        self._server, self._base = server, f"/api/instances/{id}"
+
+    def read(self, path: str) -> str:
+        """The value of a variable, an address or an expression of ST."""
+        answer = self._server.ask("GET", f"{self._base}/value?{urlencode({'path': path})}")
+        assert isinstance(answer, dict)
+        return str(answer["value"])
+
+    def write(self, path: str, value: Value) -> str:
+        """Writes once; the answer says where it went."""
+        return self._command("write", {"path": path, "value": _typed(value)})
+
+    def force(self, path: str, value: Value) -> str:
+        """Holds a variable until it is released."""
+        return self._command("force", {"path": path, "value": _typed(value)})
+
+    def release(self, path: str | None = None) -> str:
+        """Ends a force, or all."""
+        return self._command("release", {"path": path})
+
+    @contextmanager
+    def forced(self, path: str, value: Value) -> Iterator[None]:
+        """Forced inside of a `with`."""
+        self.force(path, value)
+        try:
+            yield
+        finally:
+            self.release(path)
+
+    def raise_error(self, error: str, **details: Value) -> str:
+        """Raises an error of the model's catalogue."""
+        one: Json = {"id": error, "details": {name: str(value) for name, value in details.items()}}
+        return self._command("errors/generate", {"errors": [one]})
+
+    def recover(self, *errors: str) -> str:
+        """Recovers these errors, or all."""
+        return self._command("errors/recover", {"ids": list(errors) or None})
+
+    def run(
+        self, scans: int | None = None, until: str | None = None, speed: float | None = None, timeout_s: float = 60.0
+    ) -> str:
+        """Lets it run: for ever; or for so many scans, or until a condition holds, and then this waits for that.
+
+        `TimeoutError` when it did not come to its end by then; it runs on.
+        """
+        said = self._command("run", {"action": "continue", "scans": scans, "until": until, "speed": speed})
+        if scans is None and until is None:
+            return said
+        end = monotonic_ns() + int(timeout_s * 1e9)
+        while (state := self.state)["state"] == "running":
+            if monotonic_ns() > end:
+                raise TimeoutError(f"{said}: it still runs, at scan {state['scan']}")
+            sleep(_LOOK_S)
+        return str(state["message"])
+
+    def pause(self) -> str:
+        """Pauses it behind the scan that runs."""
+        return self._command("run", {"action": "pause"})
+
+    def scan(self) -> str:
+        """Runs one scan."""
+        return self._command("run", {"action": "scan"})
+
+    @property
+    def state(self) -> Mapping[str, Json]:
+        """The state of the PLC: `state`, `mode`, `scan`, `message` and more."""
+        answer = self._server.ask("GET", self._base)
+        assert isinstance(answer, dict)
+        state = answer["state"]
+        assert isinstance(state, dict)
+        return state
+
+    def _command(self, what: str, body: dict[str, Json]) -> str:
+        answer = self._server.ask("POST", f"{self._base}/{what}", body)
+        assert isinstance(answer, dict)
+        return str(answer["message"])
+
+
+def connect(address: str, token: str = "", user: str = "script") -> Server:
+    """A server by the address that it prints, which has the token in it."""
+    parts = urlsplit(address if "//" in address else f"http://{address}")
+    given = token or parse_qs(parts.query).get("token", [""])[0]
+    return Server(f"{parts.scheme}://{parts.netloc}", given, user)
+
+
+def _typed(value: Value) -> str:
+    if isinstance(value, bool):
+        return "TRUE" if value else "FALSE"
+    return str(value)
+
+
+def _json(data: bytes) -> Json:
+    found: Json = json.loads(data) if data else None
+    return found

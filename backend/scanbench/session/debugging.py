@@ -1,0 +1,101 @@
+"""Debugging at one PLC, seen from the parent: the breakpoints that people want, and what the host says of them."""
+
+from collections.abc import Awaitable, Callable, Sequence
+from dataclasses import replace
+
+from scanbench.debug.breakpoint import Breakpoint, Verdict
+from scanbench.session import debug_protocol, events, protocol
+from scanbench.session.debug_protocol import BreakpointsAre, Coverage, DebugAnswer, DebugRequest
+from scanbench.session.instance import Unavailable
+
+NOT_YET = "the PLC is not there: the breakpoint is set when it is"
+Ask = Callable[[Callable[[int], DebugRequest]], Awaitable[DebugAnswer | protocol.Ack]]
+
+
+class Debugging:
+    """Keeps what has to be told to the next host, when this one dies or is switched off."""
+
+    def __init__(self, ask: Ask, publish: Callable[[events.Event], None], verdicts: Sequence[Verdict] = ()) -> None:
+        self._ask, self._publish = ask, publish
+        self._verdicts: dict[int, Verdict] = {each.breakpoint.id: each for each in verdicts}
+        self._next = max(self._verdicts, default=0) + 1
+        self._coverage: Coverage | None = None
+
+    @property
+    def verdicts(self) -> tuple[Verdict, ...]:
+        """All breakpoints of the PLC, in the order in which they were made."""
+        return tuple(self._verdicts[id] for id in sorted(self._verdicts))
+
+    @property
+    def coverage(self) -> Coverage | None:
+        """What was reached, as it was told last; None before the first time."""
+        return self._coverage
+
+    async def set_breakpoints(
+        self, group: str, kind: str | None, file: str | None, wanted: Sequence[Breakpoint]
+    ) -> tuple[Verdict, ...]:
+        """These, in place of those that the group has of this kind and file (None is any); what became of each, in order.
+
+        Of a breakpoint with id 0 the id is found: that of the same one before, so that its count goes on, or a new one.
+        """
+        before = [each.breakpoint for each in self.verdicts if _is_of(each.breakpoint, group, kind, file)]
+        named = [self._named(each, before) for each in wanted]
+        for gone in before:
+            self._verdicts.pop(gone.id, None)
+        for each in named:
+            self._verdicts[each.id] = Verdict(each, False, NOT_YET)
+        try:
+            answer = await self._ask(lambda ref: debug_protocol.SetBreakpoints(ref, group, kind, file, tuple(named)))
+            if isinstance(answer, BreakpointsAre):
+                self._verdicts |= {
+                    each.breakpoint.id: each for each in answer.verdicts if each.breakpoint.id in self._verdicts
+                }
+            elif isinstance(answer, protocol.Ack):
+                self._verdicts |= {each.id: Verdict(each, False, answer.message) for each in named}
+        except Unavailable as error:
+            self._verdicts |= {each.id: Verdict(each, False, str(error)) for each in named}
+        self._publish(events.BreakpointsChanged(self.verdicts))
+        return tuple(self._verdicts.get(each.id) or Verdict(each, False, "taken away meanwhile") for each in named)
+
+    async def forget_group(self, group: str) -> None:
+        """The debug session of this group is gone."""
+        if any(each.breakpoint.group == group for each in self.verdicts):
+            await self.set_breakpoints(group, None, None, ())
+
+    def _named(self, wanted: Breakpoint, before: list[Breakpoint]) -> Breakpoint:
+        if wanted.id:
+            return wanted
+        same = next((each for each in before if replace(each, id=0, author=wanted.author) == wanted), None)
+        if same is not None:
+            before.remove(same)
+            self._verdicts.pop(same.id, None)
+            return same
+        id, self._next = self._next, self._next + 1
+        return replace(wanted, id=id)
+
+    # ---- from the host --------------------------------------------------------------------------------------------
+
+    async def resend(self) -> None:
+        """Another host is there: it has to know."""
+        groups: dict[str, list[Breakpoint]] = {}
+        for each in self.verdicts:
+            groups.setdefault(each.breakpoint.group, []).append(each.breakpoint)
+        for group, wanted in groups.items():
+            await self.set_breakpoints(group, None, None, wanted)
+
+    def on_message(self, message: object) -> None:
+        """What the host says by itself."""
+        match message:
+            case BreakpointsAre():
+                found = {each.breakpoint.id: each for each in message.verdicts}
+                self._verdicts = {id: found.get(id, each) for id, each in self._verdicts.items()}
+                self._publish(events.BreakpointsChanged(self.verdicts))
+            case debug_protocol.LogpointSaid():
+                self._publish(events.LogpointSaid(message))
+            case Coverage():
+                self._coverage = message
+                self._publish(events.CoverageChanged(message))
+
+
+def _is_of(one: Breakpoint, group: str, kind: str | None, file: str | None) -> bool:
+    return one.group == group and kind in (None, one.kind) and file in (None, one.file)

@@ -1,0 +1,39 @@
+"""Values of one PLC by REST: read, write, force, and how it runs; for scripts and `scanbench.client`."""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from scanbench.web.messages_base import Wire
+
+
+class Value(Wire):
+    """A variable, an address or an expression of ST, as it is between two scans (or where the PLC is halted)."""
+
+    path: str = Field(description="instance path or address; empty for what is computed")
+    value: str = Field(
+        description="as it would be typed: TRUE, 42, T#5s, 'text'; of a structure how many members it has"
+    )
+    type: str
+    address: str = Field(description="vendor notation where it is located; else empty")
+    alias: str = Field(description="of an in-out or reference: what it leads to, `-> Main.tank[3].level (D120)`")
+
+
+class WriteValue(Wire):
+    """Write a variable or an address, with the rights of a tool."""
+
+    path: str
+    value: str = Field(description="as typed: TRUE, 42, 16#FF, T#5s, 1.5, 'text'")
+
+
+class ReleaseForces(Wire):
+    path: str | None = Field(default=None, description="null releases all")
+
+
+class Drive(Wire):
+    """As `Run` on the socket."""
+
+    action: Literal["continue", "pause", "scan", "speed"]
+    speed: float | None = Field(default=None, description="0.01 to 1000; 0 is as fast as possible")
+    scans: Annotated[int, Field(ge=1, lt=1 << 53)] | None = None
+    until: str | None = Field(default=None, description="a BOOL expression over instance paths and addresses")

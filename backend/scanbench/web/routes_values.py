@@ -1,0 +1,73 @@
+"""REST: values of one PLC, for scripts: read, write, force, and how it runs. The same door as the browser's."""
+
+from typing import Annotated
+
+from fastapi import APIRouter, Query, Request
+
+from scanbench.runtime.forces import Force, Release
+from scanbench.runtime.write import Write
+from scanbench.session.debug_protocol import Evaluate, Evaluated
+from scanbench.session.protocol import Ack
+from scanbench.session.refused import Refused
+from scanbench.web import messages as wire
+from scanbench.web import messages_values, translate
+from scanbench.web.auth import user_of
+from scanbench.web.messages_base import Id
+from scanbench.web.messages_errors import CommandResult
+from scanbench.web.reach import Bench
+from scanbench.web.translate_errors import command_result
+
+router = APIRouter(prefix="/api/instances/{instance}", tags=["values"])
+
+
+@router.get("/value")
+async def on_read(
+    bench: Bench, request: Request, instance: Id, path: Annotated[str, Query(max_length=2000)]
+) -> messages_values.Value:
+    """The value of a variable, an address or an expression: `Main.level`, `D100`, `Main.level > 3 AND motor`."""
+    author = user_of(request).name
+    answer = await bench.session(instance).debug(lambda ref: Evaluate(ref, None, path, author))
+    if isinstance(answer, Ack):
+        raise Refused(answer.message, answer.near)
+    assert isinstance(answer, Evaluated)
+    if answer.variable is None:
+        raise Refused(answer.message, answer.near)
+    found = answer.variable
+    return messages_values.Value(
+        path=found.path, value=found.value, type=found.type, address=found.address, alias=found.alias
+    )
+
+
+@router.post("/write")
+async def on_write(bench: Bench, request: Request, instance: Id, wanted: messages_values.WriteValue) -> CommandResult:
+    """Writes a variable or an address, with the rights of a tool: error memory is read-only here."""
+    command = Write(user_of(request).name, wanted.path, wanted.value)
+    return command_result(await bench.session(instance).submit(command))
+
+
+@router.get("/forces")
+async def on_forces(bench: Bench, instance: Id) -> list[wire.ForceInfo]:
+    """The forces that hold."""
+    return list(map(translate.force, bench.session(instance).forces))
+
+
+@router.post("/force")
+async def on_force(bench: Bench, request: Request, instance: Id, wanted: messages_values.WriteValue) -> CommandResult:
+    """Holds a variable or an address at a value until it is released."""
+    command = Force(user_of(request).name, wanted.path, wanted.value)
+    return command_result(await bench.session(instance).submit(command))
+
+
+@router.post("/release")
+async def on_release(
+    bench: Bench, request: Request, instance: Id, wanted: messages_values.ReleaseForces
+) -> CommandResult:
+    """Ends a force, or all."""
+    return command_result(await bench.session(instance).submit(Release(user_of(request).name, wanted.path)))
+
+
+@router.post("/run")
+async def on_run(bench: Bench, request: Request, instance: Id, wanted: messages_values.Drive) -> CommandResult:
+    """Lets the PLC run, pauses it, runs one scan. The answer comes when it is under way, not when it is done."""
+    session, author = bench.session(instance), user_of(request).name
+    return command_result(await session.drive(wanted.action, wanted.speed, author, wanted.scans, wanted.until))
