@@ -86,15 +86,15 @@ def compile_condition(program: Program, text: str) -> Condition | BadCondition:
         return BadCondition("There is no condition. Write one, e.g. `Main.count > 3`.")
     if len(text) > MAX_LENGTH:
         return BadCondition(f"The condition has {len(text)} characters; it may have {MAX_LENGTH}.")
-    node = _parsed(_joined(program, text))
+    node = parsed(joined(program, text))
     if isinstance(node, BadCondition):
         return node
     report = Report()
     try:
-        return Condition(text, _ConditionChecker(program, report).condition(node))
+        return Condition(text, ProgramChecker(Visible(program), report).condition(node))
     except Rejected:
         problem = report.problems[0]
-        return _bad(problem, _near(program, text, problem) if problem.code == "T001" else ())
+        return bad_condition(problem, _near(program, text, problem) if problem.code == "T001" else ())
 
 
 def compile_signal(program: Program, text: str) -> Signal | BadCondition:
@@ -103,18 +103,18 @@ def compile_signal(program: Program, text: str) -> Signal | BadCondition:
         return BadCondition("There is no signal. Name a variable, e.g. `Main.count`.")
     if len(text) > MAX_LENGTH:
         return BadCondition(f"The signal has {len(text)} characters; it may have {MAX_LENGTH}.")
-    node = _parsed(_joined(program, text))
+    node = parsed(joined(program, text))
     if isinstance(node, BadCondition):
         return node
     report = Report()
     try:
-        return _ConditionChecker(program, report).signal(node, text)
+        return ProgramChecker(Visible(program), report).signal(node, text)
     except Rejected:
         problem = report.problems[0]
-        return _bad(problem, _near(program, text, problem) if problem.code == "T001" else ())
+        return bad_condition(problem, _near(program, text, problem) if problem.code == "T001" else ())
 
 
-def _bad(problem: Problem, near: tuple[str, ...] = ()) -> BadCondition:
+def bad_condition(problem: Problem, near: tuple[str, ...] = ()) -> BadCondition:
     return BadCondition(problem.message.replace("the file ends", "the condition ends"), near, problem.span.column)
 
 
@@ -127,7 +127,7 @@ def _near(program: Program, text: str, problem: Problem) -> tuple[str, ...]:
     return ()
 
 
-def _joined(program: Program, text: str) -> str:
+def joined(program: Program, text: str) -> str:
     """Addresses with a space in them as one word, every other character where it was."""
 
     def one(match: re.Match[str]) -> str:
@@ -139,7 +139,7 @@ def _joined(program: Program, text: str) -> str:
     return _SPACED.sub(one, text.replace("\n", " "))
 
 
-def _parsed(text: str) -> tree.Expression | BadCondition:
+def parsed(text: str) -> tree.Expression | BadCondition:
     parser = StParser(Source(NOWHERE.file, text))
     try:
         node = parser.expression()
@@ -149,27 +149,38 @@ def _parsed(text: str) -> tree.Expression | BadCondition:
         if not parser.ended():
             raise parser.fail("an operator (AND, OR, =, >, ...) or the end of the condition expected")
     except Unexpected:
-        return _bad(parser.problems[0])
-    return _bad(parser.problems[0]) if parser.problems else node
+        return bad_condition(parser.problems[0])
+    return bad_condition(parser.problems[0]) if parser.problems else node
 
 
-class _ConditionChecker(CallChecker):
+class Visible:
+    """What can be named of a whole program; made once for any number of texts."""
+
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        layout = program.layout
+        given = () if layout.symbols is None else (layout.symbols,)
+        self.scope = Scope("", _everything(program), system=given)
+        types: dict[int, Type] = {}
+        for member in self.scope.globals.members.values():
+            _collect(member.type, types)
+        for pou in program.pous:
+            for member in (*pou.instance.members.values(), *pou.frame.members.values()):
+                _collect(member.type, types)
+        self.enumerations = tuple(type for type in types.values() if isinstance(type, Enumeration))
+
+
+class ProgramChecker(CallChecker):
     """The checker of expressions, in a scope that is made of a whole program: all of it can be seen, nothing changed."""
 
-    def __init__(self, program: Program, report: Report) -> None:
-        layout = program.layout
+    def __init__(self, visible: Visible, report: Report, scope: Scope | None = None) -> None:
+        layout = visible.program.layout
         declarations = Declarations(report, layout.model, layout.areas, self._constant)
-        types: dict[int, Type] = {}
-        given = () if layout.symbols is None else (layout.symbols,)
-        scope = Scope("", _everything(program), system=given)
-        for member in scope.globals.members.values():
-            _collect(member.type, types)
-        for type in types.values():
-            if isinstance(type, Enumeration):
-                declarations.types[type.name.upper()] = type
-                declarations.values.add_inline("GLOBAL", type)
-        super().__init__(report, declarations, Pous(), scope, None)
-        self.program = program
+        for type in visible.enumerations:
+            declarations.types[type.name.upper()] = type
+            declarations.values.add_inline("GLOBAL", type)
+        super().__init__(report, declarations, Pous(), scope or visible.scope, None)
+        self.program = visible.program
 
     def condition(self, node: tree.Expression) -> Expr:
         """The whole condition."""
@@ -199,7 +210,7 @@ class _ConditionChecker(CallChecker):
         if self.scope.find(name) is None:
             access = next((each for each in self.program.accesses if each.name.upper() == name.upper()), None)
             if access is not None:
-                inner = _parsed(access.path)
+                inner = parsed(access.path)
                 assert not isinstance(inner, BadCondition), inner
                 return self.place(inner)
             location = self.program.layout.model.locate(name)

@@ -96,7 +96,7 @@ class PlaceChecker(SubrangeChecker):
             raise self.unknown(name, span)
         member, base, owner = found
         null = 0
-        if member.section is Section.IN_OUT:
+        if member.bound:
             null = self.trap(TrapKind.NULL, span, f"the in-out {member.name} is not connected")
         return self._edge(member, base, owner) or place_of(member, base, owner, null), member
 
@@ -365,6 +365,6 @@ def inside(place: Place, record: Record, member: Member) -> Place:
     inner = replace(
         place, type=member.type, offset=place.offset + member.offset, variable=variable.upper(), bit=member.bit
     )
-    if member.section is not Section.IN_OUT:
+    if not member.bound:
         return inner
     return Place(member.type, Base.IMAGE, 0, slot=replace(inner, type=ULINT))

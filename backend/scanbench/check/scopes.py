@@ -93,7 +93,7 @@ def place_of(member: Member, base: Base, owner: Record, null_trap: int) -> Place
         return Place(member.type, base, member.offset)  # an engine writes it beside the program
     prefix = "frame " if base is Base.FRAME else ""
     variable = f"{prefix}{member.home or owner.name}.{member.name}".upper()
-    if member.section is Section.IN_OUT:
+    if member.bound:
         slot = Place(ULINT, base, member.offset, variable=variable)
         assert ULINT.size == SLOT_BYTES
         return Place(member.type, base, 0, slot=slot, null_trap=null_trap)

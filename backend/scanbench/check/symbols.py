@@ -23,6 +23,12 @@ from scanbench.check.types import (
 from scanbench.plcmodel.model import Access
 
 PART = re.compile(r"\s*\.?\s*([^\W\d]\w*)|\s*\[\s*([-\d\s,]+)\]|\s*\^")
+PIECE = re.compile(r"\s*\.\s*(?:%\s*([XBWDL]))?(\d{1,9})(?!\w)", re.IGNORECASE)
+"""A bit, byte, word or double word of an integer or bit string: `.3`, `.%X3`, `.%W1`."""
+RANGE = re.compile(r"(.*\S)\s*:\s*(\d{1,9})")
+"""So many addresses from one on: `W10:8`."""
+PARTED = (Kind.INT, Kind.UINT, Kind.BITS)
+WIDTHS = {"X": 1, "B": 8, "W": 16, "D": 32, "L": 64}
 RAW_TYPES = {1: BOOL, 8: ELEMENTARY["BYTE"], 16: ELEMENTARY["WORD"], 32: ELEMENTARY["DWORD"], 64: ELEMENTARY["LWORD"]}
 MAX_MEMBERS = 10_000
 
@@ -72,7 +78,7 @@ class Symbol:
             base = reference & 0xFFFF_FFFF
             if base < Layout.HEADER_SIZE or reference >> 35 or base >= len(memory):
                 return None
-            if self.type == BOOL and index == last and self.offset == 0:
+            if self.type == BOOL and index == last and self.offset == 0 and self.bit is None:
                 bit = reference >> 32 & 7
         if self.slots and base + self.offset + self.type.size > len(memory):
             return None
@@ -91,6 +97,10 @@ def resolve(program: Program, path: str) -> Symbol:
         return _raw(program, text)
     symbol, at = root, first.end()
     while at < len(text):
+        piece = PIECE.match(text, at)
+        if piece is not None:
+            symbol, at = _piece(symbol, piece.group(1), int(piece.group(2))), piece.end()
+            continue
         part = PART.match(text, at)
         if part is None:
             raise UnknownPath(f"`{text[at:]}` cannot be read in `{path}`; write a path like Main.fb.a[3].")
@@ -234,8 +244,27 @@ def _element(symbol: Symbol, index: str) -> Symbol:
     )  # fmt: skip
 
 
+def _piece(symbol: Symbol, size: str | None, index: int) -> Symbol:
+    """A bit or a larger part of a number."""
+    whole = symbol.type
+    bits = WIDTHS[(size or "X").upper()]
+    shown = f".{index}" if size is None else f".%{size.upper()}{index}"
+    if not isinstance(whole, Elementary) or whole.kind not in PARTED:
+        raise UnknownPath(f"`{symbol.path}` is {whole} and has no part `{shown}`; only integers and bit strings have.")
+    count = 8 * whole.size // bits if bits < 8 * whole.size else 0
+    if index >= count:
+        which = f"it has {count} of that size" if count else "it is no larger than that"
+        raise UnknownPath(f"`{symbol.path}` is {whole} and has no part `{shown}`: {which}.")
+    return replace(
+        symbol, path=f"{symbol.path}{shown}", name=shown, type=RAW_TYPES[bits], section="member", address=None,
+        offset=symbol.offset + index * bits // 8, bit=index % 8 if bits == 1 else None,
+    )  # fmt: skip
+
+
 def _children(program: Program, symbol: Symbol) -> list[Symbol]:
     type = symbol.type
+    if symbol.section == "range" and isinstance(type, ArrayType):
+        return _addresses(program, symbol, type)
     if isinstance(type, Record):
         return [
             _member(symbol, member, f"{symbol.path}.{member.name}")
@@ -250,8 +279,46 @@ def _children(program: Program, symbol: Symbol) -> list[Symbol]:
     return []
 
 
+def _range(program: Program, first: str, count: int) -> Symbol:
+    """So many addresses from one on, to be unfolded."""
+    start = _raw(program, first)
+    area, byte = program.layout.area_at(start.offset) or (None, 0)
+    assert area is not None
+    at, step = _position(start, byte)
+    room = (16 * area.words - at) // step
+    if not 1 <= count <= min(room, MAX_MEMBERS):
+        most = f"there are {room} from there on" if room < MAX_MEMBERS else f"at most {MAX_MEMBERS:,} can be watched"
+        raise UnknownPath(f"`{first}:{count}` is not a range of {area.name}: {most}.", (f"{start.path}:{min(room, 8)}",))
+    path = f"{start.path}:{count}"
+    return replace(start, path=path, name=path, type=ArrayType(((0, count - 1),), start.type), section="range", bit=None)
+
+
+def _position(symbol: Symbol, byte: int) -> tuple[int, int]:
+    """The bit of its area at which an address begins, and how many bits it has."""
+    return 8 * byte + (symbol.bit or 0), 1 if symbol.bit is not None else 8 * symbol.type.size
+
+
+def _addresses(program: Program, symbol: Symbol, array: ArrayType) -> list[Symbol]:
+    """What a range consists of."""
+    model = program.layout.model
+    start = _raw(program, symbol.path.rpartition(":")[0])
+    area, byte = program.layout.area_at(start.offset) or (None, 0)
+    assert area is not None
+    at, step = _position(start, byte)
+    found = []
+    for position in range(at, at + array.count * step, step):
+        bit = position % 8 if start.bit is not None else None
+        name = model.format(area, position // 8, bit, step)
+        offset = start.offset - byte + position // 8
+        found.append(_checked(program, replace(start, path=name, name=name, offset=offset, bit=bit, address=name)))
+    return found
+
+
 def _raw(program: Program, text: str) -> Symbol:
-    """An address of the model."""
+    """An address of the model, or a range of them."""
+    ranged = RANGE.fullmatch(text)
+    if ranged is not None:
+        return _range(program, ranged.group(1), int(ranged.group(2)))
     model = program.layout.model
     location = model.locate(text)
     if location is None:

@@ -232,6 +232,9 @@ class Member:
     """NON_RETAIN: not retained, even where the instance around it is."""
     hidden: bool = False
     """Made by the compiler (a name with `$` in it): never shown."""
+    copied: bool = False
+    """Of an in-out by value: it holds a copy of what was passed, which goes back when its block has run. What was passed, the
+    hidden in-out beside it refers to (`actual_name`)."""
     incomplete: str = ""
     """`%I*`: VAR_CONFIG gives each instance its address. The type is a REFERENCE TO what was declared."""
 
@@ -244,7 +247,12 @@ class Member:
         """Bytes it takes in its owner."""
         if self.located:
             return 0
-        return SLOT_BYTES if self.section is Section.IN_OUT else self.type.size
+        return SLOT_BYTES if self.bound else self.type.size
+
+    @property
+    def bound(self) -> bool:
+        """Whether it is a slot that refers to what was passed: an in-out, unless that is by value."""
+        return self.section is Section.IN_OUT and not self.copied
 
 
 @dataclass(eq=False, slots=True)
@@ -281,7 +289,7 @@ class Record:
         if self.kind is Kind.UNION:
             self.place_at(member, 0, member.type.align)
             return
-        align = SLOT_BYTES if member.section is Section.IN_OUT else member.type.align
+        align = SLOT_BYTES if member.bound else member.type.align
         member.offset = -(-self.size // align) * align
         self.size = member.offset + member.storage
         self.align = max(self.align, align)
@@ -364,6 +372,11 @@ ABBREVIATIONS = {
     "D": DATE, "LD": LDATE,
 }  # fmt: skip
 """In names of types (TOD, LTOD, DT, LDT), and all of them in literals."""
+
+
+def actual_name(name: str) -> str:
+    """The hidden in-out beside one by value: what the last call passed for it."""
+    return f"{name}$actual"
 
 
 def base_of(type: Elementary) -> Elementary:

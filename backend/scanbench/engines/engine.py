@@ -20,6 +20,7 @@ from enum import StrEnum
 
 from scanbench.check.condition import Condition
 from scanbench.check.program import Program
+from scanbench.engines.sample import Sampling
 
 
 class Reason(StrEnum):
@@ -97,6 +98,14 @@ class Engine(ABC):
     @abstractmethod
     def holds(self, condition: Condition) -> bool:
         """Whether the condition, made for this engine's program, holds now. Not while `run` is running."""
+
+    @abstractmethod
+    def sample(self, *samplings: Sampling) -> None:
+        """From now on these samplings, made for this engine's program, get a row for each scan that ends (`engines.sample`);
+        none of them: nothing is sampled. Not while `run` is running. A full ring makes `run` come back as for a knock.
+
+        The samplings are the engine's: whoever swaps the engine gives them to the next one.
+        """
 
     @abstractmethod
     def knock(self) -> None:

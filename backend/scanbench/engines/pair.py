@@ -7,6 +7,7 @@ from scanbench.check.symbols import at_offset
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.engines.sample import Sampling
 
 
 class Differs(Exception):
@@ -36,6 +37,9 @@ class PairEngine(Engine):
     def stop_when(self, condition: Condition | None, *others: Condition) -> None:
         self.native.stop_when(condition, *others)
         self.reference.stop_when(condition, *others)
+
+    def sample(self, *samplings: Sampling) -> None:
+        self.native.sample(*samplings)
 
     def holds(self, condition: Condition) -> bool:
         return self.native.holds(condition)

@@ -23,7 +23,9 @@ class Checkpoints:
         self._busy_ns = self._scans = 0
 
     def take(self, resource: Resource) -> bool:
-        """One more, now; false when it cannot be written. The next is tried when it would be due anyway."""
+        """One more, now; false when it cannot be written, or a scan is halted. The next is tried when it would be due anyway."""
+        if resource.begun:
+            return False
         self._measured = resource.measured
         self._busy_ns, self._scans = resource.measured.busy_ns, resource.measured.scans
         return self._recording.checkpoint(resource.header.scan, resource.version, resource.state)

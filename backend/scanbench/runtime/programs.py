@@ -5,7 +5,9 @@ from dataclasses import dataclass
 from typing import Protocol
 
 from scanbench.check.program import Program
+from scanbench.engines.debug import DebugEngine
 from scanbench.engines.engine import Engine
+from scanbench.engines.interpreter.debugged import debug_engine
 
 EngineFactory = Callable[[Program, bytearray], Engine]
 
@@ -20,6 +22,19 @@ class Loaded:
     engine: Engine
     fresh: Program | None = None
     """The same program checked anew, where later checks may have changed the statements of `program`."""
+    renew: Callable[[], Program] | None = None
+    """Makes `fresh`, where that may be needed."""
+    debug: DebugEngine | None = None
+    """The debug flavour on the same memory, once there is any."""
+
+    def debugged(self) -> DebugEngine:
+        """The debug flavour: the reference engine's, if nobody has put another one in place. So a run can be replayed that
+        was debugged, wherever it is."""
+        if self.debug is None:
+            if self.fresh is None and self.renew is not None:
+                self.fresh = self.renew()
+            self.debug = debug_engine(self.statements, self.memory)
+        return self.debug
 
     @property
     def statements(self) -> Program:

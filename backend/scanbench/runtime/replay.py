@@ -4,18 +4,23 @@ from collections.abc import Iterable
 
 from scanbench.engines.engine import Reason
 from scanbench.runtime.command import Entry
+from scanbench.runtime.inside import Diverged
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.trap import Trapped
 
-
-class Diverged(Exception):
-    """The run did not go as the journal says: the program or the engine is not the one that was recorded."""
+__all__ = ["Diverged", "replay", "run_to"]
 
 
 def replay(resource: Resource, entries: Iterable[Entry], until: int) -> None:
-    """Runs to scan `until` as fast as possible, entering each entry's plan where it was entered first."""
+    """Runs to scan `until` as fast as possible, entering each entry's plan where it was entered first.
+
+    What was entered inside of scan `until` is entered when that runs.
+    """
     for entry in entries:
         run_to(resource, entry.scan)
+        if entry.step:
+            resource.await_step(entry)
+            continue
         if isinstance(entry.command, Trapped):
             _break_off(resource)
         resource.reenter(entry)

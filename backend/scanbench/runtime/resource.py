@@ -1,19 +1,23 @@
 """The virtual PLC: engine, image, seam and journal in one. No threads: whoever owns it says when to run."""
 
 import errno
+from collections.abc import Callable
 from dataclasses import dataclass
 from operator import is_
 
 from scanbench.check.condition import Condition
 from scanbench.check.program import Program
+from scanbench.engines.debug import NOTHING as NOT_LISTENING
+from scanbench.engines.debug import Hook, Listen
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
-from scanbench.engines.observe import Observer
+from scanbench.engines.observe import Observer, Seen
 from scanbench.runtime import seam
 from scanbench.runtime.agenda import NONE_MET, NOTHING, Agenda, Met, Waits
 from scanbench.runtime.clock import monotonic_ns, wall_time
 from scanbench.runtime.command import Command, Entry, Refusal, View
 from scanbench.runtime.detect import Detect, read_asked
 from scanbench.runtime.header import Header, Mode, fresh_image, pass_time
+from scanbench.runtime.inside import Diverged, Inside, Passage, front, needs_seam
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.programs import Loaded, Programs, Shelf
 from scanbench.runtime.recorder import Recorder
@@ -53,6 +57,18 @@ class Resource:
         """A live run comes back after each scan after which it holds. Made for the program that is live."""
         self._stops = Stops()
         self._observed: _Observed | None = None
+        self._passage: Passage | None = None
+        self._listen = NOT_LISTENING
+        self._reached: set[int] = set()
+        self.inside: Inside | None = None
+        """Where the scan is halted that is next; the image stands there."""
+        self.hook: Hook | None = None
+        """Who listens to the debug flavour: while somebody does, it runs."""
+        self.on_seen: Callable[[Seen], None] | None = None
+        """Who is told what observed code or the debug flavour notes."""
+        self.on_trap: Callable[[], bool] | None = None
+        """Asked before a trap stops the program: true lets `run` come back at once, and whoever says so goes back to where
+        the scan began."""
         loaded.memory[:] = fresh_image(loaded.program, mode)
         if state is not None:
             loaded.memory[: len(state)] = state
@@ -76,6 +92,8 @@ class Resource:
     @property
     def engine(self) -> Engine:
         """What runs the program."""
+        if self.hook is not None:
+            return self.loaded.debugged()
         observed = self._observed
         return self.loaded.engine if observed is None else observed.engine
 
@@ -88,6 +106,11 @@ class Resource:
     def observing(self) -> bool:
         """Whether observed code runs, as statements are waited for."""
         return self._observed is not None
+
+    @property
+    def begun(self) -> bool:
+        """Whether the scan that is next has been run in part: it is halted, or was when the PLC was ended."""
+        return self.inside is not None or bool(self._waiting())
 
     @property
     def view(self) -> View:
@@ -112,7 +135,17 @@ class Resource:
     # ---- live -----------------------------------------------------------------------------------------------------
 
     def submit(self, command: Command) -> Entry | Refusal:
-        """Enters a command in the seam, now: planned, kept, then applied. What cannot be kept is refused."""
+        """Enters a command, now: planned, kept, then applied. What cannot be kept is refused.
+
+        In a scan that is halted it is entered where that stands; what needs the seam lets it run to its end first.
+        """
+        if self.begun:
+            plan = command.settled(self.view).plan(self.view)
+            if isinstance(plan, Refusal):
+                return plan
+            if self.inside is not None and not needs_seam(plan):
+                return self._enter(command, must=False, step=self.inside.count)
+            self.finish()
         outcome = self._enter(command, must=False)
         if not isinstance(outcome, Refusal):
             self._attend(NONE_MET)
@@ -120,7 +153,8 @@ class Resource:
 
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
         """Runs up to `scans` scans. Comes back early for a trap, which stops the program, for what it asked for, and for
-        what is due; reason CONDITION says that `until` holds."""
+        what is due; reason CONDITION says that `until` holds. With a `hook` it may be halted inside of a scan; then the
+        next run goes on with that scan, from its beginning."""
         ran = self.runnable
         self._attend(NONE_MET)  # nothing, unless this run was gone on with behind what was due
         if ran and not self.runnable:
@@ -129,8 +163,11 @@ class Resource:
         if waits.scan is not None:
             scans = min(scans, waits.scan - first)
         self._observe(waits)
-        self._stops.set(self.engine, self._conditions(waits))
-        stop = self._run(self.engine, min(scans, 1) if waits.sites else scans, pace)
+        stop = self._run(self.engine, min(scans, 1) if waits.sites else scans, pace, self._conditions(waits))
+        if stop.reason is Reason.HALTED:
+            return stop
+        if stop.reason is Reason.TRAP and self.on_trap is not None and self.on_trap():
+            return stop
         met = self._met(stop, waits)
         if stop.reason is Reason.CONDITION and (self.until is None or not self.engine.holds(self.until)):
             stop = Stop(Reason.KNOCKED)
@@ -140,6 +177,17 @@ class Resource:
             self._answer()
         self._attend(met)
         return stop
+
+    def finish(self) -> None:
+        """Runs the scan to its end that is halted."""
+        scan = self.header.scan
+        while self.begun and self.runnable and self.header.scan == scan:
+            if self.run(1).reason in (Reason.TRAP, Reason.HALTED):
+                break
+
+    def enter_here(self, command: Command, count: int) -> Entry | Refusal:
+        """For the hook: enters a command in front of the statement of this count, which is to begin."""
+        return self._enter(command, must=False, step=count)
 
     def idle(self, scans: int) -> None:
         """Up to `scans` scans pass while the program is stopped: no further than to what is due."""
@@ -162,8 +210,7 @@ class Resource:
 
     def rerun(self, scans: int, pace: Pace | None = None) -> Stop:
         """Runs up to `scans` scans, and enters nothing: what was noticed then is in the journal."""
-        self._stops.set(self.loaded.engine, ())
-        return self._run(self.loaded.engine, scans, pace)
+        return self._run(self.loaded.engine if self.hook is None else self.engine, scans, pace, ())
 
     def pass_time(self, scans: int) -> None:
         """Virtual time goes on while the program is stopped."""
@@ -174,24 +221,98 @@ class Resource:
         """Replay of an entry: its plan, not its command, so that the planner need not be the same any more."""
         self._apply(entry)
 
-    def restore(self, loaded: Loaded, state: bytes, journal: Journal) -> None:
-        """The PLC as it was: the program, its image, and the journal that led to it."""
+    def await_step(self, entry: Entry) -> None:
+        """Replay of an entry that was made inside of the scan that is next: it is entered there when that runs."""
+        if self.journal and self.journal[-1].scan == entry.scan and self.journal[-1].step > entry.step:
+            raise Diverged(f"scan {entry.scan} has entries inside that are in no order")
+        self.journal.append(entry)
+
+    def restore(self, loaded: Loaded, state: bytes, journal: Journal, inside: Inside | None = None) -> None:
+        """The PLC as it was: the program, its image, and the journal that led to it; the whole image inside of a scan."""
         if loaded is not self.loaded:
             self._load(loaded)
         self.memory[: len(state)] = state
         self.journal = journal
+        self.inside = inside
+
+    def leave(self) -> None:
+        """Where the scan began that is halted, without what was entered inside of it: for what is shown of the past."""
+        if self.inside is not None:
+            self.memory[:] = self.inside.begin
+            self.inside = None
+        self.journal = self.journal.prefix(front(self.journal, self.header.scan))
+
+    # ---- the debug flavour ----------------------------------------------------------------------------------------
+
+    def listen(self, listen: Listen) -> None:
+        """What the hook is called for, from now on: also from the hook."""
+        self._listen = listen
+        if self._passage is not None:
+            self._passage.listen(listen)
+
+    def look(self) -> None:
+        """Takes what was noted, and tells `on_seen`."""
+        observer = self._observer()
+        if observer is not None:
+            seen = observer.take()
+            self._reached |= seen.reached
+            if self.on_seen is not None:
+                self.on_seen(seen)
+
+    def _observer(self) -> Observer | None:
+        if self.hook is not None:
+            return self.loaded.debugged().observer
+        return None if self._observed is None else self._observed.observer
+
+    def _waiting(self) -> list[Entry]:
+        """What was entered inside of the scan that is next."""
+        return self.journal[front(self.journal, self.header.scan) :]
+
+    def _passing(self) -> Passage:
+        engine = self.loaded.debugged()
+        if self._passage is None or self._passage.engine is not engine:
+            self._passage = Passage(engine)
+        return self._passage
 
     # ---- what is waited for ---------------------------------------------------------------------------------------
 
-    def _run(self, engine: Engine, scans: int, pace: Pace | None) -> Stop:
+    def _run(self, engine: Engine, scans: int, pace: Pace | None, conditions: tuple[Condition, ...]) -> Stop:
+        if self.inside is not None:
+            self.memory[:] = self.inside.begin
+            self.inside = None
         if not self.runnable:
             raise RuntimeError("the program is stopped: it must not be run")
+        waiting = self._waiting()
+        if waiting:
+            engine, scans = self.loaded.debugged(), min(scans, 1)
+        self._stops.set(engine, conditions)
         first, start = self.header.scan, monotonic_ns()
         busy = pace.busy_ns if pace is not None else 0
-        stop = engine.run(scans, pace)
+        if waiting or self.hook is not None:
+            stop = self._pass(scans, pace, waiting)
+        else:
+            stop = engine.run(scans, pace)
         self.measured.scans += self.header.scan - first
         self.measured.busy_ns += pace.busy_ns - busy if pace is not None else monotonic_ns() - start
         return stop
+
+    def _pass(self, scans: int, pace: Pace | None, waiting: list[Entry]) -> Stop:
+        """Runs the debug flavour."""
+        passage, scan = self._passing(), self.header.scan
+        passage.begin(self.hook, self._listen, waiting, self._again)
+        ended = False
+        try:
+            stop = passage.engine.run(scans, pace)
+            ended = stop.reason is Reason.TRAP or self.header.scan > scan
+        finally:
+            passage.end(ended)
+        if stop.reason is Reason.HALTED:
+            engine = passage.engine
+            self.inside = Inside(engine.begin, engine.count, engine.frames())
+        return stop
+
+    def _again(self, entry: Entry) -> None:
+        seam.apply(self.loaded, self.programs, entry.plan)
 
     def _waits(self) -> Waits:
         return NOTHING if self.agenda is None else self.agenda.waits(self.view)
@@ -201,7 +322,7 @@ class Resource:
 
     def _observe(self, waits: Waits) -> None:
         """Observed code runs while statements are waited for, and no longer."""
-        if not waits.sites or self.agenda is None:
+        if not waits.sites or self.agenda is None or self.hook is not None:
             self._observed = None
         elif self._observed is None or self._observed.loaded is not self.loaded:
             self._observed = _Observed(self.loaded, *self.agenda.observed(self.loaded))
@@ -209,7 +330,9 @@ class Resource:
     def _met(self, stop: Stop, waits: Waits) -> Met:
         """What came true in the scan that just ended."""
         held = self._held(waits) if stop.reason is Reason.CONDITION else NONE_MET.conditions
-        sites = NONE_MET.sites if self._observed is None else self._observed.observer.take().reached & waits.sites
+        if waits.sites:
+            self.look()
+        sites, self._reached = waits.sites & self._reached, set()
         return Met(held, sites)
 
     def _held(self, waits: Waits) -> frozenset[str]:
@@ -217,7 +340,7 @@ class Resource:
 
     def _attend(self, met: Met) -> None:
         """Enters what is due in this seam. It has happened in any case, so it is never refused for want of room."""
-        if self.agenda is None:
+        if self.agenda is None or self.begun:
             return
         while (command := self.agenda.due(self.view, met)) is not None:
             outcome = self._enter(command, must=True)
@@ -226,12 +349,12 @@ class Resource:
 
     # ---- the seam -------------------------------------------------------------------------------------------------
 
-    def _enter(self, command: Command, must: bool) -> Entry | Refusal:
+    def _enter(self, command: Command, must: bool, step: int = 0) -> Entry | Refusal:
         command = command.settled(self.view)
         plan = command.plan(self.view)
         if isinstance(plan, Refusal):
             return plan
-        entry = Entry(self.header.scan, wall_time(), command, plan)
+        entry = Entry(self.header.scan, wall_time(), command, plan, step)
         if self.recorder is not None:
             try:
                 self.recorder.entry(entry, must)
@@ -247,7 +370,7 @@ class Resource:
         self.journal.append(entry)
 
     def _load(self, loaded: Loaded) -> None:
-        self.loaded = loaded
+        self.loaded, self.inside = loaded, None
         self.header = Header(loaded.memory)
         self.measured = Measured()
 

@@ -8,6 +8,8 @@ from scanbench.session import debug_protocol, events, protocol
 from scanbench.session.debug_protocol import BreakpointsAre, Coverage, DebugAnswer, DebugRequest
 from scanbench.session.instance import Unavailable
 
+SHARED = ""
+"""The group of what all browsers at a PLC share."""
 NOT_YET = "the PLC is not there: the breakpoint is set when it is"
 Ask = Callable[[Callable[[int], DebugRequest]], Awaitable[DebugAnswer | protocol.Ack]]
 
@@ -15,9 +17,13 @@ Ask = Callable[[Callable[[int], DebugRequest]], Awaitable[DebugAnswer | protocol
 class Debugging:
     """Keeps what has to be told to the next host, when this one dies or is switched off."""
 
-    def __init__(self, ask: Ask, publish: Callable[[events.Event], None], verdicts: Sequence[Verdict] = ()) -> None:
-        self._ask, self._publish = ask, publish
-        self._verdicts: dict[int, Verdict] = {each.breakpoint.id: each for each in verdicts}
+    def __init__(
+        self, ask: Ask, publish: Callable[[events.Event], None], keep: Callable[[Sequence[Breakpoint]], None],
+        kept: Sequence[Breakpoint],
+    ) -> None:  # fmt: skip
+        """`keep` keeps those of the shared list, `kept` were kept by an earlier life of the server."""
+        self._ask, self._publish, self._keep = ask, publish, keep
+        self._verdicts = {each.id: Verdict(each, False, NOT_YET) for each in kept}
         self._next = max(self._verdicts, default=0) + 1
         self._coverage: Coverage | None = None
 
@@ -54,6 +60,8 @@ class Debugging:
                 self._verdicts |= {each.id: Verdict(each, False, answer.message) for each in named}
         except Unavailable as error:
             self._verdicts |= {each.id: Verdict(each, False, str(error)) for each in named}
+        if group == SHARED:
+            self._keep([each.breakpoint for each in self.verdicts if each.breakpoint.group == SHARED])
         self._publish(events.BreakpointsChanged(self.verdicts))
         return tuple(self._verdicts.get(each.id) or Verdict(each, False, "taken away meanwhile") for each in named)
 

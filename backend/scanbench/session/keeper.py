@@ -7,9 +7,11 @@ newest counts, and of lines only so many are kept anyway.
 import asyncio
 import logging
 from collections import deque
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import asdict
 from typing import TypeVar
 
+from scanbench.debug.breakpoint import Breakpoint
 from scanbench.faults.history import ErrorRow, RowReaction
 from scanbench.faults.reaction_json import from_json, to_json
 from scanbench.plcmodel.model import Model
@@ -33,6 +35,7 @@ class Keeper:
         self._store = store
         self._rows: _Rows = {}
         self._lines: _Lines = {}
+        self._breakpoints: dict[int, Sequence[Breakpoint]] = {}
         self._untrimmed: dict[int, int] = {}
         """Lines of an instance since old ones were deleted; only the thread that writes uses it."""
         self._wake, self._written = asyncio.Event(), asyncio.Event()
@@ -69,20 +72,33 @@ class Keeper:
         lines.append(LogRow(line.at, line.scan, line.author, line.kind, line.text, version))
         self._wake.set()
 
+    def keep_breakpoints(self, instance: int, breakpoints: Sequence[Breakpoint]) -> None:
+        """The breakpoints that everybody shares, all of them."""
+        self._breakpoints[instance] = breakpoints
+        self._wake.set()
+
     async def _work(self) -> None:
         while True:
             await self._wake.wait()
             self._wake.clear()
-            rows, lines, written = self._rows, self._lines, self._written
-            self._rows, self._lines, self._written = {}, {}, asyncio.Event()
-            await asyncio.to_thread(self._write, rows, lines)
+            rows, lines, breakpoints, written = self._rows, self._lines, self._breakpoints, self._written
+            self._rows, self._lines, self._breakpoints, self._written = {}, {}, {}, asyncio.Event()
+            await asyncio.to_thread(self._write, rows, lines, breakpoints)
             written.set()
 
-    def _write(self, rows: _Rows, lines: _Lines) -> None:
+    def _write(self, rows: _Rows, lines: _Lines, breakpoints: Mapping[int, Sequence[Breakpoint]]) -> None:
         for instance, changed in rows.items():
             self._keep_rows(instance, list(changed.values()))
         for instance, more in lines.items():
             self._keep_lines(instance, list(more))
+        for instance, shared in breakpoints.items():
+            self._keep_breakpoints(instance, shared)
+
+    def _keep_breakpoints(self, instance: int, shared: Sequence[Breakpoint]) -> None:
+        def write(_all: Sequence[object]) -> None:
+            self._store.keep_breakpoints(instance, [asdict(each) for each in shared])
+
+        _write_most(f"the breakpoints of instance {instance}", [shared], write)
 
     def _keep_rows(self, instance: int, rows: Sequence[ErrorRow]) -> None:
         def write(some: Sequence[ErrorRow]) -> None:
@@ -158,3 +174,11 @@ def _reaction_of(kept: HistoryRow) -> RowReaction | None:
 def line_of(kept: LogRow) -> LogEntry:
     """A line as the store has it."""
     return LogEntry(kept.at, kept.scan, kept.author, kept.text, kept.kind)
+
+
+def breakpoint_of(kept: Mapping[str, object]) -> Breakpoint | None:
+    """A breakpoint as the store has it; None where another version of the program kept what this one does not know."""
+    try:
+        return Breakpoint(**kept)  # type: ignore[arg-type]  # as it was kept; what else it may be has no such fields
+    except TypeError:
+        return None

@@ -2,9 +2,11 @@
 
 import asyncio
 from collections.abc import Awaitable, Callable, Iterable, Mapping, Sequence
+from functools import partial
 from pathlib import Path
 
 from scanbench.check.violations import Violations
+from scanbench.debug.breakpoint import Breakpoint
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.history import ErrorRow, History, Swept
 from scanbench.faults.reaction import Reaction
@@ -45,7 +47,7 @@ class Session:
     def __init__(
         self, row: InstanceRow, model: Model, memory: Remembered, keeper: Keeper,
         rows: Sequence[ErrorRow], lines: Sequence[LogEntry], loads: Loads, reactions: Reactions,
-        cache: Path | None = None,
+        breakpoints: Sequence[Breakpoint], cache: Path | None = None,
     ) -> None:  # fmt: skip
         """`model` is the device; the project's own errors come with the program that runs."""
         self.row, self._device = row, model
@@ -68,7 +70,9 @@ class Session:
         self._timeline = Marks()
         self._instance = Instance(memory, self._on_state, self._on_message, cache)
         self._last_state = self._instance.state
-        self.debugging = Debugging(self._instance.debug, self._publish)
+        self.debugging = Debugging(
+            self._instance.debug, self._publish, partial(keeper.keep_breakpoints, row.id), breakpoints
+        )
         self._halted = 0
         self._resending: asyncio.Task[None] | None = None
 

@@ -16,7 +16,7 @@ from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.runfile import RunFileError
 from scanbench.session.builds import Checker
 from scanbench.session.instance import Remembered
-from scanbench.session.keeper import Keeper, line_of, row_of
+from scanbench.session.keeper import Keeper, breakpoint_of, line_of, row_of
 from scanbench.session.load import Loads
 from scanbench.session.nursery import nursery
 from scanbench.session.projects import Projects
@@ -241,7 +241,11 @@ class Workbench:
         rows = [row_of(model, each) for each in await asyncio.to_thread(self._store.history, row.id)]
         lines = [line_of(each) for each in await asyncio.to_thread(self._store.log, row.id, LOG_LINES)]
         memory = Remembered(row.name, sources, run_path(self._runs, row.id), row.limits, paused=paused)
-        session = Session(row, model, memory, self._keeper, rows, lines, self._loads, self._reactions, self._cache)
+        kept = map(breakpoint_of, await asyncio.to_thread(self._store.breakpoints, row.id))
+        breakpoints = [each for each in kept if each is not None]
+        session = Session(
+            row, model, memory, self._keeper, rows, lines, self._loads, self._reactions, breakpoints, self._cache
+        )
         self._sessions[row.id] = session
         session.take_sweeps(await self.sweeps.found(project.id))
         if row.powered:

@@ -10,6 +10,7 @@ from sqlalchemy.exc import IntegrityError
 
 from scanbench.runtime.clock import wall_time
 from scanbench.store import rows
+from scanbench.store.breakpoints import Breakpoints
 from scanbench.store.connected import check, the_instance, the_project
 from scanbench.store.errors import Errors
 from scanbench.store.imported import ImportedRecords
@@ -30,7 +31,7 @@ from scanbench.store.tables import AUTHOR, NAME, PATH, File, Instance, Log, Prog
 from scanbench.store.watchlists import WatchLists
 
 
-class Store(Errors, Sweeps, ImportedRecords, WatchLists):
+class Store(Errors, Sweeps, ImportedRecords, WatchLists, Breakpoints):
     """A database, with today's tables: here projects, files, builds, instances and their log; `close` it at the end."""
 
     # ---- projects -----------------------------------------------------------------------------------------------

@@ -235,6 +235,16 @@ class WatchList(Base):
     at: Mapped[datetime] = mapped_column(Moment)
 
 
+class Breakpoint(Base):
+    """A breakpoint of the list that everybody at an instance shares."""
+
+    __tablename__ = "breakpoint"
+
+    instance_id: Mapped[int] = mapped_column(ForeignKey("instance.id", ondelete="CASCADE"), primary_key=True)
+    number: Mapped[int] = mapped_column(primary_key=True, autoincrement=False)
+    content: Mapped[dict[str, object]] = mapped_column(JSON)
+
+
 class Log(Base):
     """What was done to an instance, in order."""
 

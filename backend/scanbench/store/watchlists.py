@@ -49,7 +49,13 @@ class WatchLists(Connected):
     ) -> WatchListRow:
         """Saves what was edited from this `version`; `ListConflict` if that is not the last one."""
         check("the name", name, NAME)
-        values = {"owner": owner[:AUTHOR], "name": name, "content": _json(content), "by": by[:AUTHOR], "at": wall_time()}
+        values = {
+            "owner": owner[:AUTHOR],
+            "name": name,
+            "content": _json(content),
+            "by": by[:AUTHOR],
+            "at": wall_time(),
+        }
         try:
             with self._writing() as session:
                 # One statement looks and writes, so of two savers from the same version exactly one finds its row.

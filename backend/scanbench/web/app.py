@@ -26,6 +26,7 @@ from scanbench.web import (
     routes_sweeps,
     routes_user_errors,
     routes_values,
+    routes_watch,
     translate,
 )
 from scanbench.web.auth import Gate, Guard
@@ -70,12 +71,13 @@ def bare_app() -> FastAPI:
     )  # fmt: skip
     for routes in (
         routes_instances, routes_errors, routes_sweeps, routes_records, routes_projects, routes_user_errors,
-        routes_models, routes_values,
+        routes_models, routes_values, routes_watch,
     ):  # fmt: skip
         app.include_router(routes.router)
     for error, status in _STATUS.items():
         app.add_exception_handler(error, _refusing(status))
     app.add_exception_handler(Conflict, _on_conflict)
+    app.add_exception_handler(ListConflict, routes_watch.on_list_conflict)
     app.add_exception_handler(RequestValidationError, _on_invalid)
     app.add_exception_handler(HTTPException, _on_http)
     _serve_page(app, frontend_directory())

@@ -147,3 +147,84 @@ def test_what_the_compiler_made_is_not_shown() -> None:
     assert not [each.path for each in members(program, "Main") if "$" in each.path]
     assert resolve(program, "_SubrangeErrorCount").constant
     assert resolve(program, "_SubrangeError").writable
+
+
+PARTS = """
+VAR_GLOBAL word AT D200 : WORD; END_VAR
+FUNCTION_BLOCK Take VAR_IN_OUT w : WORD; flag : BOOL; END_VAR w.%B1 := 16#12; END_FUNCTION_BLOCK
+PROGRAM Main
+VAR d : DWORD := 16#89AB_CDEF; i : INT; r : REAL; take : Take; x : BOOL; END_VAR
+take(w := word, flag := x);
+END_PROGRAM
+"""
+
+
+@pytest.fixture(scope="module")
+def parts() -> Program:
+    made = check_sources({"a.st": PARTS}, MODELS["CJ1M-CPU63"]).program
+    assert made is not None
+    return made
+
+
+@pytest.mark.parametrize(
+    "path, type, at, bit",
+    [
+        ("Main.d.31", "BOOL", 3, 7),
+        ("main.d.%x9", "BOOL", 1, 1),
+        ("Main.d.%B2", "BYTE", 2, None),
+        ("Main.d . %W1", "WORD", 2, None),
+    ],
+)
+def test_parts_of_a_number_have_paths(parts: Program, path: str, type: str, at: int, bit: int | None) -> None:
+    symbol = resolve(parts, path)
+    whole = resolve(parts, "Main.d")
+    assert (symbol.type.name, symbol.offset - whole.offset, symbol.bit) == (type, at, bit)
+    assert symbol.writable
+    assert resolve(parts, symbol.path) == symbol
+
+
+def test_parts_of_located_variables_say_their_address(parts: Program) -> None:
+    assert resolve(parts, "word.3").address == "D200.03"
+    assert resolve(parts, "word.%B1").address == "D200.08-15"
+
+
+def test_a_bit_of_what_an_in_out_is_bound_to_is_that_bit(parts: Program) -> None:
+    from scanbench.engines.interpreter.engine import ReferenceEngine
+
+    memory = bytearray(parts.initial_image)
+    ReferenceEngine(parts, memory).run(1)
+    assert resolve(parts, "Main.take.w.9").locate(memory) == resolve(parts, "word.9").locate(memory)
+    assert resolve(parts, "Main.take.w.9").locate(memory)[1] == 1  # type: ignore[index]
+    assert resolve(parts, "Main.take.w.0").locate(memory)[1] == 0  # type: ignore[index]
+
+
+@pytest.mark.parametrize(
+    "path, says",
+    [
+        ("Main.r.3", "only integers and bit strings"),
+        ("Main.d.32", "it has 32 of that size"),
+        ("Main.d.%D0", "no larger than that"),
+        ("Main.x.0", "only integers and bit strings"),
+        ("D32767:2", "there are 1 from there on"),
+        ("D0:0", "is not a range of D"),
+        ("D0:20000", "at most 10,000"),
+        ("Nope1:4", "There is no variable and no address"),
+    ],
+)
+def test_what_is_no_part_and_no_range_is_refused(parts: Program, path: str, says: str) -> None:
+    with pytest.raises(UnknownPath, match=says):
+        resolve(parts, path)
+
+
+def test_a_range_of_addresses_unfolds_to_them(parts: Program) -> None:
+    symbol = resolve(parts, "w10 : 8")
+    assert (symbol.path, symbol.type.name, symbol.expandable) == ("W10:8", "ARRAY[0..7] OF WORD", True)
+    below = members(parts, "W10:8")
+    assert [each.path for each in below] == [f"W{number}" for number in range(10, 18)]
+    assert [each.offset for each in below] == [resolve(parts, each.path).offset for each in below]
+    assert below[3] == resolve(parts, "W13")
+    bits = members(parts, "A402.14:3")
+    assert [each.path for each in bits] == ["A402.14", "A402.15", "A403.00"]
+    assert bits[2] == resolve(parts, "A403.00")
+    assert not bits[0].writable
+    assert [each.path for each in complete(parts, "D120:4", 5)] == ["D120:4"]

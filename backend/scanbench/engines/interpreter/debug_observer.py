@@ -58,7 +58,7 @@ class DebugObserver(ReferenceObserver):
         site, found = self._site if self._site is not None else self._innermost, []
         for pou, instance, caller in reversed(self._frames):
             if site is not None:
-                found.append(Frame(pou, instance, site))
+                found.append(frame_of(pou, instance, site, self.memory))
             site = caller
         return tuple(found)
 
@@ -78,23 +78,23 @@ class DebugObserver(ReferenceObserver):
         """The body of a POU of the user's, which has a frame."""
         if pou not in self.sites.bodies:
             return run
-        this = pou.frame.members.get("THIS")
-        if this is not None and this.section is Section.IN_OUT:
-            slot, memory = pou.frame_offset + this.offset, self.memory
-            return self.framed(pou, run, lambda _: int.from_bytes(memory[slot : slot + 4], "little"))
-        return self.framed(pou, run, lambda instance: instance)
-
-    def framed(self, pou: Pou, run: Run, instance_of: Callable[[int], int]) -> Run:
-        """Runs in a frame of its own."""
         frames = self._frames
 
         def body(instance: int) -> int:
-            frames.append((pou, instance_of(instance), self._site))
+            caller = self._site
+            frames.append((pou, instance, caller))
+            self._site = None  # start values are no part of the statement that calls
             end = run(instance)
             frames.pop()
+            self._site = caller
             return end
 
         return body
+
+    def connected(self, pou: Pou, offset: int, run: Run) -> Run:
+        """Lines of a CONFIGURATION, which stand in a frame of their program instance."""
+        body = self._in_frame(pou, run)
+        return lambda _: self._at(body, offset)
 
     def way(self, node: Stmt, way: int, run: Run) -> Run:
         number = self.sites.outcome(node, way)

@@ -13,8 +13,10 @@ from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.interpreter.expressions import Body
 from scanbench.engines.interpreter.observer import ReferenceObserver
 from scanbench.engines.interpreter.places import Places, Read, Trapped
+from scanbench.engines.interpreter.sampler import Sampler
 from scanbench.engines.interpreter.statements import Statements
 from scanbench.engines.interpreter.violations import recorder
+from scanbench.engines.sample import Sampling
 from scanbench.problems import Span
 
 LOST_NS = 100_000_000
@@ -40,6 +42,7 @@ class ReferenceEngine(Engine):
         self._tasks = [(self._due(task), [self._program(each) for each in task.programs]) for task in program.tasks]
         self._knock = threading.Event()
         self._condition: Callable[[], bool] | None = None
+        self._samplers: list[Sampler] = []
 
     def body(self, pou: Pou) -> Body:
         """The body of a callee; `Program.pous` lists callees first."""
@@ -105,11 +108,19 @@ class ReferenceEngine(Engine):
     def holds(self, condition: Condition) -> bool:
         return self._holds(condition)()
 
+    def sample(self, *samplings: Sampling) -> None:
+        self._samplers = [
+            Sampler(each, self.memory, [self._value(signal.expr) for signal in each.signals]) for each in samplings
+        ]
+
+    def _value(self, expr: Expr) -> Read:
+        """Evaluates an expression that belongs to no POU."""
+        nobody = Record("CONDITION", Kind.STRUCT)
+        return Statements(self, Pou("CONDITION", "function", nobody, nobody, (), None, Span("", 0, 0, 0, 0))).evaluate(expr)
+
     def _holds(self, condition: Condition) -> Callable[[], bool]:
         """Evaluates the condition on the image."""
-        nobody = Record("CONDITION", Kind.STRUCT)
-        pou = Pou("CONDITION", "function", nobody, nobody, (), None, Span("", 0, 0, 0, 0))
-        value = Statements(self, pou).evaluate(condition.expr)
+        value = self._value(condition.expr)
 
         def holds() -> bool:
             try:
@@ -125,6 +136,8 @@ class ReferenceEngine(Engine):
         return stop
 
     def _run(self, scans: int, pace: Pace | None) -> Stop:
+        if any(each.full for each in self._samplers):
+            return Stop(Reason.KNOCKED)
         for _ in range(scans):
             paced = pace is not None and pace.period_ns > 0
             if self._knock.is_set() or (pace is not None and paced and not self._wait(pace)):
@@ -138,6 +151,8 @@ class ReferenceEngine(Engine):
                 pace.busy_ns += time.monotonic_ns() - begin
                 pace.scans += 1
                 pace.deadline_ns += pace.period_ns
+            if not all([each.sample() for each in self._samplers]):
+                self._knock.set()
             if self._condition is not None and self._condition():
                 return Stop(Reason.CONDITION)
             if any(self.memory[Layout.ASKED_COUNT : Layout.ASKED_COUNT + 4]):

@@ -7,21 +7,22 @@ debugged code is made quickly. They share `STATE` with the engine.
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from scanbench.check.program import Base, Place, Pou, Program, ProgramInstance
-from scanbench.check.system_text import is_system
+from scanbench.check.program import Base, Place, Pou, Program, ProgramInstance, Stmt
 from scanbench.engines.debug import READ, WRITE
 from scanbench.engines.native import emit_observed
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_memory import Address
+from scanbench.engines.native.emit_observed import Observing, site
 
 STATE = "@debugged"
 COUNT, WANTED, DEPTH, EVERY, SILENT, ARMED, SIZE = 0, 8, 16, 20, 21, 22, 24
-FLAGS, LISTEN, FRAMES, BEGIN, STATEMENT, ACCESS = range(32, 80, 8)
+FLAGS, LISTEN, FRAMES, BEGIN, STATEMENT, ACCESS, WAYS = range(32, 88, 8)
 """u64 statements begun in this scan, u64 the count to call at, u32 frames in use, u8 call at every statement, u8 what runs
 is not the user's program, u8 any byte is listened for, u64 size of the image; pointers: u8 for each site, u8 for each byte
-of the image, the frames (the first one is never in use), room for the image of the scan's beginning, the functions to call.
+of the image, the frames (the first one is never in use), room for the image of the scan's beginning, the functions to call,
+u8 for each way that a statement can go.
 """
-STATE_BYTES = 80
+STATE_BYTES = 88
 FRAME_BYTES = 16
 """u32 number of the POU in the program, u32 site, u64 instance."""
 HALTED = -1
@@ -110,6 +111,18 @@ tell:
 on:
   ret i1 false
 }}
+define void @debug.way(i32 %way, i8 %gone) {{
+; a statement goes this way
+  %silent = load i8, ptr {silent}, align 1
+  %mark = lshr i8 %gone, %silent
+  %wide = zext i32 %way to i64
+  %ways = load ptr, ptr {ways}, align 8
+  %markat = getelementptr i8, ptr %ways, i64 %wide
+  %before = load i8, ptr %markat, align 1
+  %marked = or i8 %before, %mark
+  store i8 %marked, ptr %markat, align 1
+  ret void
+}}
 define void @debug.access(i64 %offset, i64 %size, i32 %site, i8 %how) {{
 ; these bytes were read or written
   %armed = load i8, ptr {armed}, align 1
@@ -157,95 +170,110 @@ declare void @debug.silent(i8)
 declare ptr @debug.enter(i32, i64)
 declare void @debug.leave()
 declare i1 @debug.statement(ptr, i32)
+declare void @debug.way(i32, i8)
 declare void @debug.access(i64, i64, i32, i8)"""
 
 
-class Debugging(emit_observed.Observing):
+class Debugging(Observing):
     """What the emitters of debugged code know of the program."""
+
+    whole_image = True
 
     def __init__(self, program: Program) -> None:
         super().__init__(program)
-        self.numbers = {pou: number for number, pou in enumerate(program.pous)}
+        self._numbers = {pou: number for number, pou in enumerate(program.pous)}
+
+    def declare(self, unit: Unit) -> None:
+        super().declare(unit)
+        unit.module.declare("@debug.begin", DECLARATIONS)
+        unit.module.add(f"{STATE} = global [{STATE_BYTES} x i8] zeroinitializer, align 8")
+
+    # ---- the scan ---------------------------------------------------------------------------------------------
+
+    def begin(self, body: Body) -> None:
+        body.text.do(f"call void @debug.begin(ptr {body.image})")
+
+    def silence(self, body: Body, silent: bool) -> None:
+        super().silence(body, silent)
+        body.text.do(f"call void @debug.silent(i8 {int(silent)})")
+
+    @contextmanager
+    def joined(self, body: Body, instance: ProgramInstance) -> Iterator[None]:
+        body.frame = body.text.op(self._enter(instance.pou, str(instance.offset)))
+        yield
+        body.text.do("call void @debug.leave()")
+
+    # ---- statements and frames --------------------------------------------------------------------------------
+
+    def enter(self, body: Body) -> None:
+        if self.has_sites(body.pou):
+            instance = "0" if body.pou.kind == "function" else "%self"
+            body.text.entry.append(f"  {body.frame} = {self._enter(body.pou, instance)}")
+
+    def leave(self, body: Body) -> None:
+        if self.has_sites(body.pou):
+            body.text.do("call void @debug.leave()")
+
+    def _enter(self, pou: Pou, instance: str) -> str:
+        return f"call ptr @debug.enter(i32 {self._numbers[pou]}, i64 {instance})"
+
+    def begins(self, body: Body, site: int) -> None:
+        halts = body.text.op(f"call i1 @debug.statement(ptr {body.frame}, i32 {site})")
+        body.text.trap_status(halts, str(HALTED))
+
+    def calls(self, body: Body, callee: Pou) -> None:
+        super().calls(body, callee)
+        if body.site is not None:  # which may be after others inside of it have run
+            body.text.do(f"store i32 {body.site}, ptr {body.text.address(body.frame, 4)}, align 4")
+
+    def goes(self, body: Body, statement: Stmt, way: int, gone: str = "1") -> None:
+        number = self.sites.outcome(statement, way)
+        if number is not None and body.unit.has(body.pou):
+            body.text.do(f"call void @debug.way(i32 {number}, i8 {gone})")
+
+    @contextmanager
+    def loop(self, body: Body, statement: Stmt) -> Iterator[None]:
+        if self.sites.outcome(statement, 0) is None:
+            yield
+            return
+        text = body.text
+        outer, body.idle = body.idle, text.alloca("i8")
+        text.do(f"store i8 1, ptr {body.idle}, align 1")
+        yield
+        body.idle = outer
+
+    # ---- accesses ---------------------------------------------------------------------------------------------
+
+    def read(self, body: Body, place: Place, where: Address) -> None:
+        super().read(body, place, where)
+        self._access(body, place, where, READ)
+
+    def written(self, body: Body, place: Place, where: Address) -> None:
+        self._access(body, place, where, WRITE)
+
+    def _access(self, body: Body, place: Place, where: Address, how: int) -> None:
+        if self.unheard(body):
+            return
+        given = f"i64 {_offset(body, place, where)}, i64 {place.type.size}, i32 {site(body)}, i8 {how}"
+        body.text.do(f"call void @debug.access({given})")
 
 
 def helpers() -> str:
     """The module of the helpers: the same for all programs."""
     fields = {
         "depth": DEPTH, "begin": BEGIN, "size": SIZE, "silent": SILENT, "frames": FRAMES, "wanted": WANTED, "flags": FLAGS,
-        "every": EVERY, "statement": STATEMENT, "armed": ARMED, "listen": LISTEN, "access": ACCESS,
+        "every": EVERY, "statement": STATEMENT, "armed": ARMED, "listen": LISTEN, "access": ACCESS, "ways": WAYS,
     }  # fmt: skip
+    addresses = {name: f"getelementptr (i8, ptr {STATE}, i64 {offset})" for name, offset in fields.items()}
     return HELPERS.format(
-        observed=emit_observed.STATE, observed_bytes=emit_observed.STATE_BYTES, state=STATE, state_bytes=STATE_BYTES,
-        frame_bytes=FRAME_BYTES, marks=emit_observed.field(emit_observed.MARKS),
-        **{name: f"getelementptr (i8, ptr {STATE}, i64 {offset})" for name, offset in fields.items()},
-    )  # fmt: skip
-
-
-def of(unit: Unit) -> Debugging | None:
-    """What is known of the program, in debugged code."""
-    return unit.observing if isinstance(unit.observing, Debugging) else None
-
-
-# ---- statements and frames ------------------------------------------------------------------------------------
-
-
-def statement(body: Body, number: int) -> None:
-    """The statement begins, unless the hook halts."""
-    body.text.trap_status(body.text.op(f"call i1 @debug.statement(ptr {body.frame}, i32 {number})"), str(HALTED))
-
-
-def enter(body: Body) -> None:
-    """The POU's body begins."""
-    debugging = of(body.unit)
-    if debugging is not None and debugging.has_sites(body.pou):
-        instance = "0" if body.pou.kind == "function" else "%self"
-        body.text.entry.append(f"  {body.frame} = {_enter(debugging, body.pou, instance)}")
-
-
-def leave(body: Body) -> None:
-    """The POU's body ends."""
-    debugging = of(body.unit)
-    if debugging is not None and debugging.has_sites(body.pou):
-        body.text.do("call void @debug.leave()")
-
-
-@contextmanager
-def joined(body: Body, instance: ProgramInstance) -> Iterator[None]:
-    """What a CONFIGURATION connects to a program runs in a frame of that program."""
-    debugging = of(body.unit)
-    if debugging is None:
-        yield
-        return
-    body.frame = body.text.op(_enter(debugging, instance.pou, str(instance.offset)))
-    yield
-    body.text.do("call void @debug.leave()")
-
-
-def _enter(debugging: Debugging, pou: Pou, instance: str) -> str:
-    return f"call ptr @debug.enter(i32 {debugging.numbers[pou]}, i64 {instance})"
-
-
-def calls(body: Body) -> None:
-    """The statement calls, which may be after others inside of it have run."""
-    body.text.do(f"store i32 {body.site}, ptr {body.text.address(body.frame, 4)}, align 4")
-
-
-# ---- accesses -------------------------------------------------------------------------------------------------
-
-
-def written(body: Body, place: Place, where: Address) -> None:
-    """Tells that the place was written."""
-    if of(body.unit) is not None:
-        access(body, place, where, WRITE)
-
-
-def access(body: Body, place: Place, where: Address, how: int = READ) -> None:
-    """Tells of a read or a write, in debugged code."""
-    if body.silent or is_system(body.pou.span):
-        return
-    site = emit_observed.site(body)
-    given = f"i64 {_offset(body, place, where)}, i64 {place.type.size}, i32 {site}, i8 {how}"
-    body.text.do(f"call void @debug.access({given})")
+        observed=emit_observed.STATE,
+        observed_bytes=emit_observed.STATE_BYTES,
+        state=STATE,
+        state_bytes=STATE_BYTES,
+        frame_bytes=FRAME_BYTES,
+        marks=emit_observed.field(emit_observed.MARKS),
+        **addresses,
+    )
 
 
 def _offset(body: Body, place: Place, where: Address) -> str:
@@ -256,18 +284,3 @@ def _offset(body: Body, place: Place, where: Address) -> str:
     if place.base is Base.SELF:
         return text.op(f"add i64 {body.self.offset}, {place.offset}")
     return str(place.offset + (body.pou.frame_offset if place.base is Base.FRAME else 0))
-
-
-# ---- the scan -------------------------------------------------------------------------------------------------
-
-
-def begin(body: Body) -> None:
-    """A scan begins."""
-    if of(body.unit) is not None:
-        body.text.do(f"call void @debug.begin(ptr {body.image})")
-
-
-def silence(body: Body, silent: bool) -> None:
-    """Whether what runs next is not the user's program."""
-    if of(body.unit) is not None:
-        body.text.do(f"call void @debug.silent(i8 {int(silent)})")

@@ -158,12 +158,18 @@ define internal void @note(ptr noalias %pace, i64 %began, i64 %counted) noinline
 }}
 
 define i32 @run(ptr noalias nonnull noundef align 8 dereferenceable({size}) %img, ptr %ctl, i64 %scans, ptr noalias %pace) #0 {{
-; %ctl: u32 knock, +8 i64 trap, +16 the condition: i32 (ptr image), or null
+; %ctl: u32 knock, +8 i64 trap, +16 the condition: i32 (ptr image), or null,
+; +24 what samples: void (ptr image, ptr table, ptr ctl), or null, +32 its table
 ; %pace: i64 period, deadline, late, worst, busy, scans, misses; null when nothing is to be measured
 entry:
   %conditionat = getelementptr i8, ptr %ctl, i64 16
   %condition = load ptr, ptr %conditionat, align 8
   %conditional = icmp ne ptr %condition, null
+  %sampleat = getelementptr i8, ptr %ctl, i64 24
+  %sample = load ptr, ptr %sampleat, align 8
+  %sampling = icmp ne ptr %sample, null
+  %tableat = getelementptr i8, ptr %ctl, i64 32
+  %table = load ptr, ptr %tableat, align 8
   %measured = icmp ne ptr %pace, null
   br i1 %measured, label %paces, label %head
 paces:
@@ -205,6 +211,11 @@ noted:
   br label %counted
 counted:
   %k1 = add nsw i64 %k, 1
+  br i1 %sampling, label %row, label %judge
+row:
+  call void %sample(ptr %img, ptr %table, ptr %ctl) nounwind willreturn
+  br label %judge
+judge:
   br i1 %conditional, label %evaluate, label %requests
 evaluate:
   %value = call i32 %condition(ptr %img) nounwind willreturn

@@ -6,10 +6,10 @@ statements of its own, as the library's, it is put where that finds it.
 """
 
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, contextmanager, nullcontext
 
 from scanbench.check.layout import Layout
-from scanbench.check.program import Base, Place, Pou, Program, Stmt
+from scanbench.check.program import Base, Place, Pou, Program, ProgramInstance, Stmt
 from scanbench.check.sites import Sites, sites_of
 from scanbench.check.system_text import is_system
 from scanbench.check.types import Kind
@@ -133,7 +133,10 @@ define internal ptr @observed.entry(ptr %log, i32 %index) #0 {{
 
 
 class Observing:
-    """What the emitters of observed code know of the program."""
+    """What the emitters of observed code know of the program, and what they emit for that."""
+
+    whole_image = False
+    """Whether all variables stand in the image, and none in a register."""
 
     def __init__(self, program: Program) -> None:
         self.sites: Sites = sites_of(program)
@@ -143,33 +146,97 @@ class Observing:
         """Whether statements of the POU are the user's."""
         return pou in self.sites.bodies
 
+    def declare(self, unit: Unit) -> None:
+        """The memory that the code and the engine share."""
+        unit.module.add(f"{STATE} = global [{STATE_BYTES} x i8] zeroinitializer, align 8")
+
+    # ---- the scan ---------------------------------------------------------------------------------------------
+
+    def begin(self, body: Body) -> None:
+        """A scan begins."""
+
+    def silence(self, body: Body, silent: bool) -> None:
+        """From here on what runs is not the user's program, or is again: says where it is noted."""
+        for own, spare, used in ((OWN_MARKS, SPARE_MARKS, MARKS), (OWN_MAP, SPARE_MAP, MAP)):
+            pointer = body.text.op(f"load ptr, ptr {field(spare if silent else own)}, align 8")
+            body.text.do(f"store ptr {pointer}, ptr {field(used)}, align 8")
+
+    def joined(self, body: Body, instance: ProgramInstance) -> AbstractContextManager[None]:
+        """Around what a CONFIGURATION connects to the program."""
+        return nullcontext()
+
+    # ---- statements -------------------------------------------------------------------------------------------
+
+    def enter(self, body: Body) -> None:
+        """The POU's body begins."""
+
+    def leave(self, body: Body) -> None:
+        """The POU's body ends."""
+
+    def begins(self, body: Body, site: int) -> None:
+        """The statement begins."""
+        body.text.do(f"store i8 1, ptr {body.text.address(_marks(body), site)}, align 1")
+
+    def calls(self, body: Body, callee: Pou) -> None:
+        """Tells what has no statements of its own on whose behalf it runs."""
+        if body.site is not None and not self.has_sites(callee):
+            body.text.do(f"store i32 {body.site}, ptr {field(SITE)}, align 8")
+
+    def goes(self, body: Body, statement: Stmt, way: int, gone: str = "1") -> None:
+        """The statement goes this way (see `Sites.outcome`) where `gone`, an i8, is 1."""
+
+    def loop(self, body: Body, statement: Stmt) -> AbstractContextManager[None]:
+        """Around a loop."""
+        return nullcontext()
+
+    # ---- accesses ---------------------------------------------------------------------------------------------
+
+    def unheard(self, body: Body) -> bool:
+        """What is read or written here is not the user's program's: what looks whether a task is due, the start of a
+        body, what was made from the model."""
+        nobody = body.site is None and (self.has_sites(body.pou) or not body.unit.has(body.pou))
+        return nobody or is_system(body.pou.span)
+
+    def read(self, body: Body, place: Place, where: Address) -> None:
+        """Notes that the value of the place is read, if any of it is watched."""
+        if self.unheard(body) or (place.variable and not place.variable.startswith("@")):
+            return
+        _declare(body.unit, self)
+        mask = _mask(body, place, where)
+        if place.slot is not None or place.reference is not None or place.indices:
+            pointer, image = (body.text.op(f"ptrtoint ptr {each} to i64") for each in (where.pointer, body.image))
+            offset = body.text.op(f"sub i64 {pointer}, {image}")
+            _look(body, offset, place.type.size, mask)
+        elif place.base is Base.IMAGE and Layout.HEADER_SIZE <= place.offset < self.end:
+            _look_if(body, place.offset, place.type.size, mask)
+
+    def written(self, body: Body, place: Place, where: Address) -> None:
+        """The place is written."""
+
 
 def field(offset: int) -> str:
     """The address of a field of the state."""
     return f"getelementptr (i8, ptr {STATE}, i64 {offset})" if offset else STATE
 
 
-# ---- statements -----------------------------------------------------------------------------------------------
-
-
 @contextmanager
 def statement(body: Body, observing: Observing, node: Stmt) -> Iterator[None]:
-    """Marks that the statement begins; what is emitted meanwhile belongs to it."""
+    """Notes that the statement begins; what is emitted meanwhile belongs to it."""
     number = observing.sites.number(node)
     if number is None:
         yield
         return
-    body.text.do(f"store i8 1, ptr {body.text.address(_marks(body), number)}, align 1")
+    observing.begins(body, number)
     outer, body.site = body.site, number
     yield
     body.site = outer
 
 
-def before_call(body: Body, callee: Pou) -> None:
-    """Tells what has no statements of its own on whose behalf it runs."""
-    observing = body.unit.observing
-    if observing is not None and body.site is not None and not observing.has_sites(callee):
-        body.text.do(f"store i32 {body.site}, ptr {field(SITE)}, align 8")
+def site(body: Body) -> str:
+    """The number of the statement that runs; in the library, that of the user's statement that called it."""
+    if body.site is not None:
+        return str(body.site)
+    return _at_entry(body, "%caller", f"load i32, ptr {field(SITE)}, align 8")
 
 
 def _marks(body: Body) -> str:
@@ -177,13 +244,6 @@ def _marks(body: Body) -> str:
     # the scan itself begins before it says which marks are in use
     marks = MARKS if body.unit.has(body.pou) else OWN_MARKS
     return _at_entry(body, "%marks", f"load ptr, ptr {field(marks)}, align 8")
-
-
-def _site(body: Body) -> str:
-    """The number of the statement that runs; in the library, that of the user's statement that called it."""
-    if body.site is not None:
-        return str(body.site)
-    return _at_entry(body, "%caller", f"load i32, ptr {field(SITE)}, align 8")
 
 
 def _at_entry(body: Body, name: str, text: str) -> str:
@@ -194,28 +254,6 @@ def _at_entry(body: Body, name: str, text: str) -> str:
     return name
 
 
-# ---- reads ----------------------------------------------------------------------------------------------------
-
-
-def read(body: Body, place: Place, where: Address) -> None:
-    """Notes that the value of the place is read, if any of it is watched."""
-    observing = body.unit.observing
-    if observing is None or (place.variable and not place.variable.startswith("@")):
-        return
-    if body.site is None and (observing.has_sites(body.pou) or not body.unit.has(body.pou)):
-        return  # what looks whether a task is due, and the start of a body
-    if is_system(body.pou.span):
-        return
-    _declare(body.unit, observing)
-    mask = _mask(body, place, where)
-    if place.slot is not None or place.reference is not None or place.indices:
-        pointer, image = (body.text.op(f"ptrtoint ptr {each} to i64") for each in (where.pointer, body.image))
-        offset = body.text.op(f"sub i64 {pointer}, {image}")
-        _look(body, offset, place.type.size, mask)
-    elif place.base is Base.IMAGE and Layout.HEADER_SIZE <= place.offset < observing.end:
-        _look_if(body, place.offset, place.type.size, mask)
-
-
 def _mask(body: Body, place: Place, where: Address) -> str:
     if place.type.kind is not Kind.BOOL:
         return "-1"
@@ -224,7 +262,7 @@ def _mask(body: Body, place: Place, where: Address) -> str:
 
 
 def _look(body: Body, offset: str, size: int, mask: str) -> None:
-    body.text.do(f"call void @observed.look(i64 {offset}, i64 {size}, i8 {mask}, i32 {_site(body)})")
+    body.text.do(f"call void @observed.look(i64 {offset}, i64 {size}, i8 {mask}, i32 {site(body)})")
 
 
 def _look_if(body: Body, offset: int, size: int, mask: str) -> None:
@@ -252,25 +290,3 @@ def _declare(unit: Unit, observing: Observing) -> None:
         entry_bytes=ENTRY_BYTES,
     )  # fmt: skip
     unit.module.declare("@observed.look", look)
-
-
-# ---- the scan -------------------------------------------------------------------------------------------------
-
-
-def use(body: Body, marks: int, map: int) -> None:
-    """From here on these fields say where it is noted: of the program, or where nobody looks."""
-    if body.unit.observing is None:
-        return
-    for source, target in ((marks, MARKS), (map, MAP)):
-        pointer = body.text.op(f"load ptr, ptr {field(source)}, align 8")
-        body.text.do(f"store ptr {pointer}, ptr {field(target)}, align 8")
-
-
-def silent(body: Body) -> None:
-    """What runs next is not the user's program."""
-    use(body, SPARE_MARKS, SPARE_MAP)
-
-
-def heard(body: Body) -> None:
-    """What runs next is the user's program."""
-    use(body, OWN_MARKS, OWN_MAP)

@@ -11,12 +11,17 @@ from scanbench.engines.native.compiler import FAST, Compiler
 from scanbench.engines.native.condition_code import link_condition
 from scanbench.engines.native.emit_loop import ASKED, CONDITION, DONE, FUTEX, FUTEX_WAKE_PRIVATE, KNOCKED, TRAP
 from scanbench.engines.native.observer import NativeObserver
+from scanbench.engines.native.sample_code import link_samplings
+from scanbench.engines.sample import Sampling
 
 
 class _Control(ctypes.Structure):
     """What the loop shares with other threads; see `emit_loop.RUN`."""
 
-    _fields_ = [("knock", ctypes.c_uint32), ("trap", ctypes.c_int64), ("condition", ctypes.c_void_p)]
+    _fields_ = [
+        ("knock", ctypes.c_uint32), ("trap", ctypes.c_int64), ("condition", ctypes.c_void_p),
+        ("sample", ctypes.c_void_p), ("table", ctypes.c_void_p),
+    ]  # fmt: skip
 
 
 class _Pace(ctypes.Structure):
@@ -71,10 +76,14 @@ class NativeEngine(Engine):
             raise ValueError("the image must start at an address that is a multiple of 8")
         self._control = _Control()
         self._condition: jit.Code | None = None
+        self._samplings: tuple[Sampling, ...] = ()
+        self._sampler: tuple[jit.Code, ctypes.Array[ctypes.c_uint64]] | None = None
         self._program = program
 
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
         """See `Engine.run`. A pace with period 0 runs as fast as possible, and measures the whole run at once."""
+        if any(each.full for each in self._samplings):
+            return Stop(Reason.KNOCKED)
         measured = None if pace is None else _Pace(
             pace.period_ns, pace.deadline_ns, pace.late_ns, pace.worst_ns, pace.busy_ns, pace.scans,
             pace.late_scans,
@@ -102,6 +111,16 @@ class NativeEngine(Engine):
         """See `Engine.holds`."""
         code = link_condition(self._program, condition)
         return bool(_HOLDS(code.function("condition"))(self._address))
+
+    def sample(self, *samplings: Sampling) -> None:
+        """See `Engine.sample`. Compiling takes some milliseconds for each signal, the same again next to nothing."""
+        sampler = None
+        if samplings:
+            addresses = (ctypes.c_uint64 * len(samplings))(*(each.address for each in samplings))
+            sampler = link_samplings(self._program, samplings), addresses
+        self._control.sample = None if sampler is None else sampler[0].function("sample")
+        self._control.table = None if sampler is None else ctypes.addressof(sampler[1])
+        self._sampler, self._samplings = sampler, samplings
 
     def knock(self) -> None:
         """See `Engine.knock`."""

@@ -23,9 +23,7 @@ def upgrade() -> None:
         sa.Column("at", sa.DateTime(timezone=True), nullable=False),
         sa.PrimaryKeyConstraint("id", name="pk_watch_list"),
         sa.UniqueConstraint("project_id", "owner", "name", name="uq_watch_list_project_id_owner_name"),
-        sa.ForeignKeyConstraint(
-            ["project_id"], ["project.id"], name="fk_watch_list_project_id", ondelete="CASCADE"
-        ),
+        sa.ForeignKeyConstraint(["project_id"], ["project.id"], name="fk_watch_list_project_id", ondelete="CASCADE"),
     )
 
 

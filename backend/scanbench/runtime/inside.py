@@ -1,0 +1,113 @@
+"""Inside of a scan: where a debugger halts it, and where what was entered there is entered again.
+
+What was entered inside of a scan stands in the journal behind all that was entered in front of it. So the entries with a
+`step` at the end of a journal, of the scan that is next, are those that have to be entered when it runs (again): nothing
+else has to be kept of a scan that is halted but the image with which it began.
+"""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
+
+from scanbench.check.layout import Layout
+from scanbench.engines.debug import NOTHING, DebugEngine, Frame, Hook, Listen
+from scanbench.runtime.command import Entry, Patch, Plan, Restarted, Swapped
+
+_FORCES_END = Layout.FORCES + 8 * Layout.FORCE_LIMIT
+
+
+class Diverged(Exception):
+    """The run did not go as the journal says: the program or the engine is not the one that was recorded."""
+
+
+@dataclass(frozen=True, slots=True)
+class Inside:
+    """Where a scan is halted; see `engines.debug`."""
+
+    begin: bytes
+    """The whole image with which the scan began."""
+    count: int
+    frames: tuple[Frame, ...]
+
+
+def front(journal: Sequence[Entry], scan: int, end: int | None = None) -> int:
+    """How many of the first `end` entries were made in front of the scan, or before: not those inside of it."""
+    count = len(journal) if end is None else end
+    while count and journal[count - 1].step and journal[count - 1].scan == scan:
+        count -= 1
+    return count
+
+
+def needs_seam(plan: Plan) -> bool:
+    """Whether a plan cannot be applied inside of a scan: it does more than patches, or stops or starts the program."""
+    return isinstance(plan.effect, Restarted | Swapped) or any(map(_in_header, plan.patches))
+
+
+def _in_header(patch: Patch) -> bool:
+    end = patch.offset + len(patch.data)
+    if Layout.FORCE_COUNT <= patch.offset and end <= Layout.FORCE_COUNT + 4:
+        return False
+    return patch.offset < Layout.HEADER_SIZE and not (Layout.FORCES <= patch.offset and end <= _FORCES_END)
+
+
+class Passage:
+    """Runs scans on a debug engine: enters what is to be entered inside of them, and lets a hook listen in between."""
+
+    def __init__(self, engine: DebugEngine) -> None:
+        self.engine = engine
+        self._inner: Hook | None = None
+        self._listen = NOTHING
+        self._waiting: list[Entry] = []
+        self._apply: Callable[[Entry], None] = lambda entry: None
+        self._sent: Listen | None = None
+
+    def begin(
+        self, hook: Hook | None, listen: Listen, waiting: Sequence[Entry], apply: Callable[[Entry], None]
+    ) -> None:  # fmt: skip
+        """Before `engine.run`: who halts, and what is entered in the one scan that is run then."""
+        self._inner, self._listen, self._waiting, self._apply = hook, listen, list(waiting), apply
+        self.engine.hook(self)
+        self._tell()
+
+    def end(self, ended: bool) -> None:
+        """Behind `engine.run`; `ended`: the scan went to its end. What could not be entered is an error then."""
+        self.engine.hook(None)
+        self._inner = None
+        waiting, self._waiting = self._waiting, []
+        if ended and waiting:
+            raise Diverged(
+                f"scan {waiting[0].scan} has {self.engine.count} statements, and something was entered in front of "
+                f"statement {waiting[0].step} when it was recorded"
+            )
+
+    def listen(self, listen: Listen) -> None:
+        """What the hook is called for, from now on."""
+        self._listen = listen
+        self._tell()
+
+    def _tell(self) -> None:
+        listen = self._listen
+        if self._waiting:
+            step = self._waiting[0].step
+            if not listen.count or step < listen.count:
+                listen = replace(listen, count=step)
+        if listen is not self._sent:
+            self._sent = listen
+            self.engine.listen(listen)
+
+    # ---- as the engine's hook ---------------------------------------------------------------------------------------
+
+    def statement(self, site: int, count: int, depth: int) -> bool:
+        """See `Hook`."""
+        if self._waiting and count >= self._waiting[0].step:
+            while self._waiting and count >= self._waiting[0].step:
+                self._apply(self._waiting.pop(0))
+            self._tell()
+        listen, hook = self._listen, self._inner
+        if hook is None or not (listen.every or site in listen.sites or count == listen.count):
+            return False
+        return hook.statement(site, count, depth)
+
+    def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
+        """See `Hook`."""
+        if self._inner is not None:
+            self._inner.access(site, count, offset, size, written)

@@ -1,0 +1,122 @@
+/** Breakpoints as people see them: shape, place and words. */
+import type { BreakpointInfo } from "../wire/types";
+import { t } from "./text";
+
+/** A drawing of the gutter: filled holds, hollow is off, dashed is not in the program. */
+export type BreakpointShape = "bp" | "bp-cond" | "bp-log" | "bp-assign" | "bp-data" | "bp-off" | "bp-unbound";
+
+/** What a person decides of a breakpoint. */
+export type Wanted = Pick<
+  BreakpointInfo,
+  | "kind"
+  | "enabled"
+  | "file"
+  | "line"
+  | "path"
+  | "access"
+  | "error"
+  | "scan"
+  | "condition"
+  | "hits"
+  | "log"
+  | "assign"
+  | "instance"
+  | "task"
+>;
+
+export const PLAIN: Wanted = {
+  kind: "line",
+  enabled: true,
+  file: "",
+  line: 0,
+  path: "",
+  access: "change",
+  error: "",
+  scan: 0,
+  condition: "",
+  hits: "",
+  log: "",
+  assign: "",
+  instance: "",
+  task: "",
+};
+
+/** The list that all browsers share; other groups belong to one tool each. */
+export const isShared = (breakpoint: BreakpointInfo) => breakpoint.group === "";
+
+export function shapeOf(breakpoint: Wanted & { verified: boolean }): BreakpointShape {
+  if (!breakpoint.enabled) return "bp-off";
+  if (!breakpoint.verified) return "bp-unbound";
+  if (breakpoint.log) return "bp-log";
+  if (breakpoint.assign) return "bp-assign";
+  if (breakpoint.kind !== "line") return "bp-data";
+  return isPlain(breakpoint) ? "bp" : "bp-cond";
+}
+
+const isPlain = ({ condition, hits, instance, task }: Wanted) => !condition && !hits && !instance && !task;
+
+/** Where it stands in the built text. */
+export const lineOf = (breakpoint: BreakpointInfo) => breakpoint.at_line || breakpoint.line;
+
+/** What it is at: a file, a variable, an error, a scan. */
+export function placeOf(breakpoint: Wanted): string {
+  switch (breakpoint.kind) {
+    case "line":
+      return breakpoint.file.replace(/^.*\//, "").replace(/\.[^.]*$/, "");
+    case "data":
+      return breakpoint.path;
+    case "error":
+      return breakpoint.error || t("debug.bp.anyerror");
+    case "scan":
+      return t("debug.bp.scan", { scan: breakpoint.scan });
+    default:
+      return t(`debug.bp.${breakpoint.kind}`);
+  }
+}
+
+/** What is special about it, in short: `if jam.Q`, `3rd time`, `off`. */
+export function conditionsOf(breakpoint: Wanted): string {
+  const said = [
+    breakpoint.enabled ? "" : t("debug.bp.off"),
+    breakpoint.kind === "data" ? t(`debug.access.${breakpoint.access}`) : "",
+    breakpoint.condition && t("debug.bp.if", { condition: breakpoint.condition }),
+    breakpoint.hits && t("debug.bp.times", { hits: breakpoint.hits }),
+    breakpoint.log && t("debug.bp.says", { log: breakpoint.log }),
+    breakpoint.assign,
+    breakpoint.instance && t("debug.bp.in", { instance: breakpoint.instance }),
+    breakpoint.task && t("debug.bp.task", { task: breakpoint.task }),
+  ];
+  return said.filter(Boolean).join(" · ");
+}
+
+/** All there is to say, for a tooltip. */
+export function sayBreakpoint(breakpoint: BreakpointInfo): string {
+  const kind = t(`debug.kind.${shapeOf(breakpoint)}`);
+  return [
+    [kind, placeOf(breakpoint), breakpoint.kind === "line" ? String(lineOf(breakpoint)) : ""].filter(Boolean).join(" "),
+    conditionsOf(breakpoint),
+    breakpoint.message,
+    breakpoint.reached > 0 ? t("debug.bp.reached", { count: breakpoint.reached }) : "",
+    isShared(breakpoint)
+      ? t("debug.bp.by", { author: breakpoint.author })
+      : t("debug.bp.tool", { author: breakpoint.author }),
+  ]
+    .filter(Boolean)
+    .join("\n");
+}
+
+/**
+ * The line of another version of a text: lines before and behind what was edited keep their places, what stands between goes to the
+ * end of it.
+ */
+export function lineIn(from: string, to: string, line: number): number {
+  if (from === to) return line;
+  const [a, b] = [from.split("\n"), to.split("\n")];
+  let head = 0;
+  while (head < a.length && head < b.length && a[head] === b[head]) head += 1;
+  if (line <= head) return line;
+  let tail = 0;
+  while (tail < a.length - head && tail < b.length - head && a.at(-1 - tail) === b.at(-1 - tail)) tail += 1;
+  if (line > a.length - tail) return line - a.length + b.length;
+  return Math.max(1, Math.min(line, b.length - tail));
+}

@@ -1,0 +1,81 @@
+/** The variables that a line of Structured Text names, for the values behind it. */
+
+export interface NamedVariable {
+  /** As written, without what only the program knows at run time: `belt[3].speed`; of `a[i].x` it is `a`. */
+  path: string;
+  /** Where it begins, from 1. */
+  column: number;
+}
+
+const NAME = /[\p{L}_][\p{L}\d_]*/uy;
+const STEP = /(?:\.\s*[\p{L}_][\p{L}\d_]*)|\[\s*-?\d+(?:\s*,\s*-?\d+)*\s*\]|\^/uy;
+
+/** Each variable once, in the order of the line. `comment` is whether the line begins inside of a comment. */
+export function variablesIn(line: string, comment = false): { variables: NamedVariable[]; comment: boolean } {
+  const variables: NamedVariable[] = [];
+  const seen = new Set<string>();
+  let at = 0;
+  let open = comment;
+  while (at < line.length) {
+    if (open) {
+      const end = /\*\)|\*\//.exec(line.slice(at));
+      if (!end) return { variables, comment: true };
+      at += end.index + 2;
+      open = false;
+      continue;
+    }
+    const skipped = skip(line, at);
+    if (skipped === "comment") open = true;
+    if (typeof skipped === "number") {
+      at = skipped;
+      continue;
+    }
+    if (skipped === "comment") {
+      at += 2;
+      continue;
+    }
+    const found = take(line, at);
+    if (!found) {
+      at += 1;
+      continue;
+    }
+    at = found.end;
+    const key = found.path.toUpperCase();
+    if (found.named && !seen.has(key)) {
+      seen.add(key);
+      variables.push({ path: found.path, column: found.column });
+    }
+  }
+  return { variables, comment: open };
+}
+
+/** The index behind a string, a line comment, a number or a typed literal; `comment` where a block comment begins. */
+function skip(line: string, at: number): number | "comment" | null {
+  const rest = line.slice(at);
+  if (rest.startsWith("//")) return line.length;
+  if (rest.startsWith("(*") || rest.startsWith("/*")) return "comment";
+  const quoted = /^'(?:\$.|[^'$])*'?|^"(?:\$.|[^"$])*"?|^\{[^}]*\}?/.exec(rest);
+  if (quoted) return at + quoted[0].length;
+  const literal = /^[\p{L}_][\p{L}\d_]*#[\p{L}\d_.:+-]*|^%?\d[\d_.a-z#]*/iu.exec(rest);
+  return literal ? at + literal[0].length : null;
+}
+
+function take(line: string, at: number): { path: string; column: number; end: number; named: boolean } | null {
+  NAME.lastIndex = at;
+  const first = NAME.exec(line);
+  if (!first) return null;
+  let path = first[0];
+  let end = NAME.lastIndex;
+  for (;;) {
+    STEP.lastIndex = end;
+    const step = STEP.exec(line);
+    if (!step) break;
+    path += step[0].replace(/\s+/g, "");
+    end = STEP.lastIndex;
+  }
+  const behind = line.slice(end);
+  // A call, and the name of what is passed to one, are no variables of this place.
+  const call = /^\s*\(/.test(behind);
+  const parameter = /^\s*(:=|=>)/.test(behind) && /[(,]\s*(NOT\s+)?$/i.test(line.slice(0, at));
+  return { path, column: at + 1, end, named: !call && !parameter };
+}
