@@ -3,6 +3,7 @@
 import math
 from dataclasses import dataclass, field, replace
 
+from scanbench.check.bound import copies_of
 from scanbench.check.configuration import PlannedBlock, PlannedInstance, PlannedTask, Planner
 from scanbench.check.connections import Wiring, calls_instance
 from scanbench.check.context import Rejected, Report, did_you_mean
@@ -95,6 +96,9 @@ def assemble(
         pou.frame_offset = at
         at = align(at + pou.frame.size)
     layout.size = at
+    if any(member.copied for pou in needed for member in pou.instance.members.values()):
+        running = [*common, *instances, *plant]
+        layout.copies = copies_of([(variables, 0), *((each.pou.instance, each.offset) for each in running)])
     image = _initial_image(layout, declarations, variables, [*common, *instances, *plant])
     traps, checks = tuple(report.traps), tuple(report.checks)
     program = Program(

@@ -27,12 +27,13 @@ from scanbench.check.program import (
     Sequence,
     SetBytes,
     Stmt,
+    TrapKind,
     Violates,
 )
-from scanbench.check.scopes import decode
+from scanbench.check.scopes import decode, place_of
 from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.check.standard.library import in_library
-from scanbench.check.types import BOOL, ULINT, Elementary, Member, Record, Reference, Section, Type, initial_of
+from scanbench.check.types import BOOL, ULINT, Elementary, Member, Record, Reference, Section, Type, actual_of, initial_of
 from scanbench.check.untyped import is_untyped, settle
 from scanbench.problems import Span
 from scanbench.syntax import tree
@@ -316,11 +317,13 @@ class CallChecker(GenericChecker):
         before: list[Stmt] = []
         in_outs, bound = [], {}
         for each in formals:
-            if each.section is Section.IN_OUT:
+            if each.section is Section.IN_OUT and not each.hidden:
                 argument = given.get(each.name.upper())
                 target = self.in_out(each, argument.value if argument else None, node.span, before)
                 bound[each.name.upper()] = target
-                in_outs.append((_slot(record, each), target))
+                slot = actual_of(record, each) if each.copied else each
+                if not each.copied or self._rebinds(node, record, each, target, before):
+                    in_outs.append((_slot(record, slot), target))
         inputs, outputs = [], []
         for key, argument in given.items():
             formal = record.members[key]
@@ -338,6 +341,21 @@ class CallChecker(GenericChecker):
         self.pous.use(self.pou, callee)
         call = CallBlock(instance, callee, tuple(inputs), tuple(in_outs), tuple(outputs), node.span)
         return [*before, call]
+
+
+    def _rebinds(
+        self, node: tree.Call, record: Record, member: Member, target: Place, before: list[Stmt]
+    ) -> bool:
+        """Whether an in-out by value is bound to something else by this call: SUPER runs in the same instance. So what this body
+        made of it goes back first, and when it is passed on as it is, it stays bound to what was passed here."""
+        if not named_itself(node.callee, "SUPER"):
+            return True
+        inside = self.own(place_of(member, Base.SELF, record, 0))
+        trap = self.trap(TrapKind.NULL, node.span, f"the in-out {member.name} is not connected")
+        outside = self.own(place_of(actual_of(record, member), Base.SELF, record, trap))
+        if not member.constant:
+            before.append(Assign(outside, Load(inside), node.span))
+        return target != inside
 
 
 def own_place(record: Record, member: Member) -> Place:

@@ -94,7 +94,7 @@ def compile_condition(program: Program, text: str) -> Condition | BadCondition:
         return Condition(text, ProgramChecker(Visible(program), report).condition(node))
     except Rejected:
         problem = report.problems[0]
-        return bad_condition(problem, _near(program, text, problem) if problem.code == "T001" else ())
+        return bad_condition(problem, near_names(program, text, problem) if problem.code == "T001" else ())
 
 
 def compile_signal(program: Program, text: str) -> Signal | BadCondition:
@@ -111,14 +111,15 @@ def compile_signal(program: Program, text: str) -> Signal | BadCondition:
         return ProgramChecker(Visible(program), report).signal(node, text)
     except Rejected:
         problem = report.problems[0]
-        return bad_condition(problem, _near(program, text, problem) if problem.code == "T001" else ())
+        return bad_condition(problem, near_names(program, text, problem) if problem.code == "T001" else ())
 
 
 def bad_condition(problem: Problem, near: tuple[str, ...] = ()) -> BadCondition:
+    """What was reported of a text."""
     return BadCondition(problem.message.replace("the file ends", "the condition ends"), near, problem.span.column)
 
 
-def _near(program: Program, text: str, problem: Problem) -> tuple[str, ...]:
+def near_names(program: Program, text: str, problem: Problem) -> tuple[str, ...]:
     """Whole paths of what the message proposes."""
     try:
         resolve(program, text[problem.span.column - 1 : problem.span.end_column - 1])
@@ -140,6 +141,7 @@ def joined(program: Program, text: str) -> str:
 
 
 def parsed(text: str) -> tree.Expression | BadCondition:
+    """The tree of an expression, and of nothing but that."""
     parser = StParser(Source(NOWHERE.file, text))
     try:
         node = parser.expression()

@@ -19,6 +19,7 @@ from scanbench.check.specs import (
     structure,
     subrange,
 )
+from scanbench.check.standard.library import in_library
 from scanbench.check.types import (
     ABBREVIATIONS,
     ELEMENTARY,
@@ -35,6 +36,7 @@ from scanbench.check.types import (
     Section,
     StringType,
     Type,
+    actual_name,
     has_instance,
     initial_of,
 )
@@ -257,6 +259,7 @@ class Declarations:
         role = Kind.INTERFACE if declaration.kind == "interface" else Kind.BLOCK
         record = self.record(qualified(declaration.namespace, declaration.name), role)
         self.inherit(record, declaration)
+        copied = self._copies(declaration)
         for section in declaration.sections:
             kind = Section(section.keyword)
             if kind in (Section.TEMP, Section.EXTERNAL):
@@ -268,13 +271,38 @@ class Declarations:
                 self.report.error("D008", "A PROGRAM has no VAR_IN_OUT here; use VAR_EXTERNAL.", section.span)
                 continue
             for variable in section.variables:
-                member = self.declare(record, variable, kind, "CONSTANT" in section.qualifiers)
+                by_value = copied and kind is Section.IN_OUT and not self._keeps_state(variable.type)
+                member = self.declare(record, variable, kind, "CONSTANT" in section.qualifiers, by_value)
                 if member is not None:
                     member.access = section.access if kind is Section.VAR else "PUBLIC"
                     member.retain = bool({"RETAIN", "PERSISTENT"} & set(section.qualifiers))
                     member.non_retain = "NON_RETAIN" in section.qualifiers
         record.close()
         return record
+
+    def _copies(self, declaration: tree.PouDeclaration) -> bool:
+        """Whether a block takes its in-outs by value."""
+        if declaration.kind != "function_block" or in_library(declaration.span):
+            return False
+        return (declaration.in_out or self.model.in_out) == "value"
+
+    def _keeps_state(self, spec: tree.TypeSpec, around: tuple[str, ...] = ()) -> bool:
+        """Whether instances of blocks are in it, or its size comes with each call: such an in-out is always a reference."""
+        match spec:
+            case tree.OpenArraySpec():
+                return True
+            case tree.ArraySpec(element=element):
+                return self._keeps_state(element, around)
+            case tree.StructSpec():
+                return bool(spec.extends) or any(self._keeps_state(each.type, around) for each in spec.members)
+            case tree.NamedType(name, span):
+                key = name.upper() if name.upper() in TYPE_NAMES else self.find_type(name, span) or name.upper()
+                if key in self.block_trees or key in around:
+                    return True
+                declared = self.type_trees.get(key)
+                return declared is not None and self._keeps_state(declared.type, (*around, key))
+            case _:
+                return False
 
     def frame(self, declaration: tree.PouDeclaration, instance: Record, this: Record | None = None) -> Record:
         """Temporaries of a block; all variables of a FUNCTION, with the result under the function's name.
@@ -329,17 +357,21 @@ class Declarations:
 
     # ---- variables --------------------------------------------------------------------------------------
 
-    def declare(self, owner: Record, variable: tree.Variable, section: Section, constant: bool) -> Member | None:
-        """Adds the variable to its owner, unless its declaration is wrong."""
+    def declare(
+        self, owner: Record, variable: tree.Variable, section: Section, constant: bool, copied: bool = False
+    ) -> Member | None:
+        """Adds the variable to its owner, unless its declaration is wrong; `copied` as in `Member`."""
         if variable.arguments and variable.initial is None:
             variable = _with_arguments(variable)
         self.owners.append(owner)
         try:
-            return self._declare(owner, variable, section, constant)
+            return self._declare(owner, variable, section, constant, copied)
         finally:
             self.owners.pop()
 
-    def _declare(self, owner: Record, variable: tree.Variable, section: Section, constant: bool) -> Member | None:
+    def _declare(
+        self, owner: Record, variable: tree.Variable, section: Section, constant: bool, copied: bool
+    ) -> Member | None:
         key = variable.name.upper()
         if key in owner.members:
             first = owner.members[key].span
@@ -348,7 +380,8 @@ class Declarations:
             )
             return None
         try:
-            made = self.referred(variable.type) if section is Section.IN_OUT else self.type_of(variable.type)
+            bound = section is Section.IN_OUT and not copied
+            made = self.referred(variable.type) if bound else self.type_of(variable.type)
             if isinstance(made, OpenArray) and section is not Section.IN_OUT:
                 raise self.report.reject("D008", "ARRAY[*] is for VAR_IN_OUT; state the bounds here.", variable.span)
         except Rejected:
@@ -364,9 +397,10 @@ class Declarations:
             return None
         if variable.address is not None and variable.address.endswith("*"):
             return self._incomplete(owner, variable, section, made)
-        member = Member(variable.name, made, section, variable.span, constant=constant)
+        member = Member(variable.name, made, section, variable.span, constant=constant, copied=copied)
         try:
             if section is Section.IN_OUT:
+                member.initial = self._default(variable.type, made) if copied else b""
                 if variable.initial is not None:
                     self.report.error("D004", "An in-out has no initial value; it is bound at each call.", member.span)
             elif isinstance(made, Reference) and isinstance(variable.initial, tree.Call):
@@ -415,6 +449,8 @@ class Declarations:
                 owner.place(member)
             return
         owner.place(member)
+        if member.copied:
+            owner.place(Member(actual_name(member.name), member.type, Section.IN_OUT, member.span, hidden=True))
         if isinstance(member.type, OpenArray):
             place_bounds(owner, member)
         if variable.edge:

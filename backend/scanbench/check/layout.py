@@ -13,8 +13,13 @@ everything else, and an in-out can refer to one (a REF_TO cannot: it may outlive
 from dataclasses import dataclass, field
 from typing import ClassVar
 
+from scanbench.check.bound import Copies
 from scanbench.check.types import Record
 from scanbench.plcmodel.model import Area, Model
+
+
+FORCE_BEFORE, FORCE_AFTER_PROGRAM = 6, 7
+"""Bytes of a force's entry: what its byte was when the force was applied in phase 2, and in phase 4, of the last scan."""
 
 
 @dataclass(slots=True)
@@ -77,6 +82,9 @@ class Layout:
     violations: int = 0
     """Offset of the list, 0 when the program has no checks: u32 entries in use, u32 violations dropped because the list
     was full (saturating), then the entries."""
+
+    copies: Copies = field(default_factory=Copies)
+    """The own variables of blocks that take in-outs by value."""
 
     def area_at(self, offset: int) -> tuple[Area, int] | None:
         """The area that holds this byte of the image, and the byte's number within it."""

@@ -26,6 +26,7 @@ from scanbench.check.types import (
     Section,
     StringType,
     Type,
+    actual_of,
 )
 from scanbench.check.untyped import ANY_INT, settle
 from scanbench.problems import Span
@@ -356,6 +357,8 @@ def inside(place: Place, record: Record, member: Member) -> Place:
     """The place of a member of what lives at `place`."""
     if member.located:
         return Place(member.type, Base.IMAGE, member.offset, bit=member.bit, variable="@")
+    if member.copied:  # seen from outside it is what was passed: the block's own copy is over when the block has run
+        member = actual_of(record, member)
     free = place.slot is not None or place.reference is not None or place.variable.startswith("@")
     if free or place.variable.endswith(".*") or place.variable == "":
         variable = place.variable

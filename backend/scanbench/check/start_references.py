@@ -54,7 +54,7 @@ def _records(record: Record, base: int) -> Iterator[tuple[Record, int]]:
         yield ancestor, base
         ancestor = ancestor.base
     for member in record.members.values():
-        if member.located or member.storage == 0 or member.storage != member.type.size:
+        if member.located or member.bound or member.storage == 0 or member.storage != member.type.size:
             continue
         inner, offset = member.type, base + member.offset
         if isinstance(inner, Record):

@@ -4,6 +4,7 @@ from bisect import bisect
 from dataclasses import replace
 
 from scanbench.check.assignments import AssignmentChecker
+from scanbench.check.by_value import around
 from scanbench.check.context import Rejected
 from scanbench.check.edges import edges
 from scanbench.check.il import InstructionList
@@ -32,6 +33,7 @@ from scanbench.check.types import (
     Elementary,
     Enumeration,
     Kind,
+    Member,
     Section,
     StringType,
     Subrange,
@@ -55,7 +57,12 @@ class StatementChecker(AssignmentChecker):
         made = InstructionList(self, body).statements() if isinstance(body, tree.IlBody) else self.block(body)
         if len(self.report.checks) > checks:
             made = without_needless(self.report, tuple(made))
+        if self.pou is not None and self.pou.kind == "function_block":
+            made = around(self.pou.instance, tuple(made), self._not_connected)
         return (*prologue, *made)
+
+    def _not_connected(self, member: Member) -> int:
+        return self.trap(TrapKind.NULL, member.span, f"the in-out {member.name} is not connected")
 
     def _prologue(self) -> list[Stmt]:
         """Temporaries start afresh at every call."""

@@ -5,6 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 
+from scanbench.check.bound import Copies
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
 from scanbench.check.scopes import SYSTEM
@@ -12,6 +13,7 @@ from scanbench.check.types import (
     BOOL,
     ELEMENTARY,
     ArrayType,
+    Elementary,
     Kind,
     Member,
     OpenArray,
@@ -19,6 +21,7 @@ from scanbench.check.types import (
     Reference,
     Section,
     Type,
+    actual_of,
 )
 from scanbench.plcmodel.model import Access
 
@@ -59,6 +62,8 @@ class Symbol:
     address: str | None = None
     tool: Access = "write"
     constant: bool = False
+    copies: Copies = Copies()
+    """For what is behind slots: an in-out by value on the way is a copy, and the variable itself is wanted."""
 
     @property
     def writable(self) -> bool:
@@ -80,6 +85,11 @@ class Symbol:
                 return None
             if self.type == BOOL and index == last and self.offset == 0 and self.bit is None:
                 bit = reference >> 32 & 7
+            if self.copies.all:
+                real = self.copies.actual(memory, base, bit)
+                if real is None:
+                    return None
+                base, bit = real
         if self.slots and base + self.offset + self.type.size > len(memory):
             return None
         return base + self.offset, bit
@@ -185,7 +195,9 @@ def _member(owner: Symbol, member: Member, path: str) -> Symbol:
     if member.located:
         return made
     if member.section is Section.IN_OUT:
-        return replace(made, offset=0, slots=(*owner.slots, owner.offset + member.offset))
+        record = owner.type
+        slot = actual_of(record, member) if member.copied and isinstance(record, Record) else member
+        return replace(made, offset=0, slots=(*owner.slots, owner.offset + slot.offset))
     if member.incomplete and isinstance(member.type, Reference) and member.type.target is not None:
         return replace(made, type=member.type.target, offset=0, slots=(*owner.slots, owner.offset + member.offset))
     return replace(made, offset=owner.offset + member.offset, slots=owner.slots)
@@ -351,7 +363,7 @@ def _checked(program: Program, symbol: Symbol) -> Symbol:
     """Adds the model's word on who may write there, and the address, for what lives in an area."""
     layout: Layout = program.layout
     if symbol.slots:
-        return symbol
+        return replace(symbol, copies=layout.copies) if layout.copies.all else symbol
     found = layout.area_at(symbol.offset)
     if found is None:
         return symbol

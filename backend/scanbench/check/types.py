@@ -379,6 +379,11 @@ def actual_name(name: str) -> str:
     return f"{name}$actual"
 
 
+def actual_of(record: "Record", member: Member) -> Member:
+    """The same, of this member of a block."""
+    return record.members[actual_name(member.name).upper()]
+
+
 def base_of(type: Elementary) -> Elementary:
     """What an enumeration or subrange computes like; any other type itself."""
     return ELEMENTARY[type.base_name] if isinstance(type, Enumeration | Subrange) else type
@@ -398,6 +403,15 @@ def has_instance(type: Type) -> bool:
         return has_instance(type.element)
     if isinstance(type, Record):
         return type.kind is Kind.BLOCK or any(has_instance(member.type) for member in type.members.values())
+    return False
+
+
+def has_copies(type: Type) -> bool:
+    """Whether an instance of a block is in it that takes an in-out by value."""
+    if isinstance(type, ArrayType):
+        return has_copies(type.element)
+    if isinstance(type, Record):
+        return any(each.copied or (not each.bound and has_copies(each.type)) for each in type.members.values())
     return False
 
 

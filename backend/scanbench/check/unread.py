@@ -215,7 +215,7 @@ def _slots(program: Program) -> tuple[dict[str, Type], frozenset[str]]:
         for record, prefix in ((pou.instance, ""), (pou.frame, "frame ")):
             for member in record.members.values():
                 name = f"{prefix}{member.home or record.name}.{member.name}".upper()
-                if member.section is Section.IN_OUT:
+                if member.bound:
                     in_outs[name] = member.type
                 elif member.incomplete:
                     bound.add(name)

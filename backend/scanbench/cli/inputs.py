@@ -1,6 +1,5 @@
 """Programs from files and folders, models by name; every complaint says what to do and exits with 2."""
 
-import json
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -10,13 +9,9 @@ import typer
 
 from scanbench.plcmodel.load import NoModels, NoSuchModel, load_all, model_directory, model_named
 from scanbench.plcmodel.model import Model
-from scanbench.plcmodel.user_errors import USER_ERRORS
 from scanbench.problems import Problem
-from scanbench.syntax.parse_file import ENDINGS, is_program_file
-from scanbench.syntax.source import decode
-
-DEFAULT_MODEL = "GENERIC-IEC"
-PROJECT_FILE = "project.json"
+from scanbench.session.from_disk import DEFAULT_MODEL, program_files, project_model, read_text
+from scanbench.session.refused import Refused
 
 
 @dataclass(frozen=True, slots=True)
@@ -43,22 +38,12 @@ def read_sources(paths: list[Path]) -> Sources:
     """A file is taken whatever its ending; a folder gives every program file in it and below, and its own errors."""
     texts: dict[str, str] = {}
     model = None
-    for path in paths:
-        if path.is_dir():
-            found = sorted(
-                each for each in path.rglob("*") if is_program_file(str(each.relative_to(path))) and each.is_file()
-            )
-            if not found:
-                usage(f"there is no program file ({', '.join(ENDINGS)}) in {path}")
-            if (errors := path / USER_ERRORS).is_file():
-                found.append(errors)
-            model = model or _project_model(path / PROJECT_FILE)
-        elif path.exists():
-            found = [path]
-        else:
-            usage(f"{path} does not exist")
-        for each in found:
-            texts[str(each)] = _read(each)
+    try:
+        for path in paths:
+            texts |= {str(each): read_text(each) for each in program_files(path)}
+            model = model or project_model(path)
+    except Refused as error:
+        usage(str(error))
     return Sources(texts, model)
 
 
@@ -67,24 +52,6 @@ def below(path: Path, texts: Mapping[str, str]) -> dict[str, str]:
     if not path.is_dir():
         return {Path(name).name: text for name, text in texts.items()}
     return {Path(name).relative_to(path).as_posix(): text for name, text in texts.items()}
-
-
-def _read(path: Path) -> str:
-    try:
-        return decode(path.read_bytes())
-    except OSError as error:
-        usage(f"{path} cannot be read: {error.strerror}")
-
-
-def _project_model(path: Path) -> str | None:
-    if not path.is_file():
-        return None
-    try:
-        content = json.loads(path.read_text("utf-8"))
-    except (OSError, ValueError) as error:
-        usage(f"{path} cannot be read: {error}")
-    model = content.get("model") if isinstance(content, dict) else None
-    return model if isinstance(model, str) else None
 
 
 def find_model(name: str | None, sources: Sources) -> Model:

@@ -10,8 +10,9 @@ One scan, in the order of the design:
 and, when all went well, `Layout.SCAN` += 1.
 
 The force table (`Layout.FORCES`): a u32 count at `Layout.FORCE_COUNT`, then entries of 8 bytes: u32 offset, u8 mask,
-u8 value, u16 0; applying is `byte = byte & ~mask | value & mask`; an entry
-whose offset is beyond the image does nothing (an image may come from a file).
+u8 value, u8 before, u8 after the program; applying is `byte = byte & ~mask | value & mask`, after the byte was stored in the
+entry, in `before` in phase 2, in `after the program` in phase 4; an entry whose offset is beyond the image does nothing (an
+image may come from a file).
 """
 
 from abc import ABC, abstractmethod

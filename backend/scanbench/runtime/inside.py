@@ -111,3 +111,17 @@ class Passage:
         """See `Hook`."""
         if self._inner is not None:
             self._inner.access(site, count, offset, size, written)
+
+
+class HaltAt:
+    """A hook that halts in front of the statement of one count."""
+
+    def __init__(self, count: int) -> None:
+        self._count = count
+
+    def statement(self, site: int, count: int, depth: int) -> bool:
+        """See `Hook`."""
+        return count == self._count
+
+    def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
+        """See `Hook`."""

@@ -11,6 +11,7 @@ from scanbench.engines.debug import NOTHING as NOT_LISTENING
 from scanbench.engines.debug import Hook, Listen
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.observe import Observer, Seen
+from scanbench.engines.sample import Sampling
 from scanbench.runtime import seam
 from scanbench.runtime.agenda import NONE_MET, NOTHING, Agenda, Met, Waits
 from scanbench.runtime.clock import monotonic_ns, wall_time
@@ -55,6 +56,10 @@ class Resource:
         self.agenda = agenda
         self.until: Condition | None = None
         """A live run comes back after each scan after which it holds. Made for the program that is live."""
+        self.samplings: tuple[Sampling, ...] = ()
+        """What is sampled, but not while a program runs that they were not made for. A scan of the past that is run again
+        has its rows already, so it gets none."""
+        self._sampled: tuple[Engine | None, tuple[Sampling, ...]] = None, ()
         self._stops = Stops()
         self._observed: _Observed | None = None
         self._passage: Passage | None = None
@@ -250,6 +255,11 @@ class Resource:
         if self._passage is not None:
             self._passage.listen(listen)
 
+    @property
+    def listening(self) -> Listen:
+        """What `listen` was given last."""
+        return self._listen
+
     def look(self) -> None:
         """Takes what was noted, and tells `on_seen`."""
         observer = self._observer()
@@ -286,6 +296,7 @@ class Resource:
         if waiting:
             engine, scans = self.loaded.debugged(), min(scans, 1)
         self._stops.set(engine, conditions)
+        self._sample(engine, tuple(each for each in self.samplings if each.program is self.program))
         first, start = self.header.scan, monotonic_ns()
         busy = pace.busy_ns if pace is not None else 0
         if waiting or self.hook is not None:
@@ -326,6 +337,15 @@ class Resource:
             self._observed = None
         elif self._observed is None or self._observed.loaded is not self.loaded:
             self._observed = _Observed(self.loaded, *self.agenda.observed(self.loaded))
+
+    def _sample(self, engine: Engine, samplings: tuple[Sampling, ...]) -> None:
+        """This engine samples, and no other does; told only when that changes, as it costs something."""
+        before, given = self._sampled
+        if before is not None and before is not engine and given:
+            before.sample()
+        if given != samplings or (samplings and before is not engine):
+            engine.sample(*samplings)
+        self._sampled = engine, samplings
 
     def _met(self, stop: Stop, waits: Waits) -> Met:
         """What came true in the scan that just ended."""

@@ -13,13 +13,16 @@ from pathlib import Path
 from struct import error as struct_error
 
 from scanbench.check.condition import Condition, compile_condition
-from scanbench.engines.engine import Pace, Stop
+from scanbench.engines.debug import Listen
+from scanbench.engines.engine import Pace, Reason, Stop
+from scanbench.engines.sample import Sampling
 from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.checkpoints import Checkpoints
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.contents import Codec, KeptProgram
 from scanbench.runtime.detect import Detect
 from scanbench.runtime.fingerprints import model_fingerprint, program_digest
+from scanbench.runtime.inside import HaltAt, Inside, front
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.programs import Loaded, NoProgram, Programs
 from scanbench.runtime.recording import DEFAULT_LIMIT, Recording
@@ -28,6 +31,7 @@ from scanbench.runtime.resource import Measured, Resource
 from scanbench.runtime.runfile import RunFileError
 from scanbench.runtime.smaller import Standing
 from scanbench.runtime.thinning import Checkpoint
+from scanbench.runtime.trap import Trapped
 
 PAST = "this is the past: return to live, or branch from here"
 
@@ -45,8 +49,16 @@ class _Moment:
     loaded: Loaded
     scan: int
     state: bytes
+    """The whole image where a scan is halted."""
     journal: Journal
     measured: Measured
+    inside: Inside | None
+
+    def standing(self) -> Standing:
+        """The seam in front of its scan."""
+        state = self.state if self.inside is None else self.inside.begin
+        size = self.loaded.program.layout.state_size
+        return Standing(self.scan, front(self.journal, self.scan), self.loaded.version, bytes(state[:size]))
 
 
 class Timeline:
@@ -122,6 +134,11 @@ class Timeline:
         """The program that the PLC runs. Any thread."""
         live = self._live
         return live.loaded if live is not None else self.resource.loaded
+
+    @property
+    def live_inside(self) -> Inside | None:
+        """Where the PLC's next scan is halted, if it is."""
+        return self._live.inside if self._live is not None else self.resource.inside
 
     @property
     def live_version(self) -> int:
@@ -202,6 +219,10 @@ class Timeline:
         """
         self.resource.until = condition
 
+    def sample(self, samplings: tuple[Sampling, ...]) -> None:
+        """From now on the live PLC has these sampled; made for the program that is live, else they do not count."""
+        self.resource.samplings = samplings
+
     def note(self) -> None:
         """Marks where the run stands; keeps the file within its bounds. A few times a second is enough."""
         trim = self.recording.tidy()
@@ -224,9 +245,10 @@ class Timeline:
 
     # ---- the past -------------------------------------------------------------------------------------------------
 
-    def goto(self, scan: int) -> Refusal | None:
-        """Shows the state in which `scan` begins, with all that was entered in front of it."""
-        return self._visit(scan, stay=True)
+    def goto(self, scan: int, count: int = 0) -> Refusal | None:
+        """Shows the state in which `scan` begins, with all that was entered in front of it; with a count, where its statement
+        of this count is next (`engines.debug`)."""
+        return self._visit(scan, stay=True, count=count)
 
     def step(self, scans: int = 1) -> Refusal | None:
         """Shows a later scan of the past."""
@@ -255,24 +277,92 @@ class Timeline:
             on_done(Refusal(f"the run cannot be written to {path.name}: {reason}") if error is not None else None)
 
         wanted = self._live or self._moment()
-        if scan is not None:
+        if scan is not None and scan != wanted.scan:
             found: list[_Moment] = []
             refusal = self._visit(scan, stay=False, look=lambda: found.append(self._moment()))
             if refusal is not None:
                 on_done(refusal)
                 return
             wanted = found[0]
-        standing = Standing(wanted.scan, len(wanted.journal), wanted.loaded.version, wanted.state)
         try:
-            self.recording.copy(path, standing, by, done)
+            self.recording.copy(path, wanted.standing(), by, done)
         except OSError as error:
             done(error)
 
-    def _visit(self, scan: int, stay: bool, look: Callable[[], None] = lambda: None) -> Refusal | None:
+    def go_on(self, until: int) -> Stop:
+        """Runs what is shown of the past on, with the resource's hook, to the seam in front of scan `until`; in the scan in
+        which the PLC stands as far as that was run. HALTED: the hook halted it; KNOCKED: it stands somewhere on the way.
+        """
+        live, resource = self._live, self.resource
+        if live is None or not self._whole:
+            raise RuntimeError("there is no past to go on in: go to a scan of it first")
+        while True:
+            following = self._enter_front(live.journal)
+            unfinished = live.inside is not None or (following is not None and isinstance(following.command, Trapped))
+            if resource.header.scan >= until and not (until == live.scan and unfinished):
+                return Stop(Reason.DONE)
+            stop = self._one_stretch(live.journal, until)
+            if stop.reason is Reason.HALTED:
+                assert resource.inside is not None
+                inside = resource.journal[front(resource.journal, resource.header.scan) :]
+                later = sum(each.step > resource.inside.count for each in inside)
+                resource.journal = resource.journal.prefix(len(resource.journal) - later)
+            if stop.reason in (Reason.HALTED, Reason.KNOCKED):
+                return stop
+
+    def _following(self, journal: Journal) -> Entry | None:
+        """The first entry that was not entered yet."""
+        entered = len(self.resource.journal)
+        return journal[entered] if entered < len(journal) else None
+
+    def _enter_front(self, journal: Journal) -> Entry | None:
+        """Enters what was entered in front of the scan that is next; what comes behind that."""
+        resource, now = self.resource, self.resource.header.scan
+        while (entry := self._following(journal)) is not None:
+            if resource.begun or entry.scan != now or entry.step or isinstance(entry.command, Trapped):
+                break
+            resource.reenter(entry)
+        return entry
+
+    def _one_stretch(self, journal: Journal, until: int) -> Stop:
+        """To the next entry of the journal, or the end of the scan in which there is one."""
+        resource, now = self.resource, self.resource.header.scan
+        while (entry := self._following(journal)) is not None and entry.scan == now and entry.step:
+            resource.await_step(entry)
+        upto = until if entry is None else min(until, entry.scan)
+        if not resource.runnable:
+            if resource.header.halted_by_trap:
+                raise Diverged(f"the program is stopped in scan {now}, and went on when it was recorded")
+            resource.pass_time(upto - now)
+            return Stop(Reason.DONE)
+        stop = resource.rerun(max(1, upto - now))
+        if stop.reason is Reason.TRAP:
+            if entry is None or not isinstance(entry.command, Trapped) or entry.scan != resource.header.scan:
+                raise Diverged(f"scan {resource.header.scan} ends by a run-time error, and did not when it was recorded")
+            resource.reenter(entry)
+        return stop
+
+    def rewind(self) -> None:
+        """Puts the live PLC back to the beginning of the scan in which it stands or has just trapped.
+
+        For code that cannot be gone on with inside of a scan. `Diverged` and the like when the run cannot be repeated.
+        """
+        resource, journal, measured = self.resource, self.resource.journal, self.resource.measured
+        scan = resource.header.scan
+        checkpoint = self.recording.before(scan)
+        assert self._live is None and checkpoint is not None
+        loaded = self._kept.get(checkpoint.version)
+        resource.restore(loaded, _state(self.recording, checkpoint, loaded), journal.prefix(checkpoint.entries))
+        self._replay(journal[checkpoint.entries : _seam(journal, scan, inside=False)], scan)
+        resource.journal, resource.measured = journal, measured
+
+    def _visit(
+        self, scan: int, stay: bool, look: Callable[[], None] = lambda: None, count: int = 0
+    ) -> Refusal | None:  # fmt: skip
         """Goes to a scan, looks at it there, and comes back unless it is to `stay`, and always when it cannot be shown."""
         live, shown, whole = self._live, self._moment(), self._whole
         self._live = live or shown  # before anything is moved: other threads ask for what is live
-        refusal = self._move(scan, was_past=live is not None)
+        refusal = self._move(scan, count, was_past=live is not None)
         if refusal is None:
             look()
         if refusal is not None or not stay:
@@ -280,9 +370,9 @@ class Timeline:
             self._live, self._whole = live, whole
         return refusal
 
-    def _move(self, scan: int, was_past: bool) -> Refusal | None:
+    def _move(self, scan: int, count: int, was_past: bool) -> Refusal | None:
         """Puts the resource into the past. Where it cannot, somebody has to put it back."""
-        live = self.live_scan
+        live, journal, resource = self.live_scan, self.live_journal, self.resource
         if scan > live:
             return Refusal(f"scan {scan} has not come yet: the PLC is at scan {live}")
         checkpoint = self.recording.before(scan)
@@ -290,30 +380,54 @@ class Timeline:
             return Refusal(
                 f"scan {scan} is not kept any more: the run can be gone back to scan {self.recording.first_scan}"
             )
-        journal, resource = self.live_journal, self.resource
+        end = _seam(journal, scan, count > 0)
         try:
-            if was_past and self._whole and checkpoint.scan <= resource.header.scan <= scan:
-                resource.journal = resource.journal.prefix(len(resource.journal))  # what was shown keeps its own
-            else:
+            resource.leave()  # what was shown keeps its own journal
+            on = checkpoint.scan <= resource.header.scan <= scan and len(resource.journal) <= end
+            if not (was_past and self._whole and on):
                 loaded = self._kept.get(checkpoint.version)
                 state = _state(self.recording, checkpoint, loaded)
                 resource.restore(loaded, state, journal.prefix(checkpoint.entries))
                 self._whole = True
             resource.measured = Measured()
-            entered = len(resource.journal)
-            replay(resource, journal[entered : bisect_right(journal, scan, key=attrgetter("scan"))], scan)
+            self._replay(journal[len(resource.journal) : end], scan)
+            if count and not self._enter(scan, count):
+                return Refusal(f"scan {scan} has no statement {count}: it did not get so far")
         except (Diverged, *NOT_AS_RECORDED, NoProgram, RunFileError, OSError) as error:
             return Refusal(f"scan {scan} cannot be shown: {error}")
         return None
 
+    def _replay(self, entries: Sequence[Entry], scan: int) -> None:
+        """From where the resource stands to the seam in front of a scan, with nobody listening."""
+        hook, self.resource.hook = self.resource.hook, None
+        try:
+            replay(self.resource, entries, scan)
+        finally:
+            self.resource.hook = hook
+
+    def _enter(self, scan: int, count: int) -> bool:
+        """From the seam in front of a scan to its statement of this count."""
+        resource = self.resource
+        hook, listen = resource.hook, resource.listening
+        resource.hook = HaltAt(count)
+        resource.listen(Listen(count=count))
+        try:
+            while (stop := self.go_on(min(scan + 1, self.live_scan))).reason is Reason.KNOCKED:
+                pass
+        finally:
+            resource.hook = hook
+            resource.listen(listen)
+        return stop.reason is Reason.HALTED
+
     def _moment(self) -> _Moment:
         resource = self.resource
+        state = resource.state if resource.inside is None else bytes(resource.memory)
         return _Moment(
-            resource.loaded, resource.header.scan, resource.state, resource.journal, resource.measured
+            resource.loaded, resource.header.scan, state, resource.journal, resource.measured, resource.inside
         )  # fmt: skip
 
     def _stand(self, moment: _Moment) -> None:
-        self.resource.restore(moment.loaded, moment.state, moment.journal)
+        self.resource.restore(moment.loaded, moment.state, moment.journal, moment.inside)
         self.resource.measured = moment.measured
 
 
@@ -338,6 +452,21 @@ class KeptPrograms:
                 )
             self._checked.add(version)
         return loaded
+
+
+def _seam(journal: Journal, scan: int, inside: bool) -> int:
+    """How many entries lead to the seam in front of a scan; `inside`: to where the scan began that ran there last."""
+    end = bisect_right(journal, scan, key=attrgetter("scan"))
+    if inside:
+        anew = end
+        while anew and journal[anew - 1].scan == scan:
+            anew -= 1
+            if journal[anew].plan.starts_anew:
+                break
+            if isinstance(journal[anew].command, Trapped):
+                end = anew
+                break
+    return front(journal, scan, end)
 
 
 def open_at(

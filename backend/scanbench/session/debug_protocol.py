@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Literal
 
 from scanbench.debug.breakpoint import Breakpoint, Verdict
+from scanbench.debug.shown import FrameInfo, ScopeInfo, VariableInfo
 from scanbench.taps.covered import CoveredFile
 
 # ---- parent to host ------------------------------------------------------------------------------------------------
@@ -64,11 +65,12 @@ class WantScopes:
 class WantVariables:
     """What stands below an expression that is a place: members, elements; answered with `Variables`.
 
-    `scope` (one of the names in `Scopes`) with an empty expression: the variables of that scope.
+    `scope` (one of the names in `Scopes`) with an empty expression: the variables of that scope. `frame` None as in
+    `Evaluate`: an expression in the scope of the whole program, also while it runs.
     """
 
     ref: int
-    frame: int
+    frame: int | None
     scope: str
     expression: str
     start: int = 0
@@ -159,23 +161,6 @@ class LogpointSaid:
 
 
 @dataclass(frozen=True, slots=True)
-class FrameInfo:
-    """One frame of the call stack."""
-
-    index: int
-    name: str
-    """`Main.line.station (Station)`; of a FUNCTION its name."""
-    pou: str
-    instance: str
-    task: str
-    file: str
-    line: int
-    column: int
-    end_line: int
-    end_column: int
-
-
-@dataclass(frozen=True, slots=True)
 class Stack:
     ref: int
     frames: tuple[FrameInfo, ...]
@@ -183,37 +168,9 @@ class Stack:
 
 
 @dataclass(frozen=True, slots=True)
-class ScopeInfo:
-    """Variables of one section: VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR, VAR_TEMP, VAR_EXTERNAL, RESULT, GLOBAL, ..."""
-
-    name: str
-    count: int
-
-
-@dataclass(frozen=True, slots=True)
 class Scopes:
     ref: int
     scopes: tuple[ScopeInfo, ...]
-
-
-@dataclass(frozen=True, slots=True)
-class VariableInfo:
-    """One variable, element or result, as text."""
-
-    name: str
-    expression: str
-    """What names it in the scope of its frame, for `Evaluate`, `SetExpression` and `WantVariables`."""
-    value: str
-    type: str
-    path: str
-    """Instance path or address, for watch and data breakpoints; empty for temporaries."""
-    alias: str = ""
-    """Of an in-out or reference: `-> Main.tank[3].level (D120)`."""
-    address: str = ""
-    children: int = 0
-    indexed: bool = False
-    """Its children are elements of an array."""
-    writable: bool = True
 
 
 @dataclass(frozen=True, slots=True)
@@ -299,3 +256,4 @@ DebugRequest = (
     | SetCoverage | WantCoverage
 )  # fmt: skip
 DebugAnswer = Stack | Scopes | Variables | Evaluated | Places | Binding | Coverage | BreakpointsAre
+__all__ = ["FrameInfo", "ScopeInfo", "VariableInfo"]

@@ -165,7 +165,7 @@ class WantSnapshot:
 
 @dataclass(frozen=True, slots=True)
 class Lookup:
-    """`members` of a path, or what `complete`s a text; answered with `Found`."""
+    """`members` of a path, what `complete`s a text, or the `instances` of a POU; answered with `Found`."""
 
     ref: int
     kind: str

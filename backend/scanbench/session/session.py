@@ -221,9 +221,9 @@ class Session:
         """Shows the past to everybody, or live again."""
         return await self._refusing(self._instance.travel(scan, author))
 
-    async def begin_anew(self, author: str) -> protocol.Ack:
-        """A new run from scan 0; the old run file is kept aside."""
-        return self._logged(await self._refusing(self._instance.begin_anew()), author)
+    async def begin_anew(self, author: str, sources: protocol.Sources | None = None) -> protocol.Ack:
+        """A new run from scan 0, of other sources if there are any; the old run file is kept aside."""
+        return self._logged(await self._refusing(self._instance.begin_anew(sources)), author)
 
     async def preview_errors(self, errors: tuple[ErrorRef, ...], again: bool) -> protocol.PreviewedErrors:
         """What raising these would write now."""
@@ -351,7 +351,7 @@ class Session:
         self._instance.tell(protocol.WantSnapshot(subscriber))
 
     async def look_up(self, kind: str, text: str) -> protocol.Found:
-        """`members` of a path, or what `complete`s a text."""
+        """`members` of a path, what `complete`s a text, or the `instances` of a POU."""
         return await self._instance.look_up(kind, text)
 
     def _unwatch(self, ids: Sequence[int]) -> None:

@@ -7,6 +7,7 @@ from scanbench.syntax import tree
 from scanbench.syntax.lexer import AHEAD, KEYWORDS, Lex, Tokens, tokenize
 from scanbench.syntax.parse_file import MAX_SIZE, is_exported, is_stimulus, parse_file
 from scanbench.syntax.parse_st import StParser
+from scanbench.syntax.pragmas import in_out_pragmas
 from scanbench.syntax.source import Source
 
 ENDS = {"PROGRAM": "END_PROGRAM", "FUNCTION": "END_FUNCTION", "FUNCTION_BLOCK": "END_FUNCTION_BLOCK"}
@@ -173,12 +174,21 @@ def _stretches(tokens: Tokens, length: int) -> list[tuple[int, int, bool]] | Non
         if end == len(marks) or texts[marks[end]] != closing:
             return None
         if opening != "CONFIGURATION":
-            start, behind = tokens.starts[marks[index]], tokens.starts[marks[end]] + len(closing)
+            start, behind = _start(tokens, marks[index]), tokens.starts[marks[end]] + len(closing)
             made += [(at, start, False), (start, behind, True)]
             at = behind
         index = end + 1
     made.append((at, length, False))
     return made if _free(tokens, made) else None
+
+
+def _start(tokens: Tokens, first: int) -> int:
+    """Where a POU begins: with its first token, or with what a pragma in front of it says of its in-outs."""
+    if not tokens.pragmas:
+        return tokens.starts[first]
+    before = tokens.starts[first - 1] if first else -1
+    own = (each.start for each in in_out_pragmas(tokens.pragmas) if before < each.start < tokens.starts[first])
+    return min(own, default=tokens.starts[first])
 
 
 def _free(tokens: Tokens, stretches: list[tuple[int, int, bool]]) -> bool:

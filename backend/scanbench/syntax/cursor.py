@@ -4,6 +4,7 @@ import sys
 
 from scanbench.problems import Problem, Span
 from scanbench.syntax.lexer import Lex, Tokens, tokenize
+from scanbench.syntax.pragmas import in_out_pragmas
 from scanbench.syntax.source import Source, Stretch
 
 MAX_DEPTH = 200
@@ -35,6 +36,8 @@ class Cursor:
         if tokens is None:
             tokens, self.problems = tokenize(source)
         self.kinds, self.texts, self.starts, self.pragmas = tokens.kinds, tokens.texts, tokens.starts, tokens.pragmas
+        self.in_out_pragmas = in_out_pragmas(self.pragmas)
+        """Those that no FUNCTION_BLOCK has taken yet."""
         self.at = 0
         self.depth = 0
 

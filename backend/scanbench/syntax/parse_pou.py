@@ -3,11 +3,14 @@
 from collections.abc import Sequence
 from dataclasses import replace
 
+from scanbench.problems import Span
 from scanbench.syntax import tree
 from scanbench.syntax.cursor import NAME
 from scanbench.syntax.parse_declaration import ACCESS, POU_STARTS
 from scanbench.syntax.parse_il import IlParser
 from scanbench.syntax.parse_statement import BLOCK_ENDS
+from scanbench.syntax.pragmas import InOutPragma
+from scanbench.syntax.source import Stretch
 
 MODIFIERS = frozenset(("ABSTRACT", "FINAL", "OVERRIDE"))
 ENDS = {
@@ -23,10 +26,12 @@ Body = tuple[tree.Statement, ...] | tree.IlBody
 class PouParser(IlParser):
     def pou(self, namespace: str = "", using: tuple[str, ...] = ()) -> tree.PouDeclaration:
         """From PROGRAM, FUNCTION_BLOCK, FUNCTION, CLASS or INTERFACE to its end."""
-        kind = self.texts[self.take()].upper()
+        first = self.take()
+        kind = self.texts[first].upper()
         access, modifiers = self._modifiers()
         name = self.name(f"the name of the {kind}")
         header = self._header(kind, name)
+        in_out = self._in_out(first) if kind == "FUNCTION_BLOCK" and self.pragmas else ""
         sections: list[tree.VariableSection] = []
         methods: list[tree.PouDeclaration] = []
         body: Body = ()
@@ -53,8 +58,29 @@ class PouParser(IlParser):
         result, extends, implements, more = header
         return tree.PouDeclaration(
             kind.lower(), self.texts[name], result, tuple(sections), body, self.span_of(name), tuple(methods),
-            extends, implements, modifiers, access, namespace, using + more,
+            extends, implements, modifiers, access, namespace, using + more, in_out,
         )  # fmt: skip
+
+    def _in_out(self, first: int) -> str:
+        """What a pragma between the token in front of `first` and the next one says of in-outs."""
+        begin = self._end_of(first - 1) if first else 0
+        mine = [each for each in self.in_out_pragmas if begin <= each.start < self.starts[self.at]]
+        for each in mine:
+            self.in_out_pragmas.remove(each)
+            if not each.convention:
+                self.report("S003", f"`'value'` or `'reference'` expected, found `{each.said}`.", self._span_of(each))
+        for each in mine[1:]:
+            self.report("S003", "One pragma `in_out` is enough for a FUNCTION_BLOCK; remove this one.", self._span_of(each))
+        return mine[0].convention if mine else ""
+
+    def check_pragmas(self) -> None:
+        """Reports pragmas `in_out` that stand where they mean nothing."""
+        for each in self.in_out_pragmas:
+            message = "A pragma `in_out` stands in front of a FUNCTION_BLOCK or behind its name; move it there."
+            self.report("S003", message, self._span_of(each))
+
+    def _span_of(self, pragma: InOutPragma) -> Span:
+        return Stretch(self.source, pragma.start, pragma.end)
 
     def _whole_body(self) -> Body:
         """A body; what closes a block that was never opened is reported, and the body goes on."""

@@ -40,6 +40,7 @@ class StParser(ConfigurationParser):
         result = tree.File(self.source.name)
         while not self.ended():
             self._next(result)
+        self.check_pragmas()
         self.problems.sort(key=lambda problem: (problem.span.line, problem.span.column))
         return result, self.problems
 

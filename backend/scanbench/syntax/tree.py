@@ -332,6 +332,8 @@ class PouDeclaration:
     """`A.B`, empty at the top."""
     using: tuple[str, ...] = ()
     """Namespaces whose names are visible without qualification, the enclosing ones not included."""
+    in_out: str = ""
+    """How it takes its in-outs, where a pragma says so: `reference` or `value`."""
 
 
 @node

@@ -127,6 +127,13 @@ async def on_complete(bench: Bench, instance: Id, text: str = "") -> list[wire.S
     return list(map(translate.symbol, found.symbols))
 
 
+@router.get("/instances/{instance}/instances-of")
+async def on_instances_of(bench: Bench, instance: Id, pou: str) -> list[wire.Symbol]:
+    """The instances of a POU in the running program, at most 1,000."""
+    found = await bench.session(instance).look_up("instances", pou)
+    return list(map(translate.symbol, found.symbols))
+
+
 @router.get("/instances/{instance}/errors")
 async def on_errors(bench: Bench, instance: Id) -> list[ErrorHistoryRow]:
     """The error history, in the order of the catalogue."""

@@ -17,6 +17,7 @@ from scanbench.faults.inject import Recover
 from scanbench.runtime import checkpoints, recording
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.forces import FORCED, Force, Release
+from scanbench.runtime.inside import Inside
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.programs import Loaded
@@ -318,9 +319,9 @@ def test_other_threads_never_take_the_past_for_what_is_live(tmp_path: Path, monk
     seen: list[int] = []
     restore = Resource.restore
 
-    def watched(resource: Resource, loaded: Loaded, state: bytes, journal: Journal) -> None:
+    def watched(resource: Resource, loaded: Loaded, state: bytes, journal: Journal, inside: Inside | None = None) -> None:
         seen.append(timeline.live_version)
-        restore(resource, loaded, state, journal)
+        restore(resource, loaded, state, journal, inside)
         seen.append(timeline.live_version)
 
     monkeypatch.setattr(Resource, "restore", watched)

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
-import { formatString, formatTime, formatValue, hexWord, type ValueShape } from "./values";
+import { formatTime } from "./durations";
+import { formatString, formatValue, hexWord, type ValueShape } from "./values";
 
 function text(shape: ValueShape, fill: (view: DataView) => void, format?: "hex" | "binary" | "decimal"): string {
   const view = new DataView(new ArrayBuffer(8));

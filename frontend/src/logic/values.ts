@@ -1,7 +1,22 @@
 /** Raw bytes of a variable to the text that a programmer knows, by the symbol's kind. */
-import type { PlcSymbol } from "../wire/types";
+import type { PlcSymbol, WatchEntry } from "../wire/types";
+import { formatTime } from "./durations";
+import { based, inFormat } from "./formats";
 
-export type Format = "default" | "decimal" | "hex" | "binary";
+/** How a value can be shown; `default` is what its type suggests. */
+export const FORMATS = [
+  "default",
+  "decimal",
+  "signed",
+  "unsigned",
+  "hex",
+  "binary",
+  "bcd",
+  "float",
+  "time",
+  "ascii",
+] as const satisfies readonly WatchEntry["format"][];
+export type Format = (typeof FORMATS)[number];
 export type ValueShape = Pick<PlcSymbol, "kind" | "size"> & Partial<Pick<PlcSymbol, "type" | "values">>;
 
 /** True, false, or null for what is not a BOOL: decides about the lamp in front of the value. */
@@ -11,23 +26,21 @@ export function lampOf(shape: ValueShape, view: DataView, offset: number): boole
 
 /** The text of the value that stands in the eight bytes from `offset`. */
 export function formatValue(shape: ValueShape, view: DataView, offset: number, format: Format = "default"): string {
+  if (format !== "default") {
+    const shown = inFormat(shape, bitsOf(shape.size, view, offset), format);
+    if (shown !== null) return shown;
+  }
   const name = format === "default" ? enumName(shape, view, offset) : null;
   if (name !== null) return name;
   switch (shape.kind) {
     case "bool":
       return view.getUint8(offset) !== 0 ? "TRUE" : "FALSE";
     case "int":
-      return format === "hex" || format === "binary"
-        ? based(unsigned(shape.size, view, offset), shape.size, format)
-        : signed(shape.size, view, offset).toString();
+      return signed(shape.size, view, offset).toString();
     case "uint":
-      return format === "hex" || format === "binary"
-        ? based(unsigned(shape.size, view, offset), shape.size, format)
-        : unsigned(shape.size, view, offset).toString();
+      return bitsOf(shape.size, view, offset).toString();
     case "bits":
-      return format === "decimal"
-        ? unsigned(shape.size, view, offset).toString()
-        : based(unsigned(shape.size, view, offset), shape.size, format === "binary" ? "binary" : "hex");
+      return based(bitsOf(shape.size, view, offset), shape.size, "hex");
     case "real":
       return shape.size === 4 ? formatReal32(view.getFloat32(offset, true)) : formatReal(view.getFloat64(offset, true));
     case "time":
@@ -51,7 +64,7 @@ export function formatValue(shape: ValueShape, view: DataView, offset: number, f
 /** The name of an enumeration's value; null for other types, and for numbers without a name. */
 function enumName(shape: ValueShape, view: DataView, offset: number): string | null {
   if (!shape.values?.length) return null;
-  const value = shape.kind === "int" ? signed(shape.size, view, offset) : unsigned(shape.size, view, offset);
+  const value = shape.kind === "int" ? signed(shape.size, view, offset) : bitsOf(shape.size, view, offset);
   return shape.values.find((known) => BigInt(known.value) === value)?.name ?? null;
 }
 
@@ -59,17 +72,8 @@ function signed(size: number, view: DataView, offset: number): bigint {
   return BigInt.asIntN(size * 8, view.getBigUint64(offset, true));
 }
 
-function unsigned(size: number, view: DataView, offset: number): bigint {
+function bitsOf(size: number, view: DataView, offset: number): bigint {
   return BigInt.asUintN(size * 8, view.getBigUint64(offset, true));
-}
-
-function based(value: bigint, size: number, format: "hex" | "binary"): string {
-  return format === "hex"
-    ? `16#${value
-        .toString(16)
-        .toUpperCase()
-        .padStart(size * 2, "0")}`
-    : `2#${value.toString(2).padStart(size * 8, "0")}`;
 }
 
 /** Four hex digits without a prefix, as status words are written: 80F4. */
@@ -92,29 +96,6 @@ function formatReal32(value: number): string {
     if (Math.fround(text) === value) return formatReal(text);
   }
   return formatReal(value);
-}
-
-const UNITS: [string, bigint][] = [
-  ["d", 86_400_000_000_000n],
-  ["h", 3_600_000_000_000n],
-  ["m", 60_000_000_000n],
-  ["s", 1_000_000_000n],
-  ["ms", 1_000_000n],
-  ["us", 1_000n],
-  ["ns", 1n],
-];
-
-/** T#1m5s250ms: the units that are not zero, as IEC 61131-3 writes durations. */
-export function formatTime(ns: bigint, prefix = "T"): string {
-  if (ns === 0n) return `${prefix}#0s`;
-  let rest = ns < 0n ? -ns : ns;
-  let text = ns < 0n ? `${prefix}#-` : `${prefix}#`;
-  for (const [unit, size] of UNITS) {
-    const count = rest / size;
-    if (count > 0n) text += `${count}${unit}`;
-    rest %= size;
-  }
-  return text;
 }
 
 const DAY = 86_400_000_000_000n;

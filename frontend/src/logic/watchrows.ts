@@ -1,75 +1,182 @@
-/** The watch list as rows: roots, unfolded members, and a note under a row that has something to say. */
-import type { PlcSymbol, Refusal } from "../wire/types";
+/** The watch list as rows: groups, entries in their order, unfolded members, and below a row what it has to say. */
+import type { PlcSymbol, Refusal, WatchEntry } from "../wire/types";
+import { corrections } from "./correction";
+import { splitPath } from "./paths";
+import { type Filter, matches, type Sort, type SortColumn, type SortKey, sorted } from "./watchsort";
+
+/** So many members of an array are shown at once, and so many more with each asking. */
+export const PAGE = 100;
 
 export interface WatchNote {
   kind: "refused" | "unsent" | "unknown";
   message: string;
   /** Near matches for a name that is not known. */
-  near: string[];
+  near: readonly string[];
   /** What was typed, to be offered again. */
   entry?: string;
+  /** Values that would be taken instead. */
+  instead: readonly string[];
+  /** What the entry was to do. */
+  verb?: "write" | "force";
 }
 
-export interface ValueRow {
-  kind: "value";
+export interface GroupRow {
+  kind: "group";
+  key: string;
+  name: string;
+  open: boolean;
+  count: number;
+}
+
+interface OfEntry {
+  key: string;
   path: string;
   /** The list entry that this row stands under; equal to `path` for the entry itself. */
   root: string;
   level: number;
-  open: boolean;
-  /** Known for members; for roots it comes with the watch's answer. */
-  symbol: PlcSymbol | null;
 }
 
-export interface NoteRow {
+export interface ValueRow extends OfEntry {
+  kind: "value";
+  group: string;
+  open: boolean;
+  /** Known for members; for entries it comes with the watch's answer. */
+  symbol: PlcSymbol | null;
+  /** The in-out that this row is, or stands below. */
+  inOut: string | null;
+}
+
+export interface NoteRow extends OfEntry {
   kind: "note";
-  path: string;
-  root: string;
-  level: number;
   note: WatchNote;
 }
 
-export type WatchRow = ValueRow | NoteRow;
+/** Where an in-out leads, below its row. */
+export interface BindingRow extends OfEntry {
+  kind: "binding";
+}
+
+/** The end of a page of members. */
+export interface MoreRow extends OfEntry {
+  kind: "more";
+  shown: number;
+  total: number;
+}
+
+export type WatchRow = GroupRow | ValueRow | NoteRow | BindingRow | MoreRow;
 
 export interface WatchListView {
-  roots: readonly string[];
+  entries: readonly WatchEntry[];
+  groups: readonly string[];
+  collapsed: ReadonlySet<string>;
   open: ReadonlySet<string>;
+  /** How many members of a path are shown, where that is more than a page. */
+  shown: ReadonlyMap<string, number>;
   /** Members by path, as far as they were fetched. */
   members: ReadonlyMap<string, readonly PlcSymbol[]>;
   symbols: ReadonlyMap<string, PlcSymbol>;
   notes: ReadonlyMap<string, WatchNote>;
   /** Names that the PLC does not know, with its reason. */
   refusals: ReadonlyMap<string, Refusal>;
+  sort: Sort;
+  filter: Filter;
+  /** What a filter by state, and a sort by what only the page knows, go by. */
+  keyOf: (path: string, column: SortColumn) => SortKey;
+  isForced: (path: string) => boolean;
+  hasChanged: (path: string) => boolean;
 }
 
 /** The rows to show, members after their owner. */
 export function watchRows(view: WatchListView): WatchRow[] {
   const rows: WatchRow[] = [];
-  for (const root of view.roots) addRows(rows, view, root, root, view.symbols.get(root) ?? null, 0);
+  const listed = sortedEntries(view);
+  const filtered = view.filter.text !== "" || view.filter.only !== "all";
+  for (const group of ["", ...view.groups]) {
+    const entries = listed.filter((entry) => entry.group === group && passes(view, entry.path));
+    if (group !== "") {
+      if (filtered && entries.length === 0) continue;
+      const open = !view.collapsed.has(group);
+      rows.push({ kind: "group", key: `group:${group}`, name: group, open, count: entries.length });
+      if (!open) continue;
+    }
+    for (const { path } of entries) {
+      const symbol = view.symbols.get(path) ?? null;
+      addRows(rows, view, { path, root: path, group, level: 0, symbol, inOut: inOutOf(symbol, path) });
+    }
+  }
   return rows;
+}
+
+const inOutOf = (symbol: PlcSymbol | null, path: string) => (symbol?.section === "VAR_IN_OUT" ? path : null);
+
+function sortedEntries({ entries, sort, symbols, keyOf }: WatchListView): readonly WatchEntry[] {
+  if (sort === null) return entries;
+  const { column, down } = sort;
+  const key = ({ path }: WatchEntry): SortKey => {
+    if (column === "target") return path;
+    if (column === "type") return symbols.get(path)?.type ?? null;
+    if (column === "address") return symbols.get(path)?.address ?? null;
+    return keyOf(path, column);
+  };
+  return sorted(entries, key, down);
+}
+
+function passes(view: WatchListView, path: string): boolean {
+  const { text, only } = view.filter;
+  if (only === "forced" && !view.isForced(path)) return false;
+  if (only === "changed" && !view.hasChanged(path)) return false;
+  if (only === "errors" && !view.refusals.has(path) && !view.notes.has(path)) return false;
+  return text === "" || shows(view, path, view.symbols.get(path), text);
+}
+
+/** Whether a text is in an entry, or in a member that is unfolded below it. */
+function shows(view: WatchListView, path: string, symbol: PlcSymbol | undefined, text: string): boolean {
+  if (matches(text, [path, symbol?.type, symbol?.address])) return true;
+  if (!view.open.has(path)) return false;
+  return (view.members.get(path) ?? []).some((member) => shows(view, member.path, member, text));
 }
 
 function addRows(
   rows: WatchRow[],
   view: WatchListView,
-  path: string,
-  root: string,
-  symbol: PlcSymbol | null,
-  level: number,
+  of: Pick<ValueRow, "path" | "root" | "group" | "level" | "symbol" | "inOut">,
 ): void {
+  const { path, root, group, level, inOut } = of;
   const open = view.open.has(path);
-  rows.push({ kind: "value", path, root, level, open, symbol });
+  const named = { path, root, level };
+  rows.push({ kind: "value", key: `value:${root}:${path}`, ...of, open });
   const note = view.notes.get(path) ?? unknownNote(view.refusals.get(path));
-  if (note) rows.push({ kind: "note", path, root, level, note });
+  if (note) rows.push({ kind: "note", key: `note:${root}:${path}`, ...named, note });
+  if (inOut === path) rows.push({ kind: "binding", key: `binding:${root}:${path}`, ...named });
   if (!open) return;
-  for (const member of view.members.get(path) ?? []) addRows(rows, view, member.path, root, member, level + 1);
+  const members = view.members.get(path) ?? [];
+  const shown = Math.max(PAGE, view.shown.get(path) ?? 0);
+  for (const member of members.slice(0, shown)) {
+    const below = inOutOf(member, member.path) ?? inOut;
+    addRows(rows, view, { path: member.path, root, group, level: level + 1, symbol: member, inOut: below });
+  }
+  if (members.length > shown) {
+    rows.push({ kind: "more", key: `more:${root}:${path}`, path, root, level: level + 1, shown, total: members.length });
+  }
 }
 
 function unknownNote(refusal: Refusal | undefined): WatchNote | null {
-  return refusal ? { kind: "unknown", message: refusal.message, near: refusal.near ?? [] } : null;
+  return refusal ? { kind: "unknown", message: refusal.message, near: refusal.near ?? [], instead: [] } : null;
 }
 
-/** What to ask the PLC for: every entry, and the members that are shown and have a value of their own. */
+/** A note about an entry that was not taken, with what would be. */
+export function noteOf(
+  sent: boolean,
+  message: string,
+  near: readonly string[],
+  entry: string,
+  verb: "write" | "force",
+): WatchNote {
+  const instead = sent ? corrections(message, entry) : [];
+  return { kind: sent ? "refused" : "unsent", message, near, entry, instead, verb };
+}
+
+/** What to ask the PLC for: entries, and members that have a value of their own. */
 export function pathsToWatch(rows: readonly WatchRow[]): string[] {
   const paths = new Set<string>();
   for (const row of rows) {
@@ -77,3 +184,9 @@ export function pathsToWatch(rows: readonly WatchRow[]): string[] {
   }
   return [...paths];
 }
+
+/** A member shows only what it adds to its owner: `[1]` or `run`. */
+export const memberName = (row: ValueRow) => row.symbol?.name || splitPath(row.path).name;
+
+/** What stands behind a member of an in-out, from what the in-out itself is bound to: `Main.zone[3].parts`. */
+export const actualOf = (path: string, inOut: string, actual: string) => actual + path.slice(inOut.length);

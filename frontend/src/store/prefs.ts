@@ -11,6 +11,8 @@ interface Prefs {
   language: Language;
   /** Show in the editor where the compiler embedded subrange checks. */
   checks: boolean;
+  /** Show live values behind the lines of the editor. */
+  inline: boolean;
 }
 
 function systemLanguage(): Language {
@@ -25,6 +27,7 @@ function initial(): Prefs {
     theme: painted ?? "dark",
     language: languages.find((language) => language === kept.language) ?? systemLanguage(),
     checks: kept.checks ?? false,
+    inline: kept.inline ?? true,
   };
 }
 
@@ -53,6 +56,10 @@ export function nextTheme(): void {
 
 export function toggleChecks(): void {
   usePrefs.setState(({ checks }) => ({ checks: !checks }));
+}
+
+export function toggleInline(): void {
+  usePrefs.setState(({ inline }) => ({ inline: !inline }));
 }
 
 export function chooseLanguage(language: Language): void {

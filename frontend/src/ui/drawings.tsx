@@ -278,6 +278,46 @@ export const drawings = {
       <path d="M8 4.75V8l2.25 1.5" />
     </>
   ),
+  "step-over": (
+    <>
+      <path d="M2.5 8.25a5.5 5.5 0 0 1 10-2.6M13 2.5v3.4H9.6" />
+      <circle cx="8" cy="12" r="1.5" className="f" />
+    </>
+  ),
+  "step-in": (
+    <>
+      <path d="M8 1.75v7M4.9 5.9 8 9l3.1-3.1" />
+      <circle cx="8" cy="12.75" r="1.5" className="f" />
+    </>
+  ),
+  "step-out": (
+    <>
+      <path d="M8 9V2M4.9 5 8 1.9 11.1 5" />
+      <circle cx="8" cy="12.75" r="1.5" className="f" />
+    </>
+  ),
+  reverse: <path d="M11 3.4v9.2L3.6 8z" className="f" />,
+  stack: <path d="m8 2.5 5.5 2.75L8 8 2.5 5.25zM2.5 8 8 10.75 13.5 8M2.5 10.75 8 13.5l5.5-2.75" />,
+  bp: <circle cx="8" cy="8" r="4.25" className="f" />,
+  "bp-cond": (
+    <>
+      <circle cx="8" cy="8" r="4.25" className="f" />
+      <path d="M6.25 7h3.5M6.25 9.2h3.5" stroke="var(--bg-panel)" strokeWidth="1.25" />
+    </>
+  ),
+  "bp-log": <path d="M8 3 13 8l-5 5-5-5z" className="f" />,
+  "bp-assign": <path d="M3.5 3.5h6L13 8l-3.5 4.5h-6z" className="f" />,
+  "bp-data": <path d="M8 3.25 12.75 12H3.25z" className="f" />,
+  "bp-off": <circle cx="8" cy="8" r="3.75" />,
+  "bp-unbound": <circle cx="8" cy="8" r="3.75" strokeDasharray="1.8 1.7" />,
+  here: <path d="M2.5 5.25h6V2.75L14 8l-5.5 5.25v-2.5h-6z" />,
+  "here-bp": (
+    <>
+      <path d="M2 4.75h6.5V2L14.75 8 8.5 14v-2.75H2z" />
+      <circle cx="6.8" cy="8" r="2.3" className="f" />
+    </>
+  ),
+  bound: <path d="M2.75 3v4.25a1.5 1.5 0 0 0 1.5 1.5h8.5M10 5.75l3 3-3 3" />,
   cmd: <path d="m4 5 3 3-3 3M8.5 11.5h4" />,
 } as const;
 

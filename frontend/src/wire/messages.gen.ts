@@ -352,6 +352,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/instances-of": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Instances Of
+         * @description The instances of a POU in the running program, at most 1,000.
+         */
+        get: operations["on_instances_of_api_instances__instance__instances_of_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/model": {
         parameters: {
             query?: never;
@@ -896,6 +916,30 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/projects/{project}/watch-lists": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Watch Lists
+         * @description The lists that this user sees: shared ones and the user's own, by name.
+         */
+        get: operations["on_watch_lists_api_projects__project__watch_lists_get"];
+        put?: never;
+        /**
+         * On New Watch List
+         * @description A new list.
+         */
+        post: operations["on_new_watch_list_api_projects__project__watch_lists_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/states/{state}": {
         parameters: {
             query?: never;
@@ -1075,6 +1119,34 @@ export interface paths {
          */
         post: operations["on_withdraw_api_sweeps__sweep__withdraw_post"];
         delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/watch-lists/{id}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Watch List
+         * @description One list.
+         */
+        get: operations["on_watch_list_api_watch_lists__id__get"];
+        /**
+         * On Save Watch List
+         * @description Saves it whole, if nobody else saved since it was read.
+         */
+        put: operations["on_save_watch_list_api_watch_lists__id__put"];
+        post?: never;
+        /**
+         * On Delete Watch List
+         * @description Forgets it.
+         */
+        delete: operations["on_delete_watch_list_api_watch_lists__id__delete"];
         options?: never;
         head?: never;
         patch?: never;
@@ -2480,6 +2552,20 @@ export interface components {
              */
             window: number;
         };
+        /** NewWatchList */
+        NewWatchList: {
+            /** Entries */
+            entries?: components["schemas"]["WatchEntry"][];
+            /** Groups */
+            groups?: string[];
+            /** Name */
+            name: string;
+            /**
+             * Shared
+             * @description with everybody at the project; else it is the user's own
+             */
+            shared: boolean;
+        };
         /**
          * OnlineChange
          * @description What a swap of the program does to the variables of one running PLC.
@@ -3072,6 +3158,25 @@ export interface components {
             errors: components["schemas"]["UserError"][];
             /** Groups */
             groups?: components["schemas"]["UserGroup"][];
+            /** Version */
+            version: number;
+        };
+        /**
+         * SaveWatchList
+         * @description Optimistic save: `version` is the one the edit began from. A shared list stays shared.
+         */
+        SaveWatchList: {
+            /** Entries */
+            entries?: components["schemas"]["WatchEntry"][];
+            /** Groups */
+            groups?: string[];
+            /** Name */
+            name: string;
+            /**
+             * Shared
+             * @description with everybody at the project; else it is the user's own
+             */
+            shared: boolean;
             /** Version */
             version: number;
         };
@@ -3856,6 +3961,29 @@ export interface components {
             symbol: components["schemas"]["Symbol"] | null;
         };
         /**
+         * WatchEntry
+         * @description A line of a watch list.
+         */
+        WatchEntry: {
+            /**
+             * Format
+             * @default default
+             * @enum {string}
+             */
+            format: "default" | "decimal" | "signed" | "unsigned" | "hex" | "binary" | "bcd" | "float" | "time" | "ascii";
+            /**
+             * Group
+             * @description one of the list's groups; empty: above them all
+             * @default
+             */
+            group: string;
+            /**
+             * Path
+             * @description instance path, address, or range of addresses (W10:8)
+             */
+            path: string;
+        };
+        /**
          * Watching
          * @description Answer to `watch`; sent again, for all ids, when a new program moved the variables.
          */
@@ -3869,6 +3997,28 @@ export interface components {
              * @enum {string}
              */
             type: "watching";
+        };
+        /** WatchList */
+        WatchList: {
+            /**
+             * Author
+             * @description who saved this version
+             */
+            author: string;
+            /** Count */
+            count: number;
+            /** Entries */
+            entries: components["schemas"]["WatchEntry"][];
+            /** Groups */
+            groups: string[];
+            /** Id */
+            id: number;
+            /** Name */
+            name: string;
+            /** Shared */
+            shared: boolean;
+            /** Version */
+            version: number;
         };
         /**
          * WatchListChanged
@@ -3888,6 +4038,33 @@ export interface components {
              * Version
              * @description 0: it is deleted
              */
+            version: number;
+        };
+        /**
+         * WatchListConflict
+         * @description Somebody else saved first (status 409): nothing was written; here is theirs.
+         */
+        WatchListConflict: {
+            /** Message */
+            message: string;
+            theirs: components["schemas"]["WatchList"];
+        };
+        /** WatchListInfo */
+        WatchListInfo: {
+            /**
+             * Author
+             * @description who saved this version
+             */
+            author: string;
+            /** Count */
+            count: number;
+            /** Id */
+            id: number;
+            /** Name */
+            name: string;
+            /** Shared */
+            shared: boolean;
+            /** Version */
             version: number;
         };
         /**
@@ -4608,6 +4785,39 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["HistoryVersion"][];
+                };
+            };
+        };
+    };
+    on_instances_of_api_instances__instance__instances_of_get: {
+        parameters: {
+            query: {
+                pou: string;
+            };
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Symbol"][];
                 };
             };
         };
@@ -5680,6 +5890,72 @@ export interface operations {
             };
         };
     };
+    on_watch_lists_api_projects__project__watch_lists_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["WatchListInfo"][];
+                };
+            };
+        };
+    };
+    on_new_watch_list_api_projects__project__watch_lists_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewWatchList"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["WatchList"];
+                };
+            };
+        };
+    };
     on_delete_state_api_states__state__delete: {
         parameters: {
             query?: never;
@@ -5982,6 +6258,110 @@ export interface operations {
                 "application/json": components["schemas"]["CellRef"];
             };
         };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    on_watch_list_api_watch_lists__id__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["WatchList"];
+                };
+            };
+        };
+    };
+    on_save_watch_list_api_watch_lists__id__put: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                id: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SaveWatchList"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["WatchList"];
+                };
+            };
+            /** @description Conflict */
+            409: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["WatchListConflict"];
+                };
+            };
+        };
+    };
+    on_delete_watch_list_api_watch_lists__id__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                id: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
         responses: {
             /** @description Client Error */
             "4XX": {

@@ -182,6 +182,9 @@ export const rest = {
 
   symbols: (instance: number, path: string) =>
     json<PlcSymbol[]>("GET", `/instances/${instance}/symbols?path=${encodeURIComponent(path)}`),
+  /** The instances of a POU in the program that runs. */
+  instancesOf: (instance: number, pou: string) =>
+    json<PlcSymbol[]>("GET", `/instances/${instance}/instances-of?pou=${encodeURIComponent(pou)}`),
   complete: (instance: number, text: string) =>
     json<PlcSymbol[]>("GET", `/instances/${instance}/complete?text=${encodeURIComponent(text)}`),
 };

@@ -3,9 +3,8 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 
-from scanbench.check.program import Expr, Place, Pou, Program, Stmt
-from scanbench.check.types import Section
-from scanbench.engines.debug import NOTHING, READ, WRITE, Frame, Hook, Listen
+from scanbench.check.program import Expr, Place, Pou, Program, ProgramInstance, Stmt
+from scanbench.engines.debug import NOTHING, READ, WRITE, Frame, Hook, Listen, frame_of
 from scanbench.engines.interpreter.memory import Value, putter
 from scanbench.engines.interpreter.observer import ObservedPlaces, ReferenceObserver
 from scanbench.engines.interpreter.places import BIT_SHIFT, BYTE_OFFSET, Places, Read, Write
@@ -91,10 +90,17 @@ class DebugObserver(ReferenceObserver):
 
         return body
 
-    def connected(self, pou: Pou, offset: int, run: Run) -> Run:
-        """Lines of a CONFIGURATION, which stand in a frame of their program instance."""
-        body = self._in_frame(pou, run)
-        return lambda _: self._at(body, offset)
+    def connected(self, instance: ProgramInstance, run: Run) -> Run:
+        """Lines of a CONFIGURATION: they stand in a frame of their program instance, which does not run yet."""
+        frames, frame = self._frames, (instance.pou, instance.offset, None)
+
+        def lines(nobody: int) -> int:
+            frames.append(frame)
+            end = run(nobody)
+            frames.pop()
+            return end
+
+        return lines
 
     def way(self, node: Stmt, way: int, run: Run) -> Run:
         number = self.sites.outcome(node, way)

@@ -37,8 +37,7 @@ class ReferenceDebugEngine(ReferenceEngine, DebugEngine):
         return self.observer.frames()
 
     def _connected(self, instance: ProgramInstance, run: Body) -> Body:
-        """Lines of a CONFIGURATION have a frame of their program instance."""
-        return self.observer.framed(instance.pou, run, lambda _: instance.offset)
+        return self.observer.connected(instance, run)
 
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
         try:

@@ -6,7 +6,7 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from scanbench.check.condition import Condition
-from scanbench.check.layout import Layout
+from scanbench.check.layout import FORCE_AFTER_PROGRAM, FORCE_BEFORE, Layout
 from scanbench.check.program import Expr, Pou, Program, ProgramInstance, Task
 from scanbench.check.types import Kind, Record
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
@@ -116,7 +116,9 @@ class ReferenceEngine(Engine):
     def _value(self, expr: Expr) -> Read:
         """Evaluates an expression that belongs to no POU."""
         nobody = Record("CONDITION", Kind.STRUCT)
-        return Statements(self, Pou("CONDITION", "function", nobody, nobody, (), None, Span("", 0, 0, 0, 0))).evaluate(expr)
+        return Statements(self, Pou("CONDITION", "function", nobody, nobody, (), None, Span("", 0, 0, 0, 0))).evaluate(
+            expr
+        )
 
     def _holds(self, condition: Condition) -> Callable[[], bool]:
         """Evaluates the condition on the image."""
@@ -188,21 +190,22 @@ class ReferenceEngine(Engine):
         # 2 input refresh: the plant; inputs are also changed in the seam; forces
         for run in self._plant:
             run()
-        self._force()
+        self._force(FORCE_BEFORE)
         # 3 user program
         for due, programs in self._tasks:
             if due(scan):
                 for run in programs:
                     run()
         # 4 forces again, output refresh
-        self._force()
+        self._force(FORCE_AFTER_PROGRAM)
         memory[Layout.SCAN : Layout.SCAN + 8] = (scan + 1).to_bytes(8, "little")
 
-    def _force(self) -> None:
+    def _force(self, note: int) -> None:
         memory = self.memory
         count = int.from_bytes(memory[Layout.FORCE_COUNT : Layout.FORCE_COUNT + 4], "little")
         for at in range(Layout.FORCES, Layout.FORCES + 8 * min(count, Layout.FORCE_LIMIT), 8):
             offset = int.from_bytes(memory[at : at + 4], "little")
             mask, value = memory[at + 4], memory[at + 5]
             if offset < len(memory):
+                memory[at + note] = memory[offset]
                 memory[offset] = memory[offset] & ~mask | value & mask

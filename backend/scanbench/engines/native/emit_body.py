@@ -11,12 +11,12 @@ from scanbench.engines.native import inlining
 from scanbench.engines.native.effects import Effects, plain
 from scanbench.engines.native.emit_function import FunctionText, Value
 from scanbench.engines.native.emit_module import ModuleText
-from scanbench.engines.native.registers import Signature, signature
+from scanbench.engines.native.flavour import RUN, Flavour
+from scanbench.engines.native.registers import Signature, registers, signature
 
 if TYPE_CHECKING:
     from collections.abc import Iterator
 
-    from scanbench.engines.native.emit_observed import Observing
     from scanbench.engines.native.emit_strings import Piece
 
 SCRATCH_LIMIT = 64 << 20
@@ -50,8 +50,7 @@ class Unit:
     scratch: int = 0
     """Bytes of temporaries, up to now."""
     signatures: dict[Pou, Signature] = field(default_factory=dict)
-    observing: "Observing | None" = None
-    """Of observed code."""
+    flavour: Flavour = RUN
 
     def reserve(self, pou: Pou, name: str, size: int) -> None:
         """Memory for the temporaries of the POU's statements."""
@@ -72,11 +71,15 @@ class Unit:
         """Whether it is a POU of the program, with numbers of sites of its own."""
         return pou in self.names
 
+    def registers(self, pou: Pou) -> dict[int, str]:
+        """The frame variables of the POU that may be registers."""
+        return {} if self.flavour.whole_image else registers(pou)
+
     def signature(self, pou: Pou) -> Signature:
         """How the FUNCTION is called."""
         known = self.signatures.get(pou)
         if known is None:
-            known = self.signatures[pou] = signature(pou)
+            known = self.signatures[pou] = signature(pou, self.registers(pou))
         return known
 
 
@@ -123,6 +126,10 @@ class Body:
         """Block that RETURN goes to."""
         self.site: int | None = None
         """Observed code: the site of the statement that is being emitted, if it has one or stands inside of one."""
+        self.frame = "%frame"
+        """Debugged code: what is known of the run of this body."""
+        self.idle = ""
+        """Debugged code: whether the loop around has not run a round yet."""
         self._swallowed = 0
         self._scalar = scalar
         self._pieces = pieces

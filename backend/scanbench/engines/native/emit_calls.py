@@ -2,7 +2,7 @@
 
 from scanbench.check.program import CallBlock, CallFunction, Expr, Load, Place, Sequence
 from scanbench.check.types import Elementary, Kind, StringType
-from scanbench.engines.native import emit_observed, walk
+from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body, Self
 from scanbench.engines.native.emit_function import Value
 from scanbench.engines.native.emit_places import address, reference
@@ -49,7 +49,7 @@ def value(body: Body, expr: Expr, disturbed: bool) -> Held:
         return value(body, expr.value, disturbed)
     assert isinstance(expr, Load), f"not an array or structure: {expr}"
     where = address(body, expr.place)
-    emit_observed.read(body, expr.place, where)
+    body.unit.flavour.read(body, expr.place, where)
     return settle(body, Bytes(where.pointer, expr.place.type.size), disturbed)
 
 
@@ -77,7 +77,7 @@ def _call(body: Body, call: CallFunction) -> Held | None:
         room = _room(body, call, signature.result)
         if signature.result.passing is Passing.POINTER:
             given.append(f"ptr {room}")
-    emit_observed.before_call(body, call.pou)
+    body.unit.flavour.calls(body, call.pou)
     status = body.text.op(f"call i32 {body.unit.symbol(call.pou)}({', '.join(given)}){body.swallow(call.pou)}")
     body.text.check_status(status)
     # all is read before the first is stored: finding out where may call this function again
@@ -139,7 +139,7 @@ def block(body: Body, call: CallBlock) -> None:
         with body.instance(inner):
             where = address(body, slot)
         body.text.do(f"store i64 {number}, ptr {where.pointer}, align 1{where.tag}")
-    emit_observed.before_call(body, call.pou)
+    body.unit.flavour.calls(body, call.pou)
     status = body.text.op(
         f"call i32 {body.unit.symbol(call.pou)}(ptr {body.image}, i64 {offset}){body.swallow(call.pou)}"
     )

@@ -7,7 +7,7 @@ debugged code is made quickly. They share `STATE` with the engine.
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from scanbench.check.program import Base, Place, Pou, Program, ProgramInstance, Stmt
+from scanbench.check.program import Base, For, Place, Pou, Program, ProgramInstance, Stmt, While
 from scanbench.engines.debug import READ, WRITE
 from scanbench.engines.native import emit_observed
 from scanbench.engines.native.emit_body import Body, Unit
@@ -226,21 +226,25 @@ class Debugging(Observing):
         if body.site is not None:  # which may be after others inside of it have run
             body.text.do(f"store i32 {body.site}, ptr {body.text.address(body.frame, 4)}, align 4")
 
-    def goes(self, body: Body, statement: Stmt, way: int, gone: str = "1") -> None:
-        number = self.sites.outcome(statement, way)
-        if number is not None and body.unit.has(body.pou):
-            body.text.do(f"call void @debug.way(i32 {number}, i8 {gone})")
-
     @contextmanager
     def loop(self, body: Body, statement: Stmt) -> Iterator[None]:
-        if self.sites.outcome(statement, 0) is None:
-            yield
-            return
-        text = body.text
-        outer, body.idle = body.idle, text.alloca("i8")
-        text.do(f"store i8 1, ptr {body.idle}, align 1")
+        outer, body.idle = body.idle, body.text.alloca("i8")
+        body.text.do(f"store i8 1, ptr {body.idle}, align 1")
         yield
         body.idle = outer
+
+    def goes(self, body: Body, statement: Stmt, way: int) -> None:
+        self._goes(body, statement, way, "1")
+        if isinstance(statement, For | While):
+            body.text.do(f"store i8 0, ptr {body.idle}, align 1")
+
+    def ends(self, body: Body, statement: Stmt) -> None:
+        self._goes(body, statement, 1, body.text.op(f"load i8, ptr {body.idle}, align 1"))
+
+    def _goes(self, body: Body, statement: Stmt, way: int, gone: str) -> None:
+        number = self.sites.outcome(statement, way)
+        if number is not None:
+            body.text.do(f"call void @debug.way(i32 {number}, i8 {gone})")
 
     # ---- accesses ---------------------------------------------------------------------------------------------
 

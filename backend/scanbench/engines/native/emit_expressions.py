@@ -38,7 +38,7 @@ def scalar(body: Body, expr: Expr) -> Value:
             return load(body, place)
         case Unary(op, type, operand):
             return unary(body, op, type, body.scalar(operand))
-        case Binary(op, _, left, right) if expr.short and body.unit.observing is not None:
+        case Binary(op, _, left, right) if expr.short and body.unit.flavour.exact:
             return _short(body, op, left, right)
         case Binary(op, type, left, right, trap):
             return binary(body, op, type, body.scalar(left), body.scalar(right), trap)
@@ -81,7 +81,7 @@ def constant(expr: Const) -> Value:
 
 
 def _short(body: Body, op: str, left: Expr, right: Expr) -> Value:
-    """AND_THEN or OR_ELSE; code that is not observed evaluates both sides, which is quicker."""
+    """AND_THEN or OR_ELSE; code that may run what it is not asked for evaluates both sides, which is quicker."""
     text, first = body.text, body.scalar(left).ssa
     before, more, on = text.block, text.name("more"), text.name("on")
     text.choose(first, *((more, on) if op == "and" else (on, more)))

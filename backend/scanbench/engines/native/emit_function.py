@@ -84,7 +84,7 @@ class FunctionText:
     # ---- traps ------------------------------------------------------------------------------------------
 
     def fail(self, status: str) -> str:
-        """The block that leaves the function with this status."""
+        """The block that leaves the function with this status: the number of a trap, a value, or less than 0."""
         label = self._failures.get(status)
         if label is None:
             label = self._failures[status] = self.name("fail")
@@ -152,7 +152,7 @@ class FunctionText:
         return "\n".join(parts)
 
     def _leaving(self, status: str) -> list[str]:
-        if not self.first_trap or status.startswith("%"):
+        if not self.first_trap or status.startswith(("%", "-")):
             return [f"  ret i32 {status}"]
         first, trap = self.name(), self.name()
         load = f"  %{first} = load i32, ptr {self.first_trap}, align 4"

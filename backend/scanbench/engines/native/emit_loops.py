@@ -62,15 +62,19 @@ def _inside(body: Body, after: str, following: str) -> Iterator[None]:
 def while_loop(body: Body, loop: While) -> None:
     """WHILE: condition, budget, body."""
     text = body.text
-    head, inside, after = text.name("while"), text.name("do"), text.name("after")
+    head, inside, done, after = text.name("while"), text.name("do"), text.name("done"), text.name("after")
     text.go(head)
     text.begin(head)
-    text.choose(body.scalar(loop.condition).ssa, inside, after)
+    text.choose(body.scalar(loop.condition).ssa, inside, done)
     text.begin(inside)
     take(body, "1", loop.trap)
+    body.unit.flavour.goes(body, loop, 0)
     with _inside(body, after, head):
         body.run(loop.body)
     text.go(head)
+    text.begin(done)
+    body.unit.flavour.ends(body, loop)
+    text.go(after)
     text.begin(after)
 
 
@@ -126,6 +130,7 @@ def _counted(body: Body, loop: For, parts: tuple[Value, Value, int]) -> None:
     text.do(f"{next_value} = add nsw i64 {counter}, {step}")
     text.go(head)
     text.begin(done)
+    body.unit.flavour.ends(body, loop)
     _store_counter(body, loop, counter, type)
     text.go(after)
     text.begin(after)
@@ -154,15 +159,23 @@ def _round(body: Body, loop: For, counter: str, inner: tuple[int, int], leave: t
     value = _narrow(body, counter, type, "nsw " if type.signed else "nuw ", (min(low, high), max(low, high)))
     if loop.exits:
         take(body, "1", loop.trap)
-    store(body, address(body, place), type, value)
+    _put(body, place, type, value)
+    body.unit.flavour.goes(body, loop, 0)
     outer = body.counters
     written = body.unit.effects.written(loop.body)
     body.counters = {key: known for key, known in outer.items() if key[:2] != (place.base, place.offset)}
-    if keeps(written, place) or _keeps_register(body, written, place):
+    stays = keeps(written, place) or _keeps_register(body, written, place)
+    if stays and not body.unit.flavour.whole_image:
         body.counters[counter_key(place)] = value
     with _inside(body, *leave):
         body.run(loop.body)
     body.counters = outer
+
+
+def _put(body: Body, place: Place, type: Elementary, value: Value) -> None:
+    where = address(body, place)
+    store(body, where, type, value)
+    body.unit.flavour.written(body, place, where)
 
 
 def _keeps_register(body: Body, written: frozenset[str], place: Place) -> bool:
@@ -182,7 +195,7 @@ def _store_counter(body: Body, loop: For, counter: str, type: Elementary) -> Non
     value = _narrow(body, counter, type, "", bounds(type))
     if loop.bounds is not None:
         value = within_bounds(body, value, type, loop.bounds)
-    store(body, address(body, loop.variable), type, value)
+    _put(body, loop.variable, type, value)
 
 
 def _general(body: Body, loop: For, parts: tuple[Value, Value, Value], type: Elementary) -> None:
@@ -223,6 +236,7 @@ def _count_down(body: Body, loop: For, parts: tuple[str, str, str, str]) -> None
     text.choose(text.op(f"icmp eq i64 {left}, 0"), done, head)
     text.begin(done)
     final = text.op(f"phi i64 [ {first}, %{before} ], [ {next_value}, %{latch} ]")
+    body.unit.flavour.ends(body, loop)
     _store_counter(body, loop, final, type)
     text.go(after)
     text.begin(after)

@@ -6,15 +6,16 @@ statements of its own, as the library's, it is put where that finds it.
 """
 
 from collections.abc import Iterator
-from contextlib import AbstractContextManager, contextmanager, nullcontext
+from contextlib import contextmanager
 
 from scanbench.check.layout import Layout
-from scanbench.check.program import Base, Place, Pou, Program, ProgramInstance, Stmt
+from scanbench.check.program import Base, Place, Pou, Program, Stmt
 from scanbench.check.sites import Sites, sites_of
 from scanbench.check.system_text import is_system
 from scanbench.check.types import Kind
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_memory import Address
+from scanbench.engines.native.flavour import Flavour
 from scanbench.engines.observe import LIMIT, areas_end
 
 STATE = "@observed"
@@ -132,11 +133,10 @@ define internal ptr @observed.entry(ptr %log, i32 %index) #0 {{
 }}"""
 
 
-class Observing:
-    """What the emitters of observed code know of the program, and what they emit for that."""
+class Observing(Flavour):
+    """Code that is observed."""
 
-    whole_image = False
-    """Whether all variables stand in the image, and none in a register."""
+    exact = True
 
     def __init__(self, program: Program) -> None:
         self.sites: Sites = sites_of(program)
@@ -147,47 +147,37 @@ class Observing:
         return pou in self.sites.bodies
 
     def declare(self, unit: Unit) -> None:
-        """The memory that the code and the engine share."""
         unit.module.add(f"{STATE} = global [{STATE_BYTES} x i8] zeroinitializer, align 8")
 
     # ---- the scan ---------------------------------------------------------------------------------------------
 
-    def begin(self, body: Body) -> None:
-        """A scan begins."""
-
     def silence(self, body: Body, silent: bool) -> None:
-        """From here on what runs is not the user's program, or is again: says where it is noted."""
+        # says where it is noted
         for own, spare, used in ((OWN_MARKS, SPARE_MARKS, MARKS), (OWN_MAP, SPARE_MAP, MAP)):
             pointer = body.text.op(f"load ptr, ptr {field(spare if silent else own)}, align 8")
             body.text.do(f"store ptr {pointer}, ptr {field(used)}, align 8")
 
-    def joined(self, body: Body, instance: ProgramInstance) -> AbstractContextManager[None]:
-        """Around what a CONFIGURATION connects to the program."""
-        return nullcontext()
-
     # ---- statements -------------------------------------------------------------------------------------------
 
-    def enter(self, body: Body) -> None:
-        """The POU's body begins."""
-
-    def leave(self, body: Body) -> None:
-        """The POU's body ends."""
+    @contextmanager
+    def statement(self, body: Body, statement: Stmt) -> Iterator[None]:
+        number = self.sites.number(statement)
+        if number is None:
+            yield
+            return
+        self.begins(body, number)
+        outer, body.site = body.site, number
+        yield
+        body.site = outer
 
     def begins(self, body: Body, site: int) -> None:
         """The statement begins."""
         body.text.do(f"store i8 1, ptr {body.text.address(_marks(body), site)}, align 1")
 
     def calls(self, body: Body, callee: Pou) -> None:
-        """Tells what has no statements of its own on whose behalf it runs."""
+        # what has no statements of its own is told on whose behalf it runs
         if body.site is not None and not self.has_sites(callee):
             body.text.do(f"store i32 {body.site}, ptr {field(SITE)}, align 8")
-
-    def goes(self, body: Body, statement: Stmt, way: int, gone: str = "1") -> None:
-        """The statement goes this way (see `Sites.outcome`) where `gone`, an i8, is 1."""
-
-    def loop(self, body: Body, statement: Stmt) -> AbstractContextManager[None]:
-        """Around a loop."""
-        return nullcontext()
 
     # ---- accesses ---------------------------------------------------------------------------------------------
 
@@ -198,7 +188,7 @@ class Observing:
         return nobody or is_system(body.pou.span)
 
     def read(self, body: Body, place: Place, where: Address) -> None:
-        """Notes that the value of the place is read, if any of it is watched."""
+        # noted if any of it is watched
         if self.unheard(body) or (place.variable and not place.variable.startswith("@")):
             return
         _declare(body.unit, self)
@@ -210,26 +200,10 @@ class Observing:
         elif place.base is Base.IMAGE and Layout.HEADER_SIZE <= place.offset < self.end:
             _look_if(body, place.offset, place.type.size, mask)
 
-    def written(self, body: Body, place: Place, where: Address) -> None:
-        """The place is written."""
-
 
 def field(offset: int) -> str:
     """The address of a field of the state."""
     return f"getelementptr (i8, ptr {STATE}, i64 {offset})" if offset else STATE
-
-
-@contextmanager
-def statement(body: Body, observing: Observing, node: Stmt) -> Iterator[None]:
-    """Notes that the statement begins; what is emitted meanwhile belongs to it."""
-    number = observing.sites.number(node)
-    if number is None:
-        yield
-        return
-    observing.begins(body, number)
-    outer, body.site = body.site, number
-    yield
-    body.site = outer
 
 
 def site(body: Body) -> str:

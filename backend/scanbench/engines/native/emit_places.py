@@ -3,7 +3,6 @@
 from scanbench.check.layout import Layout
 from scanbench.check.program import Base, Expr, Index, Place
 from scanbench.check.types import Elementary, Kind
-from scanbench.engines.native import emit_observed
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
 from scanbench.engines.native.emit_memory import Address, load_at
@@ -42,7 +41,7 @@ def load(body: Body, place: Place) -> Value:
     if known is not None:
         return known
     where = address(body, place)
-    emit_observed.read(body, place, where)
+    body.unit.flavour.read(body, place, where)
     return load_at(body, where, elementary(place.type))
 
 

@@ -2,7 +2,7 @@
 
 from scanbench.check.program import Base, Place, Pou
 from scanbench.check.types import MAX_STRING, StringType
-from scanbench.engines.native import emit_expressions, emit_statements, inlining, registers
+from scanbench.engines.native import emit_expressions, emit_statements, inlining
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_function import FunctionText, Value
 from scanbench.engines.native.emit_memory import canonical, move
@@ -31,6 +31,7 @@ def emit(unit: Unit, pou: Pou, image_size: int, linkage: str = "internal ") -> N
     start = f"define {linkage}{head(unit, pou, image_size)}{inlining.attribute(pou)} #0"
     text = FunctionText(start, scratch, first_trap)
     body = Body(unit, pou, text, emit_expressions.scalar, emit_expressions.pieces, emit_statements.run)
+    unit.flavour.enter(body)
     _registers(body)
     if function:
         for parameter in unit.signature(pou).all:
@@ -40,6 +41,7 @@ def emit(unit: Unit, pou: Pou, image_size: int, linkage: str = "internal ") -> N
     emit_statements.run(body, pou.body)
     text.go(body.leave)
     text.begin(body.leave)
+    unit.flavour.leave(body)
     text.do("ret i32 0")
     if text.scratch_size:
         unit.reserve(pou, scratch, text.scratch_size)
@@ -55,7 +57,7 @@ def _registers(body: Body) -> None:
         given = {each.member.offset: f'%"p.{each.member.name.upper()}"'
                  for each in signature.all if each.passing is Passing.POINTER}  # fmt: skip
     else:
-        free = registers.registers(body.pou)
+        free = body.unit.registers(body.pou)
     for offset, type in free.items():
         pointer = given.get(offset) or body.text.alloca(type)
         body.registers[offset] = pointer

@@ -13,7 +13,7 @@ from scanbench.engines.native import emit_pou, emit_scan, inlining
 from scanbench.engines.native.effects import Effects
 from scanbench.engines.native.emit_body import Unit
 from scanbench.engines.native.emit_checks import LIST
-from scanbench.engines.native.emit_observed import STATE, STATE_BYTES, Observing
+from scanbench.engines.native.flavour import RUN, Flavour
 from scanbench.engines.native.registers import Signature
 
 
@@ -25,14 +25,14 @@ class Emitter:
         program: Program,
         effects: Effects | None = None,
         signatures: dict[Pou, Signature] | None = None,
-        observing: Observing | None = None,
+        flavour: Flavour = RUN,
     ) -> None:
-        """`effects` and `signatures` of its POUs may be known already. With `observing`, `whole` emits observed code."""
+        """`effects` and `signatures` of its POUs may be known already. The flavour says what the code does besides."""
         self.names = names(program.pous)
         self._program = program
         self._effects = effects or Effects()
         self._signatures: dict[Pou, Signature] = {} if signatures is None else signatures
-        self._observing = observing
+        self._flavour = flavour
         runs = (each for task in program.tasks for each in task.programs)
         calls = Counter(each.pou for each in (*runs, *program.plant))
         self.housed = {pou for pou, count in calls.items() if count == 1 and inlining.shared(pou)}
@@ -74,7 +74,7 @@ class Emitter:
             signatures=self._signatures,
             image_size=self._program.layout.size,
             state_size=self._program.layout.state_size,
-            observing=self._observing,
+            flavour=self._flavour,
         )
 
     def _complete(self, unit: Unit, here: set[Pou]) -> Unit:
@@ -106,13 +106,12 @@ class Emitter:
             unit.module.add(f"{first_trap(name)} = {linkage}constant i32 {pou.first_trap}")
             unit.module.add(f"{first_check(name)} = {linkage}constant i32 {pou.first_check}")
         unit.module.add(f"{LIST} = {linkage}constant i64 {self._program.layout.violations}")
-        if self._observing is not None:
-            unit.module.add(f"{STATE} = global [{STATE_BYTES} x i8] zeroinitializer, align 8")
+        self._flavour.declare(unit)
 
 
-def emit_program(program: Program, observing: Observing | None = None) -> str:
+def emit_program(program: Program, flavour: Flavour = RUN) -> str:
     """The IR text of everything in one module."""
-    return Emitter(program, observing=observing).whole().module.text()
+    return Emitter(program, flavour=flavour).whole().module.text()
 
 
 def names(pous: Iterable[Pou]) -> dict[Pou, str]:

@@ -1,9 +1,9 @@
 """The scan: the contract of `engines/engine.py` in IR. The loop that runs scans is in `emit_loop`."""
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import Pou, Program, ProgramInstance, Task
+from scanbench.check.layout import FORCE_AFTER_PROGRAM, FORCE_BEFORE, Layout
+from scanbench.check.program import Pou, Program, ProgramInstance, Stmt, Task
 from scanbench.check.types import BOOL, Kind, Record
-from scanbench.engines.native import emit_expressions, emit_loop, emit_observed, emit_statements
+from scanbench.engines.native import emit_expressions, emit_loop, emit_statements
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_function import UNLIKELY, FunctionText, Value
 from scanbench.engines.native.emit_memory import store
@@ -14,8 +14,9 @@ SCRATCH = '@"t.scan"'
 """Memory of the temporaries of what a configuration connects."""
 
 APPLY_FORCES = """\
-define internal void @forces(ptr %img) noinline cold #0 {{
-; byte = byte & ~mask | value & mask, for every entry in use whose byte there is (an image may come from a file)
+define internal void @forces(ptr %img, i64 %note) noinline cold #0 {{
+; byte = byte & ~mask | value & mask, for every entry in use whose byte there is (an image may come from a file); what it was
+; is kept in the entry, at its byte %note
 entry:
   %countat = getelementptr inbounds i8, ptr %img, i64 {count}
   %count = load i32, ptr %countat, align 4
@@ -42,6 +43,8 @@ apply:
   %wide = zext i32 %offset to i64
   %byteat = getelementptr inbounds i8, ptr %img, i64 %wide
   %byte = load i8, ptr %byteat, align 1
+  %noteat = getelementptr inbounds i8, ptr %entryat, i64 %note
+  store i8 %byte, ptr %noteat, align 1
   %keep = xor i8 %mask, -1
   %kept = and i8 %byte, %keep
   %set = and i8 %value, %mask
@@ -71,6 +74,7 @@ def _scan(unit: Unit, program: Program) -> str:
     head = f"define internal i32 @scan(ptr nonnull noundef align 8 dereferenceable({size}) %img) #0"
     text = FunctionText(head, SCRATCH)
     body = _around(unit, text)
+    unit.flavour.begin(body)
     scan = _field(text, Layout.SCAN)
     number = text.op(f"load i64, ptr {scan}, align 8{unit.module.tag('#scan')}")
     origin = text.op(f"load i64, ptr {_field(text, Layout.ORIGIN)}, align 8{unit.module.tag('#origin')}")
@@ -83,14 +87,14 @@ def _scan(unit: Unit, program: Program) -> str:
         f"store i64 {program.interval_ns}, ptr {_field(text, Layout.INTERVAL)}, align 8{unit.module.tag('#interval')}"
     )
     text.do(f"store i32 0, ptr {_field(text, Layout.ASKED_COUNT)}, align 8{unit.module.tag('#asked')}")
-    emit_observed.silent(body)
+    body.unit.flavour.silence(body, True)
     for instance in (*program.common, *program.plant):
         _program(body, instance)
-    emit_observed.heard(body)
-    _forces(unit, text)
+    body.unit.flavour.silence(body, False)
+    _forces(unit, text, FORCE_BEFORE)
     for task in program.tasks:
         _task(body, task, number)
-    _forces(unit, text)
+    _forces(unit, text, FORCE_AFTER_PROGRAM)
     following = text.op(f"add i64 {number}, 1")
     text.do(f"store i64 {following}, ptr {scan}, align 8{unit.module.tag('#scan')}")
     text.do("ret i32 0")
@@ -110,13 +114,13 @@ def _field(text: FunctionText, offset: int) -> str:
     return text.op(f"getelementptr inbounds nuw i8, ptr %img, i64 {offset}")
 
 
-def _forces(unit: Unit, text: FunctionText) -> None:
+def _forces(unit: Unit, text: FunctionText, note: int) -> None:
     where = _field(text, Layout.FORCE_COUNT)
     count = text.op(f"load i32, ptr {where}, align 4{unit.module.tag('#forcecount')}")
     apply, on = text.name("force"), text.name("on")
     text.choose(text.op(f"icmp ne i32 {count}, 0"), apply, on, UNLIKELY)
     text.begin(apply)
-    text.do("call void @forces(ptr %img)")
+    text.do(f"call void @forces(ptr %img, i64 {note})")
     text.go(on)
     text.begin(on)
 
@@ -146,7 +150,13 @@ def _is_due(body: Body, task: Task, number: str) -> str:
 
 
 def _program(body: Body, instance: ProgramInstance) -> None:
-    body.run(instance.before)
+    _joined(body, instance, instance.before)
     call = f"call i32 {body.unit.symbol(instance.pou)}(ptr %img, i64 {instance.offset})"
     body.text.check_status(body.text.op(call))
-    body.run(instance.after)
+    _joined(body, instance, instance.after)
+
+
+def _joined(body: Body, instance: ProgramInstance, statements: tuple[Stmt, ...]) -> None:
+    if statements:
+        with body.unit.flavour.joined(body, instance):
+            body.run(statements)

@@ -22,7 +22,7 @@ from scanbench.check.program import (
     While,
 )
 from scanbench.check.types import Elementary, Kind
-from scanbench.engines.native import emit_calls, emit_loops, emit_observed, walk
+from scanbench.engines.native import emit_calls, emit_loops, walk
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_memory import canonical, load_at, move, put
 from scanbench.engines.native.emit_places import address
@@ -36,13 +36,10 @@ WIDEST_RANGE = 64
 
 def run(body: Body, statements: tuple[Stmt, ...]) -> None:
     """Emits the statements in order."""
-    observing = body.unit.observing
+    flavour = body.unit.flavour
     for statement in statements:
-        if observing is None:
+        with flavour.statement(body, statement):
             one(body, statement)
-        else:
-            with emit_observed.statement(body, observing, statement):
-                one(body, statement)
         body.text.end_statement()
 
 
@@ -52,21 +49,24 @@ def one(body: Body, statement: Stmt) -> None:
         case Assign():
             assign(body, statement)
         case SetBytes(target, data):
-            move(body, address(body, target).pointer, body.module.constant(data), len(data))
+            where = address(body, target)
+            move(body, where.pointer, body.module.constant(data), len(data))
+            body.unit.flavour.written(body, target, where)
         case CallBlock():
             emit_calls.block(body, statement)
         case Evaluate(call):
             emit_calls.run(body, call)
         case If():
-            # observed code says which statements ran and what they read, so it runs no others
-            speculated = body.unit.observing is None and to_selects(body, statement)
+            speculated = body.unit.flavour.may_select(body, statement) and to_selects(body, statement)
             selects(body, statement) if speculated else branches(body, statement)
         case Case():
             case(body, statement)
         case For():
-            emit_loops.for_loop(body, statement)
+            with body.unit.flavour.loop(body, statement):
+                emit_loops.for_loop(body, statement)
         case While():
-            emit_loops.while_loop(body, statement)
+            with body.unit.flavour.loop(body, statement):
+                emit_loops.while_loop(body, statement)
         case Repeat():
             emit_loops.repeat_loop(body, statement)
         case Blocks(inner):
@@ -121,13 +121,15 @@ def branches(body: Body, statement: If) -> None:
     """IF with jumps."""
     text = body.text
     after = text.name("endif")
-    for condition, inside in statement.branches:
+    for way, (condition, inside) in enumerate(statement.branches):
         then, otherwise = text.name("then"), text.name("else")
         text.choose(body.scalar(condition).ssa, then, otherwise)
         text.begin(then)
+        body.unit.flavour.goes(body, statement, way)
         run(body, inside)
         text.go(after)
         text.begin(otherwise)
+    body.unit.flavour.goes(body, statement, len(statement.branches))
     run(body, statement.orelse)
     text.go(after)
     text.begin(after)
@@ -182,11 +184,13 @@ def case(body: Body, statement: Case) -> None:
             else:
                 _wide_label(body, type, value.ssa, (low, high), target)
     text.do(f"switch {name} {value.ssa}, label %{otherwise} [ {' '.join(single)} ]")
-    for (_, inside), target in zip(statement.branches, targets, strict=True):
+    for way, ((_, inside), target) in enumerate(zip(statement.branches, targets, strict=True)):
         text.begin(target)
+        body.unit.flavour.goes(body, statement, way)
         run(body, inside)
         text.go(after)
     text.begin(otherwise)
+    body.unit.flavour.goes(body, statement, len(statement.branches))
     run(body, statement.orelse)
     text.go(after)
     text.begin(after)

@@ -4,7 +4,7 @@ from dataclasses import dataclass, replace
 
 from scanbench.check.program import Expr, Place
 from scanbench.check.types import StringType
-from scanbench.engines.native import emit_observed, walk
+from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body, Self
 from scanbench.engines.native.emit_memory import Address
 from scanbench.engines.native.emit_places import address
@@ -72,7 +72,7 @@ def bytes_of(body: Body, length: str, width: int) -> str:
 def of_place(body: Body, place: Place) -> Piece:
     """The characters of a variable."""
     where = address(body, place)
-    emit_observed.read(body, place, where)
+    body.unit.flavour.read(body, place, where)
     piece = of_pointer(body, where.pointer, string(place.type), where.tag)
     return replace(piece, variable=place.variable, start_of=(place, body.self))
 
@@ -139,8 +139,8 @@ def settled(body: Body, pieces: list[Piece]) -> list[Piece]:
 # ---- storing ------------------------------------------------------------------------------------------------
 
 
-def assign(body: Body, target: Place, pieces: list[Piece]) -> None:
-    """Stores the whole in a variable, which the pieces may stand in."""
+def assign(body: Body, target: Place, pieces: list[Piece]) -> Address:
+    """Stores the whole in a variable, which the pieces may stand in; gives where that is."""
     pieces = cut(body, pieces, string(target.type).capacity)
     where = address(body, target)
     data = body.text.address(where.pointer, STRING_HEAD)
@@ -153,6 +153,7 @@ def assign(body: Body, target: Place, pieces: list[Piece]) -> None:
         length = one.length
         copy(body, data, one, where.tag)
     store_length(body, where, length)
+    return where
 
 
 def store_length(body: Body, where: Address, length: str) -> None:

@@ -49,8 +49,11 @@ def put(body: Body, target: Place, held: Held) -> None:
     """Evaluates the target's address, and stores the value there."""
     if isinstance(held, Value):
         assert isinstance(target.type, Elementary)
-        store(body, address(body, target), target.type, held)
+        where = address(body, target)
+        store(body, where, target.type, held)
     elif isinstance(held, Bytes):
-        move(body, address(body, target).pointer, held.pointer, held.size)
+        where = address(body, target)
+        move(body, where.pointer, held.pointer, held.size)
     else:
-        assign(body, target, held)
+        where = assign(body, target, held)
+    body.unit.flavour.written(body, target, where)

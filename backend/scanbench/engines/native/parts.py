@@ -7,7 +7,7 @@ from scanbench.engines.native import inlining, jit
 from scanbench.engines.native.effects import Effects, touched
 from scanbench.engines.native.emit_body import SCRATCH_LIMIT, TooLarge
 from scanbench.engines.native.emit_program import Emitter
-from scanbench.engines.native.registers import Signature, signature
+from scanbench.engines.native.registers import Signature, registers, signature
 from scanbench.garbage import without_collection
 
 SMALL = 120
@@ -115,7 +115,7 @@ class Parts:
         if known is not None and known.same.body is pou.body:
             return known
         writes, callees = touched(pou.body)
-        how = signature(pou) if pou.kind == "function" else None
+        how = signature(pou, registers(pou)) if pou.kind == "function" else None
         return _Body(_Same(pou.body), frozenset(writes), tuple(callees), inlining.shared(pou), how)
 
 

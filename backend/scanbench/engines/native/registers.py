@@ -62,9 +62,8 @@ class Signature:
         return (*self.parameters, self.result) if self.result else self.parameters
 
 
-def signature(pou: Pou) -> Signature:
-    """How this FUNCTION is called."""
-    free = registers(pou)
+def signature(pou: Pou, free: dict[int, str]) -> Signature:
+    """How this FUNCTION is called, where these of its variables are registers."""
     parameters = tuple(Parameter(pou.frame.members[name], _passing(pou.frame.members[name], free))
                        for name in pou.parameters)  # fmt: skip
     own = pou.returned

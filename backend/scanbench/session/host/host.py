@@ -18,6 +18,7 @@ from scanbench.session.host.limits import MemoryLimit, limit_files
 from scanbench.session.host.link import Link
 from scanbench.session.host.lookup import look_up
 from scanbench.session.host.loop import Loop
+from scanbench.session.trace_protocol import ReadTrace
 from scanbench.session.host.opening import open_loop
 
 log = logging.getLogger("scanbench")
@@ -121,6 +122,8 @@ class Host:
     def _on_message(self, message: object) -> None:
         assert self._loop is not None
         match message:
+            case ReadTrace():
+                self._loop.traces.read(message)
             case protocol.Lookup():
                 self._link.post(look_up(self._loop.resource.program, message))
             case protocol.Submit(command=Arm(wanted=Wanted(start=Start(kind="line")))):

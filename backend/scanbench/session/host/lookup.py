@@ -1,5 +1,6 @@
 """Symbols for people: what is below a path, what completes a text."""
 
+from scanbench.check.instances import instances_of
 from scanbench.check.program import Program
 from scanbench.check.symbols import Symbol, UnknownPath, complete, members, resolve
 from scanbench.check.types import Elementary, Enumeration, StringType
@@ -13,6 +14,8 @@ def look_up(program: Program, question: Lookup) -> Found:
     try:
         if question.kind == "complete":
             symbols = complete(program, question.text, COMPLETIONS)
+        elif question.kind == "instances":
+            symbols = instances_of(program, question.text)
         else:
             symbols = members(program, question.text)
     except UnknownPath as error:

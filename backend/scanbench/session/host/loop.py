@@ -28,7 +28,9 @@ from scanbench.session.host.observed import Observable
 from scanbench.session.host.services import Services
 from scanbench.session.host.shelf import HostPrograms
 from scanbench.session.host.swaps import BuildRefused, Copied, Optimising, Recode, Swap
+from scanbench.session.host.traces import Traces
 from scanbench.session.runs import run_limit
+from scanbench.session.trace_protocol import DefineTrace, DriveTrace
 
 
 class Loop:
@@ -47,6 +49,7 @@ class Loop:
         self._course = Course(self.resource.program.interval_ns, start.speed, start.paused, start.cpu_percent)
         self._go_on(start)
         self._services = Services(timeline, self._course, link, note, tiers, programs.sources)
+        self.traces = Traces(timeline, link)
 
     @property
     def resource(self) -> Resource:
@@ -116,6 +119,7 @@ class Loop:
             if self._tick:
                 self._tick = False
                 self._services.tick()
+                self.traces.tick()
             if self.timeline.past or not self.resource.runnable or self._course.paused:
                 self._wake.wait()
                 self._wake.clear()
@@ -140,6 +144,7 @@ class Loop:
         resource, course = self.resource, self._course
         first, busy = resource.header.scan, resource.measured.busy_ns
         stop = self.timeline.run(course.scans, course.pace)
+        self.traces.drain()
         scan = resource.header.scan
         course.ran(scan - first, stop.reason is Reason.CONDITION, scan)
         if course.paused:
@@ -170,6 +175,8 @@ class Loop:
             case protocol.SetLimits():
                 self.timeline.recording.set_limit(run_limit(message.run_mib))
                 self._course.cpu_percent = message.cpu_percent
+            case DefineTrace() | DriveTrace():
+                self.traces.serve(message)
             case protocol.Quit():
                 self._quit = True
             case _:
@@ -257,6 +264,7 @@ class Loop:
             self._services.past_by = travel.author if self.timeline.past else ""
         if self.resource.program is not program:
             self._services.moved()
+            self.traces.moved()
         self.programs.drop_idle(self.timeline.version, self.timeline.live_version)
         self._answer(travel.ref, refusal, f"scan {self.resource.header.scan}" if travel.scan is not None else "live")
 
@@ -296,6 +304,7 @@ class Loop:
             self._course.condition = self.timeline.condition
         self.programs.drop_idle(self.timeline.version, self.timeline.live_version)
         self._services.moved()
+        self.traces.moved()
 
     def _observe(self, observable: Observable) -> None:
         loaded, then = self.timeline.live, observable.then

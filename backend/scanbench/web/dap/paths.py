@@ -59,11 +59,10 @@ class FolderPaths(Paths):
         return {"name": file.rpartition("/")[2], "path": bend.join((self._root, *file.split("/")))}
 
     def _named(self, source: Source) -> str:
-        path = _plain(source.path)
         for root in self._roots:
-            if path.startswith(f"{root}/"):
-                # what is behind the folder keeps its case: of the file's own name one letter differs at most on Windows
-                return source.path.replace("\\", "/").rstrip("/")[-(len(path) - len(root) - 1) :]
+            if _plain(source.path).startswith(f"{root}/"):
+                parts = source.path.replace("\\", "/").split("/")
+                return "/".join(parts[root.count("/") + 1 :])
         return source.path
 
 

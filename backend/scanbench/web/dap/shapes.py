@@ -6,13 +6,14 @@ is known must be right. `scanbench` fields are ours: see docs/dap.md.
 
 from typing import Literal
 
-from pydantic import BaseModel, ConfigDict, Field, JsonValue
+from pydantic import BaseModel, ConfigDict, Field
 from pydantic.alias_generators import to_camel
 
 from scanbench.debug.breakpoint import BreakpointKind, DataAccess
 from scanbench.session.debug_protocol import StepAction
 
-Body = dict[str, JsonValue]
+Body = dict[str, object]
+"""A JSON object."""
 _LINES = 1 << 30
 
 
@@ -195,6 +196,10 @@ class Evaluate(Args):
     frame_id: int | None = None
     context: str = ""
     scanbench: Effects = Field(default_factory=Effects)
+
+
+class ExceptionInfo(Args):
+    thread_id: int
 
 
 class Completions(Args):

@@ -115,4 +115,5 @@ export function monospaceFont(): string {
   return getComputedStyle(document.documentElement).getPropertyValue("--font-mono").trim();
 }
 
+export type { IPosition, IRange } from "monaco-editor/editor";
 export { Emitter, editor, KeyCode, KeyMod, languages, MarkerSeverity, Uri } from "monaco-editor/editor";

@@ -1,0 +1,74 @@
+"""The flavours of a program's code: what it does besides running the program. Code that only runs does nothing of it."""
+
+from contextlib import AbstractContextManager, nullcontext
+from typing import TYPE_CHECKING
+
+from scanbench.check.program import If, Place, Pou, ProgramInstance, Stmt
+
+if TYPE_CHECKING:
+    from scanbench.engines.native.emit_body import Body, Unit
+    from scanbench.engines.native.emit_memory import Address
+
+
+class Flavour:
+    """The run flavour. The emitters tell a flavour where they are; others emit something there."""
+
+    exact = False
+    """Whether it matters which statements and reads are run: so none is that the program does not ask for."""
+    whole_image = False
+    """Whether all variables stand in the image at all times, and none in a register."""
+
+    def declare(self, unit: "Unit") -> None:
+        """The memory that the code and the engine share, in a module of its own or that of the whole."""
+
+    def may_select(self, body: "Body", statement: If) -> bool:
+        """Whether all branches of the IF may be run, to choose among the results."""
+        return not self.exact
+
+    # ---- the scan ---------------------------------------------------------------------------------------------
+
+    def begin(self, body: "Body") -> None:
+        """A scan begins."""
+
+    def silence(self, body: "Body", silent: bool) -> None:
+        """From here on what runs is not the user's program, or is again."""
+
+    def joined(self, body: "Body", instance: ProgramInstance) -> AbstractContextManager[None]:
+        """Around what a CONFIGURATION connects to the program."""
+        return nullcontext()
+
+    # ---- statements -------------------------------------------------------------------------------------------
+
+    def enter(self, body: "Body") -> None:
+        """The POU's body begins."""
+
+    def leave(self, body: "Body") -> None:
+        """The POU's body ends."""
+
+    def statement(self, body: "Body", statement: Stmt) -> AbstractContextManager[None]:
+        """Around a statement; what is emitted meanwhile belongs to it."""
+        return nullcontext()
+
+    def calls(self, body: "Body", callee: Pou) -> None:
+        """The statement is about to call."""
+
+    def loop(self, body: "Body", statement: Stmt) -> AbstractContextManager[None]:
+        """Around a FOR or WHILE."""
+        return nullcontext()
+
+    def goes(self, body: "Body", statement: Stmt, way: int) -> None:
+        """The statement goes this way, see `Sites.outcome`."""
+
+    def ends(self, body: "Body", statement: Stmt) -> None:
+        """A FOR or WHILE ends, but not by EXIT."""
+
+    # ---- accesses ---------------------------------------------------------------------------------------------
+
+    def read(self, body: "Body", place: Place, where: "Address") -> None:
+        """The value of the place is read."""
+
+    def written(self, body: "Body", place: Place, where: "Address") -> None:
+        """The place is written."""
+
+
+RUN = Flavour()

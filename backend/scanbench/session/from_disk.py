@@ -1,0 +1,50 @@
+"""Program files from a folder or file on this machine: which they are, what they say, and which model they want."""
+
+import json
+from pathlib import Path
+
+from scanbench.plcmodel.user_errors import USER_ERRORS
+from scanbench.session.refused import Refused
+from scanbench.syntax.parse_file import ENDINGS, is_program_file
+from scanbench.syntax.source import decode
+
+DEFAULT_MODEL = "GENERIC-IEC"
+PROJECT_FILE = "project.json"
+
+
+def program_files(path: Path) -> list[Path]:
+    """A file is taken whatever its ending; a folder gives every program file in it and below, and its own errors.
+
+    `Refused` when there is none.
+    """
+    if not path.is_dir():
+        if not path.exists():
+            raise Refused(f"{path} does not exist")
+        return [path]
+    found = sorted(each for each in path.rglob("*") if is_program_file(str(each.relative_to(path))) and each.is_file())
+    if not found:
+        raise Refused(f"there is no program file ({', '.join(ENDINGS)}) in {path}")
+    if (errors := path / USER_ERRORS).is_file():
+        found.append(errors)
+    return found
+
+
+def read_text(path: Path) -> str:
+    """The text of a program file; `Refused` when it cannot be read."""
+    try:
+        return decode(path.read_bytes())
+    except OSError as error:
+        raise Refused(f"{path} cannot be read: {error.strerror}") from error
+
+
+def project_model(folder: Path) -> str | None:
+    """The model that the project file of a folder names; None where there is none."""
+    path = folder / PROJECT_FILE
+    if not path.is_file():
+        return None
+    try:
+        content = json.loads(path.read_text("utf-8"))
+    except (OSError, ValueError) as error:
+        raise Refused(f"{path} cannot be read: {error}") from error
+    model = content.get("model") if isinstance(content, dict) else None
+    return model if isinstance(model, str) else None

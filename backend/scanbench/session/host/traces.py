@@ -1,0 +1,151 @@
+"""The traces of one PLC: what its engine samples is taken here, in the loop's thread; any thread may read it."""
+
+from dataclasses import replace
+
+from scanbench.check.program import Program
+from scanbench.runtime.clock import monotonic_ns
+from scanbench.runtime.timeline import Timeline
+from scanbench.session import protocol
+from scanbench.session.host.link import Link
+from scanbench.session.trace_protocol import DefineTrace, DriveTrace, ReadTrace, TraceRead, TracesAre, TraceStatus
+from scanbench.taps.trace import MAX_BYTES, MAX_TRACES, BadTrace, Trace, total_bytes
+
+_GROWN_NS = 200_000_000
+"""How often it is told that a trace has grown."""
+
+
+class Traces:
+    """Answers `DefineTrace`, `DriveTrace` and `ReadTrace`."""
+
+    def __init__(self, timeline: Timeline, link: Link) -> None:
+        self._timeline, self._link = timeline, link
+        self._traces: dict[int, Trace] = {}
+        self._told: TracesAre | None = None
+        self._grown_at = 0
+
+    @property
+    def _program(self) -> Program:
+        return self._timeline.live.program
+
+    # ---- the loop's thread ----------------------------------------------------------------------------------------
+
+    def serve(self, message: object) -> None:
+        """Defines, starts, stops, deletes."""
+        assert isinstance(message, DefineTrace | DriveTrace)
+        self.drain()
+        near: tuple[str, ...] = ()
+        try:
+            said, ok = self._define(message) if isinstance(message, DefineTrace) else self._drive(message), True
+        except BadTrace as error:
+            said, near, ok = str(error), error.near, False
+        self._aim_engine()
+        self._tell()
+        self._link.post(protocol.Ack(message.ref, ok, said, self._timeline.live_scan, near))
+
+    def drain(self) -> None:
+        """Takes what was sampled: after each run, and before anything else may change what is sampled."""
+        scan, changed = self._timeline.live_scan, False
+        for trace in self._traces.values():
+            if trace.running:
+                changed = trace.drain(scan) or changed
+        if changed:
+            self._aim_engine()
+            self._tell()
+
+    def tick(self) -> None:
+        """Tells how much there is."""
+        self.drain()
+        now = monotonic_ns()
+        if now >= self._grown_at and self._traces:
+            self._grown_at = now + _GROWN_NS
+            self._tell()
+
+    def moved(self) -> None:
+        """Another program may run: the signals are found in it. What the old one gave was drained after its last run."""
+        if self._timeline.past:
+            return
+        self.drain()
+        program = self._program
+        for trace in self._traces.values():
+            trace.aim(program, self._timeline.live_scan)
+        self._aim_engine()
+        self._tell()
+
+    def _define(self, wanted: DefineTrace) -> str:
+        trace, program = self._traces.get(wanted.id), self._program
+        fresh = trace is None
+        if trace is None:
+            if len(self._traces) >= MAX_TRACES:
+                raise BadTrace(f"There are {MAX_TRACES} traces already, which is the most: delete one first.")
+            trace = Trace(wanted.id, wanted.definition, wanted.author)
+        elif trace.definition == replace(wanted.definition, name=trace.definition.name) and not wanted.start:
+            trace.rename(wanted.definition.name, wanted.author)
+            return f"trace {wanted.definition.name}"
+        tried = Trace(wanted.id, wanted.definition, wanted.author)
+        tried.define(wanted.definition, program, wanted.author)
+        self._refuse_large(wanted.id, tried)
+        run = wanted.start or trace.running
+        trace.define(wanted.definition, program, wanted.author)
+        self._traces[wanted.id] = trace
+        if run:
+            trace.start(program, self._timeline.live_scan)
+        return f"trace {wanted.definition.name} {'made' if fresh else 'changed'}"
+
+    def _refuse_large(self, id: int, tried: Trace) -> None:
+        others = total_bytes({known: trace for known, trace in self._traces.items() if known != id})
+        if others + tried.bytes > MAX_BYTES:
+            fits = max(0, (MAX_BYTES - others) // tried.row_bytes * tried.definition.every)
+            raise BadTrace(
+                f"A buffer of {tried.definition.scans:,} scans takes {tried.bytes / (1 << 20):.1f} MiB, and all traces of a PLC"
+                f" may take {MAX_BYTES >> 20}: {fits:,} scans would fit."
+            )
+
+    def _drive(self, wanted: DriveTrace) -> str:
+        trace = self._traces.get(wanted.id)
+        if trace is None:
+            raise BadTrace(f"There is no trace {wanted.id} any more.")
+        name = trace.definition.name
+        match wanted.action:
+            case "start":
+                trace.start(self._program, self._timeline.live_scan)
+                return f"trace {name} {trace.state}"
+            case "stop":
+                trace.stop()
+                return f"trace {name} stopped"
+            case "delete":
+                del self._traces[wanted.id]
+                return f"trace {name} deleted"
+        raise BadTrace(f"`{wanted.action}` is nothing that a trace can do: start, stop, delete.")
+
+    def _aim_engine(self) -> None:
+        """What the PLC samples from now on; rows that were not taken would be lost."""
+        self._timeline.sample(tuple(one for trace in self._traces.values() for one in trace.samplings))
+
+    def _tell(self) -> None:
+        traces = TracesAre(tuple(self._status(trace) for trace in self._traces.values()))
+        if traces != self._told:
+            self._told = traces
+            self._link.post(traces)
+
+    def _status(self, trace: Trace) -> TraceStatus:
+        first, end = trace.buffer.extent
+        return TraceStatus(
+            trace.id, trace.definition, trace.by, trace.state, trace.signals, trace.generation, trace.triggered,
+            trace.hits, trace.buffer.rows, first, end, trace.bytes, self._program.interval_ns, trace.note,
+        )  # fmt: skip
+
+    # ---- any thread -----------------------------------------------------------------------------------------------
+
+    def read(self, asked: ReadTrace) -> None:
+        """Answers with samples. It may take a while, so it is not for the loop's thread."""
+        trace = self._traces.get(asked.id)
+        if trace is None:
+            self._link.post(TraceRead(asked.ref, b"", f"There is no trace {asked.id} any more."))
+            return
+        generation, buffer = trace.generation, trace.buffer
+        first, end = buffer.extent
+        last = end if asked.last is None else asked.last
+        samples = buffer.read(asked.first, last, asked.points)
+        self._link.post(TraceRead(asked.ref, samples.pack(first, end, generation)))
+
+

@@ -1,0 +1,81 @@
+"""What the parent and the host of a PLC say to each other about traces. See `protocol.py`."""
+
+from dataclasses import dataclass
+
+from scanbench.taps.trace import TraceDefinition, TraceSignal
+
+# ---- parent to host ------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class DefineTrace:
+    """A new trace with this id, or another definition for it; what runs is started anew. With `start` it is started in any
+    case. Answered with `Ack`, behind `TracesAre`."""
+
+    ref: int
+    id: int
+    definition: TraceDefinition
+    author: str
+    start: bool
+
+
+@dataclass(frozen=True, slots=True)
+class DriveTrace:
+    """`start` (arms it again, too), `stop` or `delete`. Answered with `Ack`, behind `TracesAre`."""
+
+    ref: int
+    id: int
+    action: str
+    author: str
+
+
+@dataclass(frozen=True, slots=True)
+class ReadTrace:
+    """Samples of scans `first` to `last` (None: the last one), at most `points` of them. Answered with `TraceRead`."""
+
+    ref: int
+    id: int
+    first: int
+    last: int | None
+    points: int | None
+
+
+# ---- host to parent ------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class TraceStatus:
+    """How a trace stands."""
+
+    id: int
+    definition: TraceDefinition
+    by: str
+    state: str
+    signals: tuple[TraceSignal, ...]
+    generation: int
+    triggered: int | None
+    hits: int
+    rows: int
+    first: int
+    end: int
+    """Scans `first` to `end` - 1 are in the buffer; both 0 where there are none."""
+    bytes: int
+    """What the buffer takes when it is full."""
+    interval_ns: int
+    note: str
+
+
+@dataclass(frozen=True, slots=True)
+class TracesAre:
+    """All traces of the PLC, whenever one changes, and a few times a second while one grows."""
+
+    traces: tuple[TraceStatus, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class TraceRead:
+    """Answer to `ReadTrace`: packed samples (`taps.trace_buffer.Samples.pack`), or why there are none."""
+
+    ref: int
+    data: bytes
+    message: str = ""

@@ -1,0 +1,29 @@
+"""Pragmas that mean something: `{in_out 'value'}` in front of a FUNCTION_BLOCK or in its head. All others are comments."""
+
+import re
+from collections.abc import Iterable
+from dataclasses import dataclass
+
+CONVENTIONS = ("reference", "value")
+_IN_OUT = re.compile(r"\{\s*in_out\b\s*(?::=|=)?\s*(.*?)\s*\}", re.IGNORECASE | re.DOTALL)
+
+
+@dataclass(frozen=True, slots=True)
+class InOutPragma:
+    """How a block takes its in-outs, as it was written."""
+
+    start: int
+    end: int
+    said: str
+
+    @property
+    def convention(self) -> str:
+        """`reference` or `value`; empty when it says neither."""
+        text = self.said.strip("'\"").lower()
+        return text if text in CONVENTIONS and self.said[:1] in "'\"" else ""
+
+
+def in_out_pragmas(pragmas: Iterable[tuple[int, str]]) -> list[InOutPragma]:
+    """Those of a text that are about in-outs."""
+    found = ((at, text, _IN_OUT.fullmatch(text)) for at, text in pragmas)
+    return [InOutPragma(at, at + len(text), match.group(1)) for at, text, match in found if match]

@@ -1,0 +1,21 @@
+/** What could have been meant by an entry that the PLC refused, from what it says is allowed. */
+
+const MOST = 3;
+
+export function corrections(message: string, entry: string): string[] {
+  const range = /is outside of .*?(-?\d+)(?: to |\.\.)(-?\d+)/.exec(message);
+  if (range?.[1] && range[2]) return nearest(message, range[1], range[2]);
+  const values = /; write ([\p{L}_][\p{L}\d_]*(?:(?:, | or )[\p{L}_][\p{L}\d_]*)+)$/u.exec(message)?.[1];
+  return values
+    ? values
+        .split(/, | or /)
+        .filter((value) => value !== entry)
+        .slice(0, MOST)
+    : [];
+}
+
+function nearest(message: string, low: string, high: string): string[] {
+  const typed = /(-?\d+) is outside of/.exec(message)?.[1];
+  if (typed === undefined) return [];
+  return [BigInt(typed) < BigInt(low) ? low : high];
+}

@@ -1,0 +1,27 @@
+/** Which lines were reached: bars beside the numbers, solid, dashed or hollow. */
+import { linesOf, sitesIn } from "../../logic/coverage";
+import { useCoverage } from "../../store/coverage";
+import { useDocuments } from "../../store/documents";
+import { lineIn } from "../../logic/breakpoints";
+import type { editor } from "./monaco";
+
+/** Marks them in this editor while coverage is on. Returns how to stop. */
+export function markCoverage(code: editor.IStandaloneCodeEditor, path: string): () => void {
+  const marks = code.createDecorationsCollection();
+  const mark = () => {
+    const { coverage } = useCoverage.getState();
+    const document = useDocuments.getState().open[path];
+    const shown = (line: number) => (document ? lineIn(document.savedText, document.text, line) : line);
+    const lines = coverage?.on ? linesOf(sitesIn(coverage, path)) : [];
+    marks.set(lines.map(({ line, look, says }) => bar(shown(line), look, says)));
+  };
+  mark();
+  return useCoverage.subscribe(mark);
+}
+
+function bar(line: number, look: string, says: string): editor.IModelDeltaDecoration {
+  return {
+    range: { startLineNumber: line, startColumn: 1, endLineNumber: line, endColumn: 1 },
+    options: { linesDecorationsClassName: `cover ${look}`, linesDecorationsTooltip: says },
+  };
+}

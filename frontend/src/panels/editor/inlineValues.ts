@@ -1,0 +1,198 @@
+/**
+ * Live values behind the lines that are in sight. They lie over the text as elements of their own, written by the frames
+ * themselves: as decorations, twenty times a second, they would have Monaco lay out its lines again.
+ */
+import { lineIn } from "../../logic/breakpoints";
+import { pouAt } from "../../logic/explorer";
+import { variablesIn } from "../../logic/inline";
+import { t } from "../../logic/text";
+import { useDocuments } from "../../store/documents";
+import { forceOf, useForces } from "../../store/forces";
+import { useMembers } from "../../store/members";
+import { usePlc } from "../../store/plc";
+import { usePrefs } from "../../store/prefs";
+import { loadNames, pathOf, useSeenAs } from "../../store/seenAs";
+import { frameNow, frameText, useStack } from "../../store/stack";
+import { bindCell } from "../../store/values";
+import { watch } from "../../store/watches";
+import { standingIn } from "./halt";
+import type { editor } from "./monaco";
+
+const MOST = 6;
+
+/** A value behind a line: watched by its path, or told with the halt. */
+interface Shown {
+  name: string;
+  path: string | null;
+  text: string;
+}
+
+interface Row {
+  key: string;
+  element: HTMLElement;
+  release: () => void;
+}
+
+export function showInlineValues(code: editor.IStandaloneCodeEditor, path: string): () => void {
+  const layer = document.createElement("div");
+  layer.className = "inlinelayer";
+  layer.setAttribute("aria-hidden", "true");
+  code.addOverlayWidget({ getId: () => `inline:${path}`, getDomNode: () => layer, getPosition: () => null });
+  const rows = new Map<number, Row>();
+  let unwatch: () => void = () => undefined;
+  let scheduled = 0;
+
+  function drop(line: number): void {
+    rows.get(line)?.release();
+    rows.get(line)?.element.remove();
+    rows.delete(line);
+  }
+
+  function draw(): void {
+    scheduled = 0;
+    const wanted = rowsIn(code, path);
+    for (const line of [...rows.keys()]) if (!wanted.has(line)) drop(line);
+    const paths = new Set<string>();
+    for (const [line, row] of wanted) {
+      for (const each of row.values) if (each.path !== null) paths.add(each.path);
+      const key = JSON.stringify(row);
+      if (rows.get(line)?.key !== key) {
+        drop(line);
+        rows.set(line, { key, ...build(row, layer) });
+      }
+    }
+    const before = unwatch;
+    unwatch = watch([...paths]);
+    before();
+    place(code, rows, layer);
+  }
+
+  const schedule = () => {
+    scheduled ||= requestAnimationFrame(draw);
+  };
+  draw();
+  const listeners = [
+    code.onDidScrollChange(schedule),
+    code.onDidLayoutChange(schedule),
+    code.onDidChangeModelContent(schedule),
+    code.onDidChangeHiddenAreas(schedule),
+  ];
+  const stops = [
+    useSeenAs.subscribe(schedule),
+    useMembers.subscribe(schedule),
+    usePrefs.subscribe(schedule),
+    useStack.subscribe(schedule),
+    useForces.subscribe(schedule),
+    useDocuments.subscribe((now, before) => now.pous !== before.pous && schedule()),
+    usePlc.subscribe((now, before) => {
+      if (now.state?.halt !== before.state?.halt || now.state?.program_version !== before.state?.program_version)
+        schedule();
+    }),
+  ];
+  return () => {
+    cancelAnimationFrame(scheduled);
+    for (const listener of listeners) listener.dispose();
+    for (const stop of stops) stop();
+    for (const line of [...rows.keys()]) drop(line);
+    unwatch();
+  };
+}
+
+interface RowWanted {
+  values: Shown[];
+  /** Behind the statement that is next: what was computed in the scan before. */
+  old: boolean;
+  /** Said behind the line at which the program stands. */
+  next: "" | "next" | "past" | "calls";
+}
+
+const SAID = { next: "debug.next", past: "debug.next", calls: "debug.callshere" } as const;
+
+/** What to show, by line: the variables that the lines in sight name, as the instance has them that the text is seen as. */
+function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, RowWanted> {
+  const wanted = new Map<number, RowWanted>();
+  const model = code.getModel();
+  if (!model) return wanted;
+  const { pous, open } = useDocuments.getState();
+  const document = open[path];
+  const standing = standingIn(path);
+  const stands = standing && document ? lineIn(document.savedText, document.text, standing.line) : null;
+  const on = usePrefs.getState().inline;
+  const here = frameNow()?.scanbench?.pou.toUpperCase();
+  for (const { startLineNumber, endLineNumber } of code.getVisibleRanges()) {
+    let pou = pouAt(pous, path, startLineNumber, document?.text);
+    if (pou && on) void loadNames(pou.name);
+    for (let line = startLineNumber; line <= endLineNumber; line += 1) {
+      const begins = pous.find((known) => known.file === path && known.line === line);
+      if (begins && begins !== pou) {
+        pou = begins;
+        if (on) void loadNames(pou.name);
+      }
+      const inFrame = pou !== undefined && pou.name.toUpperCase() === here;
+      const values = pou && on ? valuesIn(model.getLineContent(line), pou.name, inFrame) : [];
+      const next = stands === line ? saidOf(standing?.look) : "";
+      const old = inFrame && stands !== null && line > stands;
+      if (values.length > 0 || next !== "") wanted.set(line, { values, old, next });
+    }
+  }
+  return wanted;
+}
+
+const saidOf = (look: "halt" | "past" | "frame" | undefined) =>
+  look === "frame" ? "calls" : look === "past" ? "past" : "next";
+
+function valuesIn(line: string, pou: string, inFrame: boolean): Shown[] {
+  const shown: Shown[] = [];
+  for (const { path: name } of variablesIn(line).variables) {
+    const path = pathOf(pou, name);
+    const text = path === undefined && inFrame ? frameText(name) : "";
+    if (path !== undefined || text) shown.push({ name, path: path ?? null, text: text ?? "" });
+    if (shown.length === MOST) break;
+  }
+  return shown;
+}
+
+/** The elements of a row; their texts are written by the values themselves from now on. */
+function build({ values, old, next }: RowWanted, layer: HTMLElement): Omit<Row, "key"> {
+  const element = document.createElement("div");
+  element.className = `inlinerow${old ? " old" : ""}`;
+  const releases = values.map((value) => {
+    const cell = document.createElement("span");
+    const text = document.createElement("b");
+    cell.append(value.name, text);
+    element.append(cell);
+    if (value.path === null) {
+      text.textContent = value.text;
+      return () => undefined;
+    }
+    const force = forceOf(useForces.getState(), value.path);
+    cell.classList.toggle("forced", force !== undefined);
+    return bindCell(value.path, "default", (reading) => {
+      text.textContent = reading.text;
+      cell.hidden = reading.text === "";
+      cell.classList.toggle("new", reading.changed && usePlc.getState().state?.halt != null);
+    });
+  });
+  if (next !== "") {
+    const said = document.createElement("span");
+    said.className = `why ${next}`;
+    said.textContent = t(SAID[next]);
+    element.append(said);
+  }
+  layer.append(element);
+  return { element, release: () => releases.forEach((release) => void release()) };
+}
+
+function place(code: editor.IStandaloneCodeEditor, rows: ReadonlyMap<number, Row>, layer: HTMLElement): void {
+  const model = code.getModel();
+  const { contentLeft, contentWidth, height } = code.getLayoutInfo();
+  layer.style.left = `${contentLeft}px`;
+  layer.style.width = `${contentWidth}px`;
+  layer.style.height = `${height}px`;
+  for (const [line, { element }] of rows) {
+    const at = model && code.getScrolledVisiblePosition({ lineNumber: line, column: model.getLineMaxColumn(line) });
+    element.hidden = !at;
+    if (at) element.style.transform = `translate(${at.left - contentLeft + 24}px, ${at.top}px)`;
+  }
+}
+

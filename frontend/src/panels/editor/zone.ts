@@ -1,0 +1,60 @@
+/** Room between two lines of an editor for something of the page, which moves and scrolls with the text. */
+import type { editor } from "./monaco";
+
+export interface Zone {
+  element: HTMLElement;
+  dispose: () => void;
+}
+
+let next = 0;
+
+/**
+ * Opens below a line and is as high as what is put into it. Monaco's zones lie below its text and hear no mouse: the zone only
+ * makes room, the element lies over it.
+ */
+export function openZone(code: editor.IStandaloneCodeEditor, line: number): Zone {
+  next += 1;
+  const name = `scanbench.zone.${next}`;
+  const element = document.createElement("div");
+  element.className = "linezone";
+  const room = document.createElement("div");
+  let top = 0;
+  const zone: editor.IViewZone = {
+    afterLineNumber: line,
+    heightInPx: 40,
+    domNode: room,
+    onDomNodeTop: (now) => {
+      top = now;
+      element.style.top = `${top}px`;
+    },
+  };
+  const widget: editor.IOverlayWidget = { getId: () => name, getDomNode: () => element, getPosition: () => null };
+  code.addOverlayWidget(widget);
+  let id = "";
+  code.changeViewZones((zones) => {
+    id = zones.addZone(zone);
+  });
+  const fit = () => {
+    const { contentLeft, contentWidth, verticalScrollbarWidth } = code.getLayoutInfo();
+    element.style.left = `${contentLeft}px`;
+    element.style.width = `${contentWidth - verticalScrollbarWidth}px`;
+  };
+  fit();
+  const layout = code.onDidLayoutChange(fit);
+  const sized = new ResizeObserver(() => {
+    if (zone.heightInPx === element.offsetHeight) return;
+    zone.heightInPx = element.offsetHeight;
+    code.changeViewZones((zones) => zones.layoutZone(id));
+    code.revealLineInCenterIfOutsideViewport(line);
+  });
+  sized.observe(element);
+  return {
+    element,
+    dispose: () => {
+      sized.disconnect();
+      layout.dispose();
+      code.changeViewZones((zones) => zones.removeZone(id));
+      code.removeOverlayWidget(widget);
+    },
+  };
+}

@@ -1,0 +1,18 @@
+/** Which statements were reached since coverage was switched on; shared by everybody at the PLC. */
+import { create } from "zustand";
+import { send } from "../wire/send";
+import type { Coverage } from "../wire/types";
+import { useDebug } from "./debug";
+import { t } from "../logic/text";
+
+export const useCoverage = create<{ coverage: Coverage | null }>(() => ({ coverage: null }));
+
+export function onCoverage(coverage: Coverage | null): void {
+  useCoverage.setState({ coverage });
+}
+
+/** `reset` forgets what was noted. */
+export async function setCoverage(on: boolean, reset = false): Promise<void> {
+  const answer = await send({ type: "set_coverage", on, reset });
+  useDebug.setState({ refused: answer.ok ? null : answer.message || t("notsent") });
+}
