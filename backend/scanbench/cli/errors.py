@@ -10,7 +10,7 @@ import typer
 
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
-from scanbench.cli.inputs import DEFAULT_MODEL, below, find_model, find_model_named, problem_json, read_sources, usage
+from scanbench.cli.inputs import below, find_model, find_model_named, problem_json, read_sources, usage
 from scanbench.cli.run_options import read_interval
 from scanbench.cli.sweep_states import START, BadStates, FromRun, State, read_states, run_state
 from scanbench.engines.observe import MakeObserved

@@ -10,7 +10,7 @@ from scanbench.check.symbols import Symbol, UnknownPath, resolve
 from scanbench.check.types import BOOL, Kind, Record
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.hits import HitRule, parse_hits
-from scanbench.debug.texts import BadText, Condition, Message, Texts
+from scanbench.debug.texts import BadText, Holds, Says, Texts
 
 
 @dataclass(eq=False, slots=True)
@@ -24,8 +24,8 @@ class Placed:
     instance: int | None = None
     """Offset of the only instance in which it acts."""
     task: str = ""
-    conditions: Mapping[Pou | None, Condition] = field(default_factory=dict)
-    messages: Mapping[Pou | None, Message] = field(default_factory=dict)
+    conditions: Mapping[Pou | None, Holds] = field(default_factory=dict)
+    messages: Mapping[Pou | None, Says] = field(default_factory=dict)
     flaw: str = ""
     """Why it stands nowhere."""
     remark: str = ""
@@ -126,7 +126,7 @@ class Placing:
             raise BadText(f"{placed.symbol.path} takes no memory, so nothing can be read or written there")
 
     def _error(self, placed: Placed, scan: int) -> None:
-        known = {each.id: None for each in self.program.layout.model.errors}
+        known = {each.id: None for each in self.program.layout.model.errors()}
         for name in error_names(placed.breakpoint):
             if name not in known:
                 near = get_close_matches(name, known, 3, 0.4)

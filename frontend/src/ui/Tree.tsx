@@ -5,6 +5,8 @@ export interface TreeRow {
   key: string;
   level: number;
   icon?: IconName;
+  /** A class for the icon's colour. */
+  tone?: string;
   label: ReactNode;
   /** The accessible name when the label is more than text. */
   name: string;
@@ -127,7 +129,7 @@ function Row({ row, tabbable, onFocus }: { row: TreeRow; tabbable: boolean; onFo
       ) : (
         <span className="tw" />
       )}
-      {row.icon && <Icon name={row.icon} />}
+      {row.icon && <Icon name={row.icon} className={row.tone} />}
       <span className="cut">{row.label}</span>
       {row.meta !== undefined && <span className="meta">{row.meta}</span>}
       {row.actions}

@@ -1,5 +1,6 @@
 /** The REST routes of the backend (`web/README.md` there), typed and thin. */
 import type {
+  Binding,
   Accepted,
   AppInfo,
   BuildResult,
@@ -30,6 +31,9 @@ import type {
   UserErrors,
   UserErrorsDraft,
   UserProblem,
+  WatchEntry,
+  WatchList,
+  WatchListInfo,
 } from "./types";
 
 /** A request that the server refused: what, and what to do next, in the server's words. */
@@ -82,6 +86,13 @@ const filePath = (project: number, path: string) =>
   `/projects/${project}/files/${path.split("/").map(encodeURIComponent).join("/")}`;
 
 export type SaveResult = { saved: FileInfo } | { conflict: SaveConflict };
+
+export interface ListOnServer {
+  name: string;
+  shared: boolean;
+  groups: readonly string[];
+  entries: readonly WatchEntry[];
+}
 
 async function savedErrors(answer: Promise<Response>): Promise<{ saved: UserErrors } | { conflict: SaveConflict }> {
   const response = await answer;
@@ -179,6 +190,29 @@ export const rest = {
   openCell: (sweep: number, { error, state }: CellRef, name: string) =>
     json<Instance>("POST", `/sweeps/${sweep}/open`, { error, state, name }),
   compareSweeps: (before: number, after: number) => json<SweepComparison>("GET", `/sweeps/${before}/compare/${after}`),
+
+  watchLists: (project: number) => json<WatchListInfo[]>("GET", `/projects/${project}/watch-lists`),
+  watchList: (list: number) => json<WatchList>("GET", `/watch-lists/${list}`),
+  createWatchList: (project: number, list: ListOnServer) =>
+    json<WatchList>("POST", `/projects/${project}/watch-lists`, list),
+  /** What was edited from `version` on; somebody else's when they were first. */
+  saveWatchList: async (
+    id: number,
+    list: ListOnServer,
+    version: number,
+  ): Promise<{ saved: WatchList } | { theirs: WatchList }> => {
+    const response = await request("PUT", `/watch-lists/${id}`, { ...list, version }, [409]);
+    const answer = (await response.json()) as WatchList | { theirs?: WatchList; message: string };
+    if (response.status !== 409) return { saved: answer as WatchList };
+    if ("theirs" in answer && answer.theirs) return { theirs: answer.theirs };
+    throw new Refused(409, { message: (answer as { message: string }).message, near: [] });
+  },
+  deleteWatchList: async (id: number): Promise<void> => {
+    await request("DELETE", `/watch-lists/${id}`);
+  },
+
+  binding: (instance: number, path: string) =>
+    json<Binding>("GET", `/instances/${instance}/binding?path=${encodeURIComponent(path)}`),
 
   symbols: (instance: number, path: string) =>
     json<PlcSymbol[]>("GET", `/instances/${instance}/symbols?path=${encodeURIComponent(path)}`),

@@ -1,19 +1,34 @@
-import { useEffect, useRef } from "react";
+import { useEffect, useRef, useState } from "react";
+import { createPortal } from "react-dom";
 import { pouAt } from "../../logic/explorer";
 import { t } from "../../logic/text";
+import { editBreakpoint, useDebug } from "../../store/debug";
 import { build, save, useDocuments } from "../../store/documents";
 import { useNavigation } from "../../store/navigate";
 import { addToWatch } from "../../store/watchlist";
+import { Menu, type MenuItem } from "../../ui/Menu";
+import { BreakpointForm } from "./BreakpointForm";
 import "./checks";
+import "./completion";
+import { markCoverage } from "./coverage";
+import "./debug.css";
+import { addDebugActions } from "./debugActions";
+import { type Gutter, showBreakpoints } from "./gutter";
+import { lineMenu } from "./gutterMenu";
+import { markHalt } from "./halt";
+import "./hover";
+import { showInlineValues } from "./inlineValues";
 import { modelOf } from "./models";
 import { editor, KeyCode, KeyMod, monospaceFont, options } from "./monaco";
 import { markReaction } from "./reaction";
 import { markTrap } from "./trap";
+import { openZone, type Zone } from "./zone";
 
 /** The text of one file in Monaco. */
 export default function CodeView({ path }: { path: string }) {
   const host = useRef<HTMLDivElement>(null);
   const view = useRef<editor.IStandaloneCodeEditor | null>(null);
+  const [menu, setMenu] = useState<{ items: readonly MenuItem[]; at: { x: number; y: number } } | null>(null);
 
   useEffect(() => {
     const document = useDocuments.getState().open[path];
@@ -26,6 +41,14 @@ export default function CodeView({ path }: { path: string }) {
     });
     view.current = code;
     addActions(code, path);
+    let gutter: Gutter | null = null;
+    const openMenu = (line: number, at: { x: number; y: number }) => {
+      if (!gutter) return;
+      setMenu({ items: lineMenu({ path, line, built: gutter.built(line), here: gutter.at(line) }), at });
+    };
+    const breakpoints = showBreakpoints(code, path, openMenu);
+    gutter = breakpoints;
+    addDebugActions(code, path, () => breakpoints, openMenu);
     const caret = () => {
       const position = code.getPosition();
       if (position)
@@ -36,18 +59,54 @@ export default function CodeView({ path }: { path: string }) {
     caret();
     const unmark = markTrap(code, path);
     const unmarkReaction = markReaction(code, path);
+    const unmarkHalt = markHalt(code, path);
+    const unmarkCoverage = markCoverage(code, path);
+    const hideValues = showInlineValues(code, path);
     const stop = useNavigation.subscribe(({ place }) => go(code, path, place));
     go(code, path, useNavigation.getState().place);
     return () => {
       stop();
       unmark();
       unmarkReaction();
+      unmarkHalt();
+      unmarkCoverage();
+      hideValues();
+      breakpoints.dispose();
       code.dispose();
       view.current = null;
     };
   }, [path]);
 
-  return <div ref={host} className="codehost" />;
+  return (
+    <>
+      <div ref={host} className="codehost" />
+      <Editing path={path} view={view} />
+      {menu && <Menu label={t("debug.menu")} {...menu} onClose={() => setMenu(null)} />}
+    </>
+  );
+}
+
+/** The form of a breakpoint, below its line, while one of this file is edited. */
+function Editing({ path, view }: { path: string; view: { current: editor.IStandaloneCodeEditor | null } }) {
+  const editing = useDebug((debug) => (debug.editing?.file === path ? debug.editing : null));
+  const [zone, setZone] = useState<Zone | null>(null);
+  useEffect(() => {
+    if (!editing || !view.current) return;
+    const opened = openZone(view.current, editing.line);
+    setZone(opened);
+    return () => {
+      opened.dispose();
+      setZone(null);
+    };
+  }, [editing, view]);
+  if (!editing || !zone) return null;
+  const { pous, open } = useDocuments.getState();
+  const pou = pouAt(pous, path, editing.line, open[path]?.text);
+  const close = () => {
+    editBreakpoint(null);
+    view.current?.focus();
+  };
+  return createPortal(<BreakpointForm editing={editing} pou={pou?.name} onClose={close} />, zone.element);
 }
 
 let handledTurn = 0;

@@ -9,6 +9,12 @@ import { toggleChecks, usePrefs } from "../../store/prefs";
 import { rollBack } from "../../store/run";
 import { Icon } from "../../ui/Icon";
 import { StateWord } from "../../ui/StateWord";
+import type { Pou } from "../../wire/types";
+import { DebugSwitches } from "./DebugSwitches";
+import { SeenAs } from "./SeenAs";
+
+/** What has instances: its values are those of one. */
+const INSTANCED: readonly Pou["kind"][] = ["program", "function_block", "class"];
 
 /** Above the text: what it declares, what the last build said, save and build. */
 export function EditorBar({ path }: { path: string }) {
@@ -27,10 +33,15 @@ export function EditorBar({ path }: { path: string }) {
   return (
     <div className="sub">
       <span className="cut">{pou?.name ?? path}</span>
-      {pou && <span className="faint cut">{t(`kind.${pou.kind}`)}</span>}
+      {pou && INSTANCED.includes(pou.kind) ? (
+        <SeenAs pou={pou.name} />
+      ) : (
+        pou && <span className="faint cut">{t(`kind.${pou.kind}`)}</span>
+      )}
       <span className="grow" />
       <BuildOutcome />
       <RollBack />
+      <DebugSwitches path={path} />
       <ChecksToggle />
       <button
         type="button"

@@ -1,0 +1,67 @@
+"""Where a step ends."""
+
+from collections.abc import Callable
+from dataclasses import dataclass, field
+
+from scanbench.engines.debug import Frame
+
+Frames = Callable[[], tuple[Frame, ...]]
+
+
+@dataclass(frozen=True, slots=True)
+class Goal:
+    """A step that is under way, and where it began. In a scan's seam it began in no frame."""
+
+    action: str
+    author: str
+    scan: int
+    frames: tuple[Frame, ...] = ()
+    sites: frozenset[int] = field(default_factory=frozenset)
+    """`to`: the statements of the line."""
+
+    @property
+    def listens(self) -> frozenset[int] | None:
+        """The statements at which it may end; None: at any."""
+        return self.sites if self.action == "to" else None
+
+    def reached(self, site: int, count: int, depth: int, frames: Frames, scan: int) -> bool:
+        """Whether it ends in front of this statement."""
+        match self.action:
+            case "continue":
+                return False
+            case "to":
+                return site in self.sites
+            case "scan" | "entry":
+                return scan > self.scan or (not self.frames and count == 1)
+            case "over":
+                return self._back_in(depth, frames, scan)
+            case "out":
+                return self._out_of(depth, frames, scan)
+            case _:
+                return True
+
+    def _back_in(self, depth: int, frames: Frames, scan: int) -> bool:
+        begun = len(self.frames)
+        if depth != begun or depth <= 1 or scan != self.scan:
+            return depth < begun or depth <= 1
+        now, then = frames()[0], self.frames[0]
+        return now.pou is then.pou and now.instance == then.instance
+
+    def _out_of(self, depth: int, frames: Frames, scan: int) -> bool:
+        begun = len(self.frames)
+        if begun > 1 and scan == self.scan:
+            return depth < begun
+        if depth > 1:
+            return False
+        if scan != self.scan or not self.frames:
+            return True
+        now, then = frames()[-1], self.frames[-1]
+        return now.pou is not then.pou or now.instance != then.instance
+
+    @property
+    def words(self) -> str:
+        """For people."""
+        return {
+            "in": "step in", "over": "step over", "out": "step out", "statement": "single statement",
+            "scan": "single scan", "to": "run to line", "pause": "pause", "entry": "entry", "continue": "continue",
+        }.get(self.action, self.action) + f" by {self.author}"  # fmt: skip

@@ -1,0 +1,74 @@
+"""A PLC without a server: of sources that somebody gives, in a folder of its own that goes away with it."""
+
+import asyncio
+from collections.abc import Callable
+from contextlib import suppress
+from pathlib import Path
+from tempfile import TemporaryDirectory
+
+from scanbench.plcmodel.model import Model
+from scanbench.session.instance import Remembered
+from scanbench.session.keeper import Keeper
+from scanbench.session.load import Loads
+from scanbench.session.nursery import nursery
+from scanbench.session.protocol import Sources
+from scanbench.session.reactions import Reactions
+from scanbench.session.refused import Refused
+from scanbench.session.runs import run_path
+from scanbench.session.session import Session
+from scanbench.store.store import Store
+
+_STANDS = ("paused", "halted", "stopped", "trapped", "fatal")
+
+
+class Solo:
+    """One session, with everything around it. `start`, use, `close`."""
+
+    def __init__(self, session: Session, store: Store, keeper: Keeper, reactions: Reactions, close: Callable[[], None]):
+        self.session = session
+        self._store, self._keeper, self._reactions, self._remove = store, keeper, reactions, close
+
+    @staticmethod
+    async def start(name: str, sources: Sources, model: Model, speed: float) -> "Solo":
+        """A PLC that stands in front of its first scan; `Refused` says why it cannot."""
+        solo = await asyncio.to_thread(Solo._make, name, sources, model, speed)
+        try:
+            solo._keeper.start()
+            await asyncio.to_thread(nursery().start)
+            solo.session.start()
+            await solo.standing()
+        except BaseException:
+            await solo.close()
+            raise
+        return solo
+
+    @staticmethod
+    def _make(name: str, sources: Sources, model: Model, speed: float) -> "Solo":
+        folder = TemporaryDirectory(prefix="scanbench-")
+        data = Path(folder.name)
+        try:
+            store = Store(f"sqlite:///{data / 'scanbench.db'}")
+            row = store.create_instance(store.create_project(name, model.name).id, name)
+            keeper, reactions = Keeper(store), Reactions(data / "cache")
+            memory = Remembered(name, sources, run_path(data, row.id), row.limits, speed, paused=True)
+            session = Session(row, model, memory, keeper, (), (), Loads(), reactions, data / "cache")
+        except BaseException:
+            folder.cleanup()
+            raise
+        return Solo(session, store, keeper, reactions, folder.cleanup)
+
+    async def standing(self) -> None:
+        """Waits until the PLC is there and stands; `Refused` when it cannot be there."""
+        while self.session.state.state not in _STANDS:
+            if self.session.state.state == "failed":
+                raise Refused(self.session.state.message)
+            await asyncio.sleep(0.01)
+
+    async def close(self) -> None:
+        """Ends the PLC; nothing is left of it."""
+        await self.session.stop()
+        await self._reactions.close()
+        await self._keeper.close()
+        await asyncio.to_thread(self._store.close)
+        with suppress(OSError):
+            await asyncio.to_thread(self._remove)

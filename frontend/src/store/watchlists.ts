@@ -1,0 +1,287 @@
+/** The watch lists of a project, and the one that is shown: kept on the server, shared with everybody or one's own. What
+ * two people change at once is put together; nobody's change is lost. */
+import { create } from "zustand";
+import { t } from "../logic/text";
+import { type ListContent, merge, sameContent } from "../logic/watchlist";
+import { Refused, rest } from "../wire/rest";
+import type { WatchList, WatchListChanged, WatchListInfo } from "../wire/types";
+import { messageOf } from "./documents";
+import { forget, keep, recall } from "./keep";
+
+interface Shown {
+  /** Null: it is not on the server yet. */
+  id: number | null;
+  shared: boolean;
+  /** The version on the server that `base` is. */
+  version: number;
+  base: ListContent;
+  content: ListContent;
+}
+
+interface WatchLists extends Shown {
+  project: number | null;
+  lists: readonly WatchListInfo[];
+  /** Why what is shown could not be saved; it is kept in this browser, and tried again. */
+  trouble: string | null;
+  /** Who deleted the list that is shown. */
+  deletedBy: string | null;
+  /** Something that was done and can be undone. */
+  done: { text: string; undo: () => void } | null;
+}
+
+const EMPTY: ListContent = { name: "", groups: [], entries: [] };
+const nothing: WatchLists = {
+  project: null,
+  lists: [],
+  id: null,
+  shared: false,
+  version: 0,
+  base: EMPTY,
+  content: EMPTY,
+  trouble: null,
+  deletedBy: null,
+  done: null,
+};
+
+export const useWatchLists = create<WatchLists>(() => nothing);
+const get = useWatchLists.getState;
+const set = useWatchLists.setState;
+
+const HISTORY = 100;
+let history: ListContent[] = [];
+let first: readonly string[] = [];
+let saving = false;
+
+const chosenKey = (project: number | null) => `watchlist.${project}`;
+const pendingKey = (project: number | null) => `watchlist.unsaved.${project}`;
+const isEdited = () => !sameContent(get().base, get().content);
+
+/** Another project: the list that was shown last, else a shared one, else a new one with what the project begins with. */
+export async function loadWatchLists(project: number | null, begin: readonly string[]): Promise<void> {
+  if (project === get().project) return;
+  first = begin;
+  history = [];
+  set({ ...nothing, ...fresh(), project });
+  if (project === null) return;
+  const unsaved = recall<Shown | null>(pendingKey(project), null);
+  if (unsaved) set(unsaved);
+  await refreshLists();
+  if (get().project !== project) return;
+  if (unsaved) void save();
+  else await chooseKept(project);
+}
+
+async function chooseKept(project: number): Promise<void> {
+  const { lists } = get();
+  const kept = recall<number | null>(chosenKey(project), null);
+  const known = lists.find(({ id }) => id === kept) ?? lists.find(({ shared }) => !shared) ?? lists[0];
+  if (known && !isEdited()) await chooseList(known.id);
+}
+
+/** A list that nobody has: with what the project begins with, or empty. */
+function fresh(paths: readonly string[] = first): Shown {
+  const entries = paths.map((path) => ({ path, group: "", format: "default" as const }));
+  const content: ListContent = { name: freeName(t("watch.list.new")), groups: [], entries };
+  return { id: null, shared: false, version: 0, base: content, content };
+}
+
+function freeName(wanted: string): string {
+  const taken = new Set(get().lists.map(({ name }) => name));
+  for (let number = 2, name = wanted; ; number += 1) {
+    if (!taken.has(name)) return name;
+    name = `${wanted} ${number}`;
+  }
+}
+
+const contentOf = ({ name, groups, entries }: WatchList): ListContent => ({ name, groups, entries });
+
+async function refreshLists(): Promise<void> {
+  const { project } = get();
+  if (project === null) return;
+  try {
+    const lists = await rest.watchLists(project);
+    if (get().project === project) set({ lists });
+  } catch (error) {
+    set({ trouble: messageOf(error) });
+  }
+}
+
+function take(list: WatchList): void {
+  const content = contentOf(list);
+  history = [];
+  set({ id: list.id, shared: list.shared, version: list.version, base: content, content, trouble: null, deletedBy: null });
+  keep(chosenKey(get().project), list.id);
+}
+
+export async function chooseList(id: number): Promise<void> {
+  const { project } = get();
+  if (isEdited()) await save();
+  try {
+    const list = await rest.watchList(id);
+    if (get().project === project) take(list);
+  } catch (error) {
+    set({ trouble: messageOf(error) });
+  }
+}
+
+/** An empty list of one's own; it is stored with its first entry. */
+export async function newList(): Promise<void> {
+  if (isEdited()) await save();
+  history = [];
+  set({ ...fresh([]), trouble: null, deletedBy: null });
+}
+
+/** Changes the list that is shown; it is saved by itself. */
+export function editList(change: (content: ListContent) => ListContent): void {
+  const { content } = get();
+  const next = change(content);
+  if (next === content) return;
+  history = [...history.slice(-HISTORY), content];
+  set({ content: next, done: null });
+  void save();
+}
+
+/** Takes the last change back. */
+export function undoEdit(): void {
+  const before = history.pop();
+  if (!before) return;
+  set({ content: before, done: null });
+  void save();
+}
+
+export function told(text: string, undo: () => void): void {
+  set({ done: { text, undo } });
+}
+
+/** Saves until there is nothing to save; whoever was first is put together with what is here. */
+async function save(): Promise<void> {
+  const { project, id, shared, version, base, content } = get();
+  if (project !== null) keep(pendingKey(project), { id, shared, version, base, content } satisfies Shown);
+  if (saving || project === null) return;
+  saving = true;
+  try {
+    while (get().project === project && (isEdited() || get().id === null)) await saveOnce(project);
+    if (get().project === project) set({ trouble: null });
+    forget(pendingKey(project));
+    await refreshLists();
+  } catch (error) {
+    if (error instanceof Refused && error.status === 404 && get().id !== null) onGone("");
+    else if (get().project === project) set({ trouble: messageOf(error) });
+  } finally {
+    saving = false;
+  }
+}
+
+async function saveOnce(project: number): Promise<void> {
+  const { id, shared, version, content } = get();
+  if (id === null) {
+    const made = await created(project, shared, content);
+    if (get().project !== project) return;
+    const renamed = get().content.name === content.name ? { ...get().content, name: made.name } : get().content;
+    set({ id: made.id, version: made.version, base: contentOf(made), content: renamed, deletedBy: null });
+    keep(chosenKey(project), made.id);
+    return;
+  }
+  const answer = await rest.saveWatchList(id, { ...content, shared }, version);
+  if (get().project !== project || get().id !== id) return;
+  if ("saved" in answer) set({ version: answer.saved.version, base: contentOf(answer.saved), shared: answer.saved.shared });
+  else takeTheirs(answer.theirs);
+}
+
+/** Under its name, or the next one that is free. */
+async function created(project: number, shared: boolean, content: ListContent): Promise<WatchList> {
+  for (let number = 2, name = content.name; ; number += 1) {
+    try {
+      return await rest.createWatchList(project, { ...content, name, shared });
+    } catch (error) {
+      if (!(error instanceof Refused && error.status === 409) || number > 99) throw error;
+      name = `${content.name} ${number}`;
+    }
+  }
+}
+
+function takeTheirs(theirs: WatchList): void {
+  const { base, content } = get();
+  const their = contentOf(theirs);
+  set({ content: merge(base, content, their), base: their, version: theirs.version, shared: theirs.shared });
+}
+
+/** Somebody, perhaps here, changed a list. */
+export async function onWatchList({ id, version, author }: WatchListChanged): Promise<void> {
+  const now = get();
+  if (id === now.id && version === 0) onGone(author);
+  else if (id === now.id && version > now.version && !saving) await pull(id);
+  if (!saving) await refreshLists();
+}
+
+async function pull(id: number): Promise<void> {
+  try {
+    const theirs = await rest.watchList(id);
+    if (get().id === id && theirs.version > get().version) takeTheirs(theirs);
+  } catch (error) {
+    set({ trouble: messageOf(error) });
+  }
+}
+
+/** What is shown stays until something else is chosen. */
+function onGone(author: string): void {
+  forget(pendingKey(get().project));
+  set(({ content }) => ({ id: null, shared: false, version: 0, base: content, deletedBy: author || t("somebody") }));
+}
+
+/** After a connection was lost: what others did meanwhile, and what could not be saved. */
+export async function catchUpLists(): Promise<void> {
+  await refreshLists();
+  const { id, version, lists } = get();
+  if (isEdited()) await save();
+  else if (id !== null && (lists.find((list) => list.id === id)?.version ?? version) > version) await pull(id);
+}
+
+/** Has a list that was deleted, or a copy of another one, as one's own. */
+export async function keepAsOwn(): Promise<void> {
+  await save();
+}
+
+export async function renameList(name: string): Promise<void> {
+  editList((content) => ({ ...content, name }));
+}
+
+export async function duplicateList(): Promise<void> {
+  const { content } = get();
+  if (isEdited()) await save();
+  const copy = { ...content, name: freeName(t("watch.list.copy", content)) };
+  history = [];
+  set({ id: null, shared: false, version: 0, base: EMPTY, content: copy, deletedBy: null });
+  await save();
+}
+
+/** With everybody at the project, from now on. */
+export async function shareList(): Promise<void> {
+  set({ shared: true, base: EMPTY });
+  const { id, content, version } = get();
+  if (id === null) return save();
+  set({ base: { ...content, name: "" } }); // what is to be saved is the sharing alone
+  if (version > 0) await save();
+}
+
+/** Deletes the list that is shown. It can be taken back: the same list, under another number. */
+export async function deleteList(): Promise<void> {
+  const { id, shared, content, project } = get();
+  try {
+    if (id !== null) await rest.deleteWatchList(id);
+  } catch (error) {
+    set({ trouble: messageOf(error) });
+    return;
+  }
+  forget(pendingKey(project));
+  forget(chosenKey(project));
+  set({ ...fresh([]), deletedBy: null, trouble: null });
+  await refreshLists();
+  if (project !== null) await chooseKept(project);
+  told(t("watch.list.deleted", content), () => void restore(shared, content));
+}
+
+async function restore(shared: boolean, content: ListContent): Promise<void> {
+  set({ id: null, shared, version: 0, base: EMPTY, content, done: null, deletedBy: null });
+  await save();
+}
