@@ -80,7 +80,7 @@ def run_bench(programs: list[str] | None = None) -> Result:
     result: Result = {"programs": {}, "peers": {}, "compile": {}, "building": {}, "interpreter_per_second": None}
     with tempfile.TemporaryDirectory() as directory:
         for name in names:
-            program, check_ms = _check(name)
+            program, check_ms = checked_program(name)
             native, compile_ms = _build(program)
             observed, observed_ms = _build_observed(program)
             twin = _compile_c(name, Path(directory))
@@ -95,7 +95,8 @@ def run_bench(programs: list[str] | None = None) -> Result:
     return result
 
 
-def _check(name: str) -> tuple[Program, float]:
+def checked_program(name: str) -> tuple[Program, float]:
+    """A program of the bench, and ms that checking it took."""
     source = (HERE / "st" / f"{name}.st").read_text("utf-8")
     start = perf_counter_ns()
     checked = check_sources({f"{name}.st": source}, model_named(MODEL), INTERVAL_NS)

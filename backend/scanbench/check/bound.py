@@ -58,6 +58,9 @@ class Copies:
         yield None
 
 
+NO_COPIES = Copies()
+
+
 def referred(slot: int) -> tuple[int, int] | None:
     """Byte offset and bit that a slot refers to; None for what refers to nothing."""
     offset = slot & BYTE_OFFSET

@@ -70,7 +70,14 @@ class CallSite:
     """Of the calling instance; empty in a FUNCTION."""
     offset: int
     """Where that begins."""
-    actual: Place
+
+    def passes(self, formal: Formal) -> Place | None:
+        """What it passes for an in-out, as the caller sees it; None where it leaves that as it is, as SUPER can."""
+        actual = next((each for slot, each in self.call.in_outs if slot.offset == formal.slot), None)
+        same = (
+            self.call.instance.base is Base.SELF and self.call.instance.slot is None and self.call.instance.offset == 0
+        )
+        return None if actual is None or (same and _is_itself(actual, formal.slot)) else actual
 
 
 def formal_of(program: Program, path: str) -> Formal | None:
@@ -100,27 +107,23 @@ class Calls:
         self._by_block: dict[str, list[tuple[Pou, CallBlock]]] = {}
         for pou in program.pous:
             for call in _calls(pou.body):
-                if call.in_outs:
-                    self._by_block.setdefault(call.pou.instance.name, []).append((pou, call))
+                self._by_block.setdefault(call.pou.instance.name, []).append((pou, call))
 
     def sites(self, formal: Formal, memory: Image) -> list[CallSite]:
         """Those that pass something to this in-out, in the order of the text."""
-        located = formal.instance.locate(memory)
-        record = formal.instance.type
+        return [each for each in self.of(formal.instance, memory) if each.passes(formal) is not None]
+
+    def of(self, instance: Symbol, memory: Image) -> list[CallSite]:
+        """All calls of an instance, in the order of the text."""
+        located, record = instance.locate(memory), instance.type
         if located is None or not isinstance(record, Record):
             return []
-        found = []
-        for pou, call in self._of(record):
-            actual = next((each for slot, each in call.in_outs if slot.offset == formal.slot), None)
-            if actual is None or _is_itself(actual, formal.slot):
-                continue
-            for path, offset in self._callers(pou, call.instance, located[0], memory):
-                found.append(CallSite(call.span.plain(), pou, call, path, offset, actual))
+        found = [
+            CallSite(call.span.plain(), pou, call, path, offset)
+            for pou, call in self._of(record)
+            for path, offset in self._callers(pou, call.instance, located[0], memory)
+        ]
         return sorted(found, key=lambda each: (each.span.file, each.span.line, each.span.column))
-
-    def calls_of(self, record: Record) -> list[tuple[Pou, CallBlock]]:
-        """All calls of blocks of this type."""
-        return list(self._of(record))
 
     def _of(self, record: Record) -> Iterator[tuple[Pou, CallBlock]]:
         known: Record | None = record
@@ -146,10 +149,10 @@ class Calls:
         else:
             name = own.name if isinstance(own, Record) else pou.name
             callers = [(each.path, each.offset) for each in instances_of(self._program, name)]
+        through = instance.reference is not None or instance.slot is not None
         for path, offset in callers:
-            if instance.reference is None and instance.slot is None:
-                yield path, offset
-            elif (found := address(pou, instance, offset, memory)) is not None and found[0] == at:
+            found = address(pou, instance, offset, memory) if through else (at, 0)
+            if found is not None and found[0] == at:
                 yield path, offset
 
 
@@ -157,7 +160,9 @@ def address(pou: Pou, place: Place, instance: int, memory: Image) -> tuple[int, 
     """Byte offset and bit of a place of a body, by the values that stand in the image; None where they lead nowhere."""
     bit = place.bit or 0
     if place.reference is not None or place.slot is not None:
-        slot = _value(pou, place.reference if place.reference is not None else Load(place.slot or place), instance, memory)
+        slot = _value(
+            pou, place.reference if place.reference is not None else Load(place.slot or place), instance, memory
+        )
         target = None if slot is None else referred(slot)
         if target is None:
             return None
@@ -329,5 +334,3 @@ def slot_value(formal: Formal, memory: Image) -> int | None:
 def as_reference(offset: int, bit: int) -> int:
     """The value of a slot that refers to this."""
     return offset | bit << BIT_SHIFT
-
-

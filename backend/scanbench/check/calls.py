@@ -33,7 +33,18 @@ from scanbench.check.program import (
 from scanbench.check.scopes import decode, place_of
 from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.check.standard.library import in_library
-from scanbench.check.types import BOOL, ULINT, Elementary, Member, Record, Reference, Section, Type, actual_of, initial_of
+from scanbench.check.types import (
+    BOOL,
+    ULINT,
+    Elementary,
+    Member,
+    Record,
+    Reference,
+    Section,
+    Type,
+    actual_of,
+    initial_of,
+)
 from scanbench.check.untyped import is_untyped, settle
 from scanbench.problems import Span
 from scanbench.syntax import tree
@@ -342,10 +353,7 @@ class CallChecker(GenericChecker):
         call = CallBlock(instance, callee, tuple(inputs), tuple(in_outs), tuple(outputs), node.span)
         return [*before, call]
 
-
-    def _rebinds(
-        self, node: tree.Call, record: Record, member: Member, target: Place, before: list[Stmt]
-    ) -> bool:
+    def _rebinds(self, node: tree.Call, record: Record, member: Member, target: Place, before: list[Stmt]) -> bool:
         """Whether an in-out by value is bound to something else by this call: SUPER runs in the same instance. So what this body
         made of it goes back first, and when it is passed on as it is, it stays bound to what was passed here."""
         if not named_itself(node.callee, "SUPER"):

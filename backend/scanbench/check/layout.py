@@ -17,7 +17,6 @@ from scanbench.check.bound import Copies
 from scanbench.check.types import Record
 from scanbench.plcmodel.model import Area, Model
 
-
 FORCE_BEFORE, FORCE_AFTER_PROGRAM = 6, 7
 """Bytes of a force's entry: what its byte was when the force was applied in phase 2, and in phase 4, of the last scan."""
 

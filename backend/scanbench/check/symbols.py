@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 
-from scanbench.check.bound import Copies
+from scanbench.check.bound import NO_COPIES, Copies
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
 from scanbench.check.scopes import SYSTEM
@@ -62,7 +62,7 @@ class Symbol:
     address: str | None = None
     tool: Access = "write"
     constant: bool = False
-    copies: Copies = Copies()
+    copies: Copies = NO_COPIES
     """For what is behind slots: an in-out by value on the way is a copy, and the variable itself is wanted."""
 
     @property
@@ -324,6 +324,31 @@ def _addresses(program: Program, symbol: Symbol, array: ArrayType) -> list[Symbo
         offset = start.offset - byte + position // 8
         found.append(_checked(program, replace(start, path=name, name=name, offset=offset, bit=bit, address=name)))
     return found
+
+
+def member_of(owner: Symbol, member: Member, path: str) -> Symbol:
+    """The variable of an instance, structure or frame that begins where `owner` does."""
+    return _member(owner, member, path)
+
+
+def children(program: Program, symbol: Symbol, start: int = 0, count: int = MAX_MEMBERS) -> list[Symbol]:
+    """What stands below a variable, from number `start` on."""
+    type = symbol.type
+    if not isinstance(type, ArrayType):
+        return _children(program, symbol)[start : start + count]
+    found = []
+    for number in range(start, min(start + count, type.count)):
+        rest, index = number, ""
+        for low, high in reversed(type.bounds):
+            rest, here = divmod(rest, high - low + 1)
+            index = f",{low + here}{index}"
+        found.append(_element(symbol, index[1:]))
+    return found
+
+
+def referred(symbol: Symbol) -> Symbol:
+    """What a reference refers to, wherever that is at the moment."""
+    return _referred(symbol)
 
 
 def _raw(program: Program, text: str) -> Symbol:

@@ -40,6 +40,7 @@ from scanbench.runtime.clock import iso, wall_time
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram
+from scanbench.session.from_disk import DEFAULT_MODEL
 from scanbench.session.protocol import Sources
 from scanbench.session.starting import NoStart, checked_program, model_of, point_in
 

@@ -31,8 +31,10 @@ class Goal:
                 return False
             case "to":
                 return site in self.sites
-            case "scan" | "entry":
-                return scan > self.scan or (not self.frames and count == 1)
+            case "scan":
+                return scan > self.scan
+            case "entry":
+                return count == 1
             case "over":
                 return self._back_in(depth, frames, scan)
             case "out":

@@ -198,12 +198,6 @@ def error_names(breakpoint: Breakpoint) -> tuple[str, ...]:
     return tuple(filter(None, (each.strip() for each in breakpoint.error.split(","))))
 
 
-def moved(old: Placed, new: Placed) -> Placed:
-    """The same breakpoint in another program, with what it counted."""
-    new.hits = old.hits
-    return new
-
-
 def bytes_of(symbol: Symbol, memory: bytearray) -> tuple[int, int, int] | None:
     """Where the value is now: offset, size, and the mask of a bit; None while an in-out is bound to nothing."""
     place = symbol.locate(memory)
@@ -225,5 +219,3 @@ def _runs_in(pou: Pou, record: Record) -> bool:
             return True
         each = each.base
     return False
-
-

@@ -49,8 +49,9 @@ class Seen:
 class Observer(ABC):
     """Made with an observed engine, for its program. Not while `run` is running."""
 
-    def __init__(self, program: Program) -> None:
-        self.sites: Sites = sites_of(program)
+    def __init__(self, program: Program, sites: Sites | None = None) -> None:
+        """`sites` of the program may be known already."""
+        self.sites: Sites = sites or sites_of(program)
         """What the numbers mean."""
         self._areas = range(Layout.HEADER_SIZE, areas_end(program.layout))
 

@@ -1,52 +1,88 @@
 """Force and Release: values that hold after input refresh and before output, whatever the program writes.
 
 A force is a patch of the force table in the image header (`engines/engine.py` applies it), one entry a byte; forces of
-bits in one byte share an entry.
+bits in one byte share an entry. Bits that are forced under one path are not forced under another: `D100` and the variable
+there are the same bytes, and whoever releases one of them would release the other.
 """
 
 import struct
-from collections.abc import Mapping
-from dataclasses import dataclass
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
 
 from scanbench.check.layout import Layout
 from scanbench.check.types import Elementary
+from scanbench.check.values import format_value
 from scanbench.runtime.command import Command, Entry, Patch, Plan, Refusal, Restarted, Swapped, View
 from scanbench.runtime.journal import Fold
 from scanbench.runtime.rights import Right, may
-from scanbench.runtime.target import find, writable_target
+from scanbench.runtime.target import Meant, find, meant, writable_target
 
-_ENTRY = struct.Struct("<IBBH")
+_ENTRY = struct.Struct("<IBBBB")
 _COUNT = struct.Struct("<I")
 
 
 @dataclass(frozen=True, slots=True)
 class Force(Command):
-    """Holds a variable or address at a value."""
+    """Holds a variable or address at a value. A path through an in-out means a variable, as with `Write`: that is held, also
+    when the block is called with another one from then on."""
 
     path: str
     value: str
+    through: str = ""
+    site: str = ""
+
+    def settled(self, view: View) -> Command:
+        """With the variable that is meant now."""
+        found = meant(view, self.path, self.site)
+        if not isinstance(found, Meant) or not found.through:
+            return self
+        return replace(self, path=found.path, through=found.through, site="")
 
     def plan(self, view: View) -> Plan | Refusal:
         """The new force table, and the value at once, so that a paused PLC shows it."""
+        if self.site:
+            found = meant(view, self.path, self.site)
+            if isinstance(found, Refusal):
+                return found
         patch = self.bits(view)
         if isinstance(patch, Refusal):
             return patch
+        other = self._held_as(view, patch)
+        if other is not None:
+            return Refusal(f"{self.path} is forced already, as {other.path} by {other.author}: release that first")
         table = read_table(view.memory)
         hold(table, patch)
         if len(table) > Layout.FORCE_LIMIT:
             return Refusal(f"no room for more forces: at most {Layout.FORCE_LIMIT} bytes. Release some first")
-        symbol = find(view, self.path)
-        shown = self.path if isinstance(symbol, Refusal) else symbol.path
+        target = writable_target(view, self.path, Right.FORCE, self.through)
+        shown = self.path if isinstance(target, Refusal) else target.shown
         return Plan((*table_patches(view, table), patch), f"{shown} forced to {self.value.strip()}")
 
     def bits(self, view: View) -> Patch | Refusal:
         """Which bits of this image it holds, at which values."""
-        target = writable_target(view, self.path, Right.FORCE)
+        target = writable_target(view, self.path, Right.FORCE, self.through)
         if isinstance(target, Refusal):
             return target
         if not isinstance(target.type, Elementary):
-            return Refusal(f"{target.symbol.path} is a {target.type.name}: only values of up to 8 bytes can be forced")
+            return Refusal(f"{target.shown} is a {target.type.name}: only values of up to 8 bytes can be forced")
         return target.patch(self.value)
+
+    def _held_as(self, view: View, patch: Patch) -> "Force | None":
+        """Another force of some of these bits."""
+        mine = set(_bits(patch))
+        table = read_table(view.memory)
+        if not any(table.get(at, (0, 0))[0] >> bit & 1 for at, bit in mine):
+            return None
+        for key, force in view.derived(FORCED).items():
+            theirs = force.bits(view) if key != _key(self.path) else None
+            if isinstance(theirs, Patch) and not mine.isdisjoint(_bits(theirs)):
+                return force
+        return None
+
+
+def _bits(patch: Patch) -> Iterator[tuple[int, int]]:
+    for at, mask in enumerate(patch.mask, patch.offset):
+        yield from ((at, bit) for bit in range(8) if mask >> bit & 1)
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,6 +90,17 @@ class Release(Command):
     """Ends the force of one path, or of all with None. The value stays until something writes it."""
 
     path: str | None
+
+    def settled(self, view: View) -> Command:
+        """With the variable that is held: of an in-out the one it is bound to now, else the one it was forced on."""
+        forces = view.derived(FORCED)
+        if self.path is None or _key(self.path) in forces:
+            return self
+        now = meant(view, self.path, "")
+        if isinstance(now, Meant) and _key(now.path) in forces:
+            return replace(self, path=now.path)
+        once = [force for force in forces.values() if _key(force.through) == _key(self.path)]
+        return replace(self, path=once[-1].path) if once else self
 
     def plan(self, view: View) -> Plan | Refusal:
         """The force table without these bits."""
@@ -83,14 +130,63 @@ class Release(Command):
         return Plan(table_patches(view, table), f"{symbol.path} released")
 
 
+@dataclass(frozen=True, slots=True)
+class ForcedValue:
+    """A force, and what it did in the scan that ran last: values as text."""
+
+    path: str
+    through: str
+    """The in-out that it was entered for; empty where it was entered for the variable itself."""
+    value: str
+    author: str
+    scan: int
+    """In front of which scan it was entered."""
+    before: str
+    """What the variable was when the program was about to begin: from the inputs, or from the scan before."""
+    after_program: str
+    """What the program made of it."""
+    after: str
+    """What it is now."""
+
+
+def forced_values(view: View) -> tuple[ForcedValue, ...]:
+    """All forces that hold, in the order in which they were entered."""
+    since, notes, found = view.derived(FORCED_SINCE), _notes(view.memory), []
+    for key, force in view.derived(FORCED).items():
+        target = writable_target(View(view.program, view.memory), force.path, Right.FORCE)
+        symbol = find(view, force.path)
+        place = None if isinstance(symbol, Refusal) else symbol.locate(view.memory)
+        if isinstance(target, Refusal) and place is None:
+            continue
+        assert not isinstance(symbol, Refusal)
+        assert place is not None
+        offset, bit = place
+        now = bytes(view.memory[offset : offset + symbol.type.size])
+        texts = []
+        for which in range(3):
+            data = bytes(
+                notes.get(at, (byte, byte))[which] if which < 2 else byte for at, byte in enumerate(now, offset)
+            )
+            texts.append(format_value(symbol.type, data if bit is None else bytes((data[0] >> bit & 1,))))
+        found.append(
+            ForcedValue(force.path, force.through, force.value, force.author, since.get(key, 0), *texts)
+        )  # fmt: skip
+    return tuple(found)
+
+
 def read_table(memory: bytearray | bytes | memoryview) -> dict[int, tuple[int, int]]:
     """Offset -> (mask, value) of every entry in use."""
-    count = _COUNT.unpack_from(memory, Layout.FORCE_COUNT)[0]
-    table = {}
-    for index in range(count):
-        offset, mask, value, _ = _ENTRY.unpack_from(memory, Layout.FORCES + _ENTRY.size * index)
-        table[offset] = (mask, value)
-    return table
+    return {offset: (mask, value) for offset, mask, value, _, _ in _entries(memory)}
+
+
+def _notes(memory: bytearray | bytes | memoryview) -> dict[int, tuple[int, int]]:
+    """Offset -> what the byte was before the force, and after the program."""
+    return {offset: (before, after) for offset, _, _, before, after in _entries(memory)}
+
+
+def _entries(memory: bytearray | bytes | memoryview) -> Iterator[tuple[int, int, int, int, int]]:
+    count = min(_COUNT.unpack_from(memory, Layout.FORCE_COUNT)[0], Layout.FORCE_LIMIT)
+    yield from _ENTRY.iter_unpack(memory[Layout.FORCES : Layout.FORCES + _ENTRY.size * count])
 
 
 def hold(table: dict[int, tuple[int, int]], patch: Patch) -> None:
@@ -101,8 +197,12 @@ def hold(table: dict[int, tuple[int, int]], patch: Patch) -> None:
 
 
 def table_patches(view: View, table: dict[int, tuple[int, int]]) -> tuple[Patch, ...]:
-    """Patches that make this the force table; rows that fall free are cleared, so that equal forces give equal images."""
-    rows = b"".join(_ENTRY.pack(offset, mask, value, 0) for offset, (mask, value) in sorted(table.items()))
+    """Patches that make this the force table; rows that fall free are cleared."""
+    notes = _notes(view.memory)
+    rows = b"".join(
+        _ENTRY.pack(offset, mask, value, *notes.get(offset, 2 * (view.memory[offset],)))
+        for offset, (mask, value) in sorted(table.items())
+    )
     rows = rows.ljust(view.header.force_count * _ENTRY.size, b"\0")
     return (Patch.whole(Layout.FORCE_COUNT, _COUNT.pack(len(table))), Patch.whole(Layout.FORCES, rows))
 
@@ -130,3 +230,11 @@ def _key(path: str) -> str:
 
 FORCED: Fold[Mapping[str, Force]] = Fold({}, _step)
 """The forces that hold, by path in upper case."""
+
+
+def _since(known: Mapping[str, int], entry: Entry) -> Mapping[str, int]:
+    return {**known, _key(entry.command.path): entry.scan} if isinstance(entry.command, Force) else known
+
+
+FORCED_SINCE: Fold[Mapping[str, int]] = Fold({}, _since)
+"""In front of which scan each path was forced last, in upper case: also of those that were released."""

@@ -44,9 +44,9 @@ def needs_seam(plan: Plan) -> bool:
 
 def _in_header(patch: Patch) -> bool:
     end = patch.offset + len(patch.data)
-    if Layout.FORCE_COUNT <= patch.offset and end <= Layout.FORCE_COUNT + 4:
+    if patch.offset >= Layout.FORCE_COUNT and end <= Layout.FORCE_COUNT + 4:
         return False
-    return patch.offset < Layout.HEADER_SIZE and not (Layout.FORCES <= patch.offset and end <= _FORCES_END)
+    return patch.offset < Layout.HEADER_SIZE and not (patch.offset >= Layout.FORCES and end <= _FORCES_END)
 
 
 class Passage:

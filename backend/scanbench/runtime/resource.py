@@ -72,8 +72,7 @@ class Resource:
         self.on_seen: Callable[[Seen], None] | None = None
         """Who is told what observed code or the debug flavour notes."""
         self.on_trap: Callable[[], bool] | None = None
-        """Asked before a trap stops the program: true lets `run` come back at once, and whoever says so goes back to where
-        the scan began."""
+        """Asked before a trap stops the program: true says that the scan was gone back to and is halted now."""
         loaded.memory[:] = fresh_image(loaded.program, mode)
         if state is not None:
             loaded.memory[: len(state)] = state
@@ -172,7 +171,7 @@ class Resource:
         if stop.reason is Reason.HALTED:
             return stop
         if stop.reason is Reason.TRAP and self.on_trap is not None and self.on_trap():
-            return stop
+            return Stop(Reason.HALTED)
         met = self._met(stop, waits)
         if stop.reason is Reason.CONDITION and (self.until is None or not self.engine.holds(self.until)):
             stop = Stop(Reason.KNOCKED)

@@ -1,12 +1,29 @@
-"""What a path means for a command: a symbol, its place in the image now, and whether a tool may write there."""
+"""What a path means for a command: the variable behind it, its place in the image now, and whether a tool may write there.
+
+A path may lead through an in-out or a reference: `Main.fb1.level`. What is meant is the variable that the block's last
+execution was given, so that is what a command names in the journal.
+"""
 
 from dataclasses import dataclass
 
+from scanbench.check.call_sites import Calls, CallSite, Formal, address, formal_of
+from scanbench.check.named import same_place, temporary_at, variable_at
+from scanbench.check.program import Pou
 from scanbench.check.symbols import Symbol, UnknownPath, resolve
-from scanbench.check.types import Elementary, StringType
+from scanbench.check.types import Elementary, StringType, Subrange
 from scanbench.check.values import parse_value
 from scanbench.runtime.command import Patch, Refusal, View
 from scanbench.runtime.rights import Right, may
+
+
+@dataclass(frozen=True, slots=True)
+class Meant:
+    """The variable that a path means at the moment."""
+
+    path: str
+    """That of the variable itself; as it was typed where nothing of the program has a name there."""
+    through: str
+    """The path that led here, when that is another: `Main.fb1.level`."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -17,16 +34,35 @@ class Target:
     offset: int
     bit: int | None
     type: Elementary | StringType
+    through: str = ""
+
+    @property
+    def shown(self) -> str:
+        """Where it is, for people: `Main.fb1.level -> Main.tank[3].level (D120)`."""
+        return shown(self.through, self.symbol)
 
     def patch(self, text: str) -> Patch | Refusal:
         """The patch that gives it this value, as typed."""
         try:
             data = parse_value(self.type, text)
         except ValueError as error:
-            return Refusal(f"{self.symbol.path}: {error}")
+            return Refusal(f"{self.shown}: {error}")
+        if self.through and isinstance(self.type, Subrange):
+            value = int.from_bytes(data, "little", signed=self.type.signed)
+            if not self.type.low <= value <= self.type.high:
+                return Refusal(
+                    f"{self.shown}: {value} is outside of {self.type.name} ({self.type.low} to {self.type.high}). To try out "
+                    f"what the program does with it, write {self.symbol.path} itself"
+                )
         if self.bit is not None:
             return Patch.of_bit(self.offset, self.bit, data[0] != 0)
         return Patch.whole(self.offset, data)
+
+
+def shown(through: str, symbol: Symbol) -> str:
+    """A variable for people, with its address, and with the path that led to it."""
+    address = f" ({symbol.address})" if symbol.address not in (None, symbol.path) else ""
+    return f"{through} -> {symbol.path}{address}" if through else symbol.path
 
 
 def find(view: View, path: str) -> Symbol | Refusal:
@@ -37,7 +73,66 @@ def find(view: View, path: str) -> Symbol | Refusal:
         return Refusal(error.message, tuple(error.near))
 
 
-def writable_target(view: View, path: str, verb: Right) -> Target | Refusal:
+def meant(view: View, path: str, site: str) -> Meant | Refusal:
+    """The variable that is meant by a path through in-outs, or by what another call (`file:line`) passes; why there is none."""
+    symbol = find(view, path)
+    if isinstance(symbol, Refusal):
+        return symbol
+    if not symbol.slots:
+        return (
+            Meant(path, "") if not site else Refusal(f"{symbol.path} is no in-out, so no call passes anything for it")
+        )
+    place = symbol.locate(view.memory) if not site else _at_site(view, symbol.path, site)
+    if isinstance(place, Refusal):
+        return place
+    named = None if place is None else variable_at(view.program, place, symbol.type)
+    if named is None:
+        return Meant(path, "") if not site else Refusal(_nowhere(view, symbol.path, site, place))
+    return Meant(named.path, symbol.path)
+
+
+def _at_site(view: View, path: str, site: str) -> tuple[int, int | None] | Refusal | None:
+    """What another call would pass now."""
+    formal = formal_of(view.program, path)
+    if formal is None:
+        return Refusal(f"{path} is behind a reference, and no call passes anything for that")
+    sites = Calls(view.program).sites(formal, view.memory)
+    wanted = [each for each in sites if site in (str(each.span), f"{each.span.file}:{each.span.line}")]
+    if not wanted:
+        near = tuple(f"{each.span.file}:{each.span.line}" for each in sites)
+        return Refusal(f"{site} is no call that passes something for {formal.path}", near)
+    return passed_by(view, formal, path, wanted[0])
+
+
+def passed_by(view: View, formal: Formal, path: str, site: CallSite) -> tuple[int, int | None] | None:
+    """What this call would pass now for an in-out, and of it what `path` means: the variable itself in the end."""
+    actual = site.passes(formal)
+    found = None if actual is None else address(site.caller, actual, site.offset, view.memory)
+    inner = resolve(view.program, path)
+    begin = resolve(view.program, formal.path)
+    if found is None or inner.slots != begin.slots:
+        return None
+    offset = found[0] + inner.offset
+    bit = inner.bit if inner.bit is not None or inner.offset else found[1]
+    return view.program.layout.copies.actual(view.memory, offset, bit)
+
+
+def _nowhere(view: View, path: str, site: str, place: tuple[int, int | None] | None) -> str:
+    temporary = None if place is None else temporary_at(view.program, place[0])
+    if temporary is not None:
+        return _gone(path, *temporary)
+    return f"what {site} passes for {path} cannot be told now: let that call run first"
+
+
+def _gone(path: str, pou: Pou | None, name: str) -> str:
+    what = f"`{name}`, a temporary of {pou.name}," if pou is not None and name else "a value that was computed,"
+    return (
+        f"{path} was given {what} which is gone when the call is over: write what that is computed from, or halt inside of "
+        "the block and write it there"
+    )
+
+
+def writable_target(view: View, path: str, verb: Right, through: str = "") -> Target | Refusal:
     """The place behind `path` if a tool may write (force ...) there now; `verb` is for the refusal."""
     symbol = find(view, path)
     if isinstance(symbol, Refusal):
@@ -46,12 +141,26 @@ def writable_target(view: View, path: str, verb: Right) -> Target | Refusal:
         return Refusal(f"{symbol.path} is {symbol.type.name}, not a single value: {verb} one of its members instead")
     place = symbol.locate(view.memory)
     if place is None:
-        return Refusal(f"{symbol.path} is not connected yet: its block has not been called. Let one scan run first")
+        return Refusal(not_called(view, symbol))
     offset, bit = place
+    if offset >= view.program.layout.state_size:
+        found = temporary_at(view.program, offset)
+        return Refusal(_gone(symbol.path, *(found or (None, ""))))
     reason = read_only_reason(view, symbol, offset, bit)
     if reason is not None:
-        return Refusal(reason)
-    return may(view.header.mode, verb, symbol.path) or Target(symbol, offset, bit, symbol.type)
+        return Refusal(f"{through} -> {reason}" if through else reason)
+    return may(view.header.mode, verb, symbol.path) or Target(symbol, offset, bit, symbol.type, through)
+
+
+def not_called(view: View, symbol: Symbol) -> str:
+    """Why a path through an in-out or reference leads nowhere."""
+    formal = formal_of(view.program, symbol.path)
+    if formal is None:
+        return f"{symbol.path} leads through a reference that refers to nothing now (NULL)"
+    return (
+        f"{symbol.path}: not called yet. {formal.instance.path} has not run since the program started or was changed, so "
+        f"its in-out {formal.member.name} is connected to nothing: let a scan run in which it is called"
+    )
 
 
 def read_only_reason(view: View, symbol: Symbol, offset: int, bit: int | None) -> str | None:
@@ -67,6 +176,37 @@ def read_only_reason(view: View, symbol: Symbol, offset: int, bit: int | None) -
                 "To see the program react to an error, raise it with the error simulator"
             )
         return None
+    if symbol.slots:
+        named = variable_at(view.program, (offset, bit), symbol.type)
+        symbol = symbol if named is None else named
     if not symbol.writable:
         return f"{symbol.path} is a constant: change it in the program and build"
     return None
+
+
+def everywhere(view: View, patch: Patch) -> tuple[Patch, ...]:
+    """A patch of a variable, and the same of the copies that blocks with in-outs by value made of it last: a block that a
+    debugger halts goes on with its copy. A patch of such a copy is one of the variable."""
+    copies = view.program.layout.copies
+    bit = patch.mask[0].bit_length() - 1 if len(patch.mask) == 1 and patch.mask != b"\xff" else None
+    found = copies.actual(view.memory, patch.offset, bit) if copies.all else None
+    if found is None:
+        return (patch,)
+    made = [_moved(patch, bit, *found)]
+    end = found[0] + len(patch.data)
+    for each in copies.all:
+        begin = copies.actual(view.memory, each.start, 0 if each.boolean else None)
+        if begin is None:
+            continue
+        if each.boolean and same_place(begin, found) and len(patch.data) == 1:
+            made.append(_moved(made[0], found[1] or 0, each.start, 0))
+        elif not each.boolean and begin[0] <= found[0] and end <= begin[0] + each.end - each.start:
+            made.append(_moved(made[0], found[1], each.start + found[0] - begin[0], found[1]))
+    return tuple(made)
+
+
+def _moved(patch: Patch, bit: int | None, offset: int, to_bit: int | None) -> Patch:
+    """The same value elsewhere."""
+    if bit is not None and to_bit is not None:
+        return Patch.of_bit(offset, to_bit, bool(patch.data[0] >> bit & 1))
+    return Patch(offset, patch.mask, patch.data)

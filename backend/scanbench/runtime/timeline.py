@@ -13,6 +13,7 @@ from pathlib import Path
 from struct import error as struct_error
 
 from scanbench.check.condition import Condition, compile_condition
+from scanbench.engines.debug import NOTHING as NOT_LISTENING
 from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.sample import Sampling
@@ -250,6 +251,26 @@ class Timeline:
         of this count is next (`engines.debug`)."""
         return self._visit(scan, stay=True, count=count)
 
+    def statements(self, scan: int) -> int | Refusal:
+        """How many statements ran in a scan of the past."""
+        resource, found = self.resource, 0
+
+        def look() -> None:
+            nonlocal found
+            hook, listen = resource.hook, resource.listening
+            resource.hook = HaltAt(0)
+            resource.listen(NOT_LISTENING)
+            try:
+                while self.go_on(min(scan + 1, self.live_scan)).reason is Reason.KNOCKED:
+                    pass
+                found = resource.loaded.debugged().count
+            finally:
+                resource.hook = hook
+                resource.listen(listen)
+
+        refusal = self._visit(scan, stay=False, look=look, begin=True)
+        return found if refusal is None else refusal
+
     def step(self, scans: int = 1) -> Refusal | None:
         """Shows a later scan of the past."""
         if self._live is None:
@@ -291,9 +312,10 @@ class Timeline:
 
     def go_on(self, until: int) -> Stop:
         """Runs what is shown of the past on, with the resource's hook, to the seam in front of scan `until`; in the scan in
-        which the PLC stands as far as that was run. HALTED: the hook halted it; KNOCKED: it stands somewhere on the way.
+        which the PLC stands as far as that was run. HALTED: the hook halted it; KNOCKED: it stands somewhere on the way,
+        perhaps because another program runs from here on.
         """
-        live, resource = self._live, self.resource
+        live, resource, loaded = self._live, self.resource, self.resource.loaded
         if live is None or not self._whole:
             raise RuntimeError("there is no past to go on in: go to a scan of it first")
         while True:
@@ -301,6 +323,8 @@ class Timeline:
             unfinished = live.inside is not None or (following is not None and isinstance(following.command, Trapped))
             if resource.header.scan >= until and not (until == live.scan and unfinished):
                 return Stop(Reason.DONE)
+            if resource.loaded is not loaded:
+                return Stop(Reason.KNOCKED)
             stop = self._one_stretch(live.journal, until)
             if stop.reason is Reason.HALTED:
                 assert resource.inside is not None
@@ -338,7 +362,9 @@ class Timeline:
         stop = resource.rerun(max(1, upto - now))
         if stop.reason is Reason.TRAP:
             if entry is None or not isinstance(entry.command, Trapped) or entry.scan != resource.header.scan:
-                raise Diverged(f"scan {resource.header.scan} ends by a run-time error, and did not when it was recorded")
+                raise Diverged(
+                    f"scan {resource.header.scan} ends by a run-time error, and did not when it was recorded"
+                )
             resource.reenter(entry)
         return stop
 
@@ -350,19 +376,20 @@ class Timeline:
         resource, journal, measured = self.resource, self.resource.journal, self.resource.measured
         scan = resource.header.scan
         checkpoint = self.recording.before(scan)
-        assert self._live is None and checkpoint is not None
+        assert self._live is None
+        assert checkpoint is not None
         loaded = self._kept.get(checkpoint.version)
         resource.restore(loaded, _state(self.recording, checkpoint, loaded), journal.prefix(checkpoint.entries))
         self._replay(journal[checkpoint.entries : _seam(journal, scan, inside=False)], scan)
         resource.journal, resource.measured = journal, measured
 
     def _visit(
-        self, scan: int, stay: bool, look: Callable[[], None] = lambda: None, count: int = 0
+        self, scan: int, stay: bool, look: Callable[[], None] = lambda: None, count: int = 0, begin: bool = False
     ) -> Refusal | None:  # fmt: skip
         """Goes to a scan, looks at it there, and comes back unless it is to `stay`, and always when it cannot be shown."""
         live, shown, whole = self._live, self._moment(), self._whole
         self._live = live or shown  # before anything is moved: other threads ask for what is live
-        refusal = self._move(scan, count, was_past=live is not None)
+        refusal = self._move(scan, count, begin or count > 0, was_past=live is not None)
         if refusal is None:
             look()
         if refusal is not None or not stay:
@@ -370,8 +397,9 @@ class Timeline:
             self._live, self._whole = live, whole
         return refusal
 
-    def _move(self, scan: int, count: int, was_past: bool) -> Refusal | None:
-        """Puts the resource into the past. Where it cannot, somebody has to put it back."""
+    def _move(self, scan: int, count: int, begin: bool, was_past: bool) -> Refusal | None:
+        """Puts the resource into the past; `begin`: to where the scan began, should it have trapped. Where it cannot,
+        somebody has to put it back."""
         live, journal, resource = self.live_scan, self.live_journal, self.resource
         if scan > live:
             return Refusal(f"scan {scan} has not come yet: the PLC is at scan {live}")
@@ -380,7 +408,7 @@ class Timeline:
             return Refusal(
                 f"scan {scan} is not kept any more: the run can be gone back to scan {self.recording.first_scan}"
             )
-        end = _seam(journal, scan, count > 0)
+        end = _seam(journal, scan, begin)
         try:
             resource.leave()  # what was shown keeps its own journal
             on = checkpoint.scan <= resource.header.scan <= scan and len(resource.journal) <= end

@@ -1,23 +1,40 @@
 """Write: gives a variable or an address a value, once."""
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import read_table
 from scanbench.runtime.rights import Right
-from scanbench.runtime.target import writable_target
+from scanbench.runtime.target import Meant, everywhere, meant, writable_target
 
 
 @dataclass(frozen=True, slots=True)
 class Write(Command):
-    """`value` as typed: TRUE, 42, 16#FF, T#5s, 1.5, 'text'."""
+    """`value` as typed: TRUE, 42, 16#FF, T#5s, 1.5, 'text'.
+
+    A path through an in-out means the variable that the block's last execution was given, or, with `site` (`Main.st:12`), what
+    that call passes; the journal has the path of the variable, and the in-out in `through`.
+    """
 
     path: str
     value: str
+    through: str = ""
+    site: str = ""
+
+    def settled(self, view: View) -> Command:
+        """With the variable that is meant now."""
+        found = meant(view, self.path, self.site)
+        if not isinstance(found, Meant) or not found.through:
+            return self
+        return replace(self, path=found.path, through=found.through, site="")
 
     def plan(self, view: View) -> Plan | Refusal:
-        """One patch of the value's bytes."""
-        target = writable_target(view, self.path, Right.WRITE)
+        """The patch of the value's bytes, and of copies of them."""
+        if self.site:
+            found = meant(view, self.path, self.site)
+            if isinstance(found, Refusal):
+                return found
+        target = writable_target(view, self.path, Right.WRITE, self.through)
         if isinstance(target, Refusal):
             return target
         patch = target.patch(self.value)
@@ -26,5 +43,5 @@ class Write(Command):
         table = read_table(view.memory)
         forced = any(table.get(at, (0, 0))[0] & mask for at, mask in enumerate(patch.mask, patch.offset))
         if forced:
-            return Refusal(f"{target.symbol.path} is forced, so a write would be lost: release the force first")
-        return Plan((patch,), f"{target.symbol.path} := {self.value.strip()}")
+            return Refusal(f"{target.shown} is forced, so a write would be lost: release the force first")
+        return Plan(everywhere(view, patch), f"{target.shown} := {self.value.strip()}")

@@ -32,7 +32,8 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped
 from scanbench.runtime.write import Write
-from scanbench.session import debug_protocol, job_protocol, protocol
+from scanbench.session import debug_protocol, job_protocol, protocol, trace_protocol
+from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
 from scanbench.taps.covered import CoveredFile, CoveredSite
 
 LENGTH = struct.Struct("<I")
@@ -63,6 +64,9 @@ _CLASSES: dict[str, type] = {
         debug_protocol.Variables, debug_protocol.Evaluated, debug_protocol.PlaceInfo, debug_protocol.Places,
         debug_protocol.BoundTo, debug_protocol.Binding, CoveredSite, CoveredFile,
         debug_protocol.Coverage,
+        TraceDefinition, TraceSignal, TraceTrigger, trace_protocol.DefineTrace, trace_protocol.DriveTrace,
+        trace_protocol.ReadTrace, trace_protocol.TraceStatus, trace_protocol.TracesAre, trace_protocol.TraceRead,
+        trace_protocol.RecordFlight, trace_protocol.FlightAt, trace_protocol.FlightDone,
     )
 }  # fmt: skip
 _CLASSES["FaultStart"] = FaultStart  # there is another Start

@@ -6,6 +6,7 @@ Each request carries a `ref` and is answered by exactly one message with it; a r
 from dataclasses import dataclass
 from typing import Literal
 
+from scanbench.debug.bound_to import BoundTo
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.shown import FrameInfo, ScopeInfo, VariableInfo
 from scanbench.taps.covered import CoveredFile
@@ -207,27 +208,6 @@ class Places:
 
 
 @dataclass(frozen=True, slots=True)
-class BoundTo:
-    """One call site of an in-out, and what it passes."""
-
-    actual: str
-    """Path of the variable, `Main.tank[3].level`; empty when it is not known yet."""
-    address: str
-    """Vendor notation where it is located; else empty."""
-    file: str
-    line: int
-    column: int
-    call: str
-    """The path of the calling instance, `Main.line`."""
-    scan: int | None
-    """Scan of the last execution; None: never, or not known (no debug flavour ran: see `last`)."""
-    last: bool
-    """It is the one that ran last: what a write goes to."""
-    message: str = ""
-    """Why a write cannot go there: a constant, a read-only area."""
-
-
-@dataclass(frozen=True, slots=True)
 class Binding:
     """Answer to `WantBinding`."""
 
@@ -256,4 +236,4 @@ DebugRequest = (
     | SetCoverage | WantCoverage
 )  # fmt: skip
 DebugAnswer = Stack | Scopes | Variables | Evaluated | Places | Binding | Coverage | BreakpointsAre
-__all__ = ["FrameInfo", "ScopeInfo", "VariableInfo"]
+__all__ = ["BoundTo", "FrameInfo", "ScopeInfo", "VariableInfo"]

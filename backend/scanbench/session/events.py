@@ -14,6 +14,7 @@ from scanbench.runtime.forces import Force
 from scanbench.runtime.recording import RecordingInfo
 from scanbench.runtime.trap import TrapInfo
 from scanbench.session import debug_protocol
+from scanbench.session.trace_protocol import TraceStatus
 from scanbench.session.builds import BuildOutcome
 from scanbench.session.protocol import RunMark, WatchItem
 from scanbench.store.records import AcceptedRow, CellRow, SweepRow
@@ -211,6 +212,28 @@ class CoverageChanged:
     coverage: debug_protocol.Coverage
 
 
+@dataclass(frozen=True, slots=True)
+class TracesChanged:
+    """All traces of the PLC, whenever one changes or grows."""
+
+    traces: tuple[TraceStatus, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class FlightChanged:
+    """How far the record of earlier scans is that somebody asked for."""
+
+    id: int
+    by: str
+    done: int
+    of: int
+    """Scans."""
+    record: int | None = None
+    """The trace record that came of it."""
+    message: str = ""
+    """Why none came of it."""
+
+
 Told = (
     StateChanged
     | ErrorsChanged
@@ -228,6 +251,8 @@ Told = (
     | WatchListChanged
     | BreakpointsChanged
     | CoverageChanged
+    | TracesChanged
+    | FlightChanged
     | Watching
 )
 

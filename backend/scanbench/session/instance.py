@@ -22,6 +22,7 @@ from scanbench.session.debug_protocol import DebugAnswer, DebugRequest
 from scanbench.session.events import PlcState
 from scanbench.session.nursery import NoProcess, Process, nursery
 from scanbench.session.runs import bring_back, set_aside
+from scanbench.session.trace_protocol import TraceRead
 from scanbench.store.records import Limits
 
 log = logging.getLogger("scanbench")
@@ -215,6 +216,8 @@ class Instance:
             case protocol.NowRuns():
                 self._memory.sources = message.sources
                 self._on_message(message)
+            case TraceRead():
+                self._answer(message.ref, message)
             case protocol.Ack() | protocol.Found() | protocol.Previewed() | protocol.PreviewedErrors():
                 self._answer(message.ref, message)
             case _ if isinstance(message, DebugAnswer) and message.ref is not None:
@@ -309,6 +312,10 @@ class Instance:
         answer = await self._ask(lambda ref: protocol.Lookup(ref, kind, text))
         assert isinstance(answer, protocol.Found)
         return answer
+
+    async def ask(self, make: Callable[[int], object]) -> object:
+        """Asks something; `make` makes the request with this ref."""
+        return await self._ask(make)
 
     async def debug(self, make: Callable[[int], DebugRequest]) -> DebugAnswer | protocol.Ack:
         """Asks something of debugging; `make` makes the request with this ref."""

@@ -22,10 +22,12 @@ from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram
 from scanbench.session.codec import BadMessage, Splitter, pack
+from scanbench.session.flight import BadSignal, fly, plain_engines
 from scanbench.session.job_protocol import CellFound, FindReaction, JobDone, Reacted, RunSweep, Trying
 from scanbench.session.known import key_of, recall
 from scanbench.session.protocol import Sources
 from scanbench.session.starting import NoStart, checked_program, model_of, point_in, reaction_in
+from scanbench.session.trace_protocol import FlightAt, FlightDone, RecordFlight
 
 log = logging.getLogger("scanbench")
 _NICENESS = 10
@@ -50,6 +52,8 @@ class Job:
                 self._say(self._reacted(request))
             case RunSweep():
                 self._say(self._swept(request))
+            case RecordFlight():
+                self._say(self._flown(request))
             case _:
                 raise BadMessage(f"{type(request).__name__} is no request to a job process")
 
@@ -61,6 +65,23 @@ class Job:
         except Exception as error:  # whatever it is, somebody waits for the answer
             return Reacted(ask.ref, None, _unexpected(error))
         return Reacted(ask.ref, found)
+
+    def _flown(self, ask: RecordFlight) -> FlightDone:
+        told = 0
+
+        def on_chunk(done: int, of: int) -> None:
+            nonlocal told
+            if monotonic_ns() - told > _TELL_EVERY_NS:
+                told = monotonic_ns()
+                self._say(FlightAt(ask.ref, done, of))
+
+        try:
+            return fly(ask, self._program, plain_engines(self._cache), on_chunk)
+        except NoStart as why:
+            near = why.near if isinstance(why, BadSignal) else ()
+            return FlightDone(ask.ref, False, message=str(why), near=near)
+        except Exception as error:  # as above
+            return FlightDone(ask.ref, False, message=_unexpected(error))
 
     def _swept(self, ask: RunSweep) -> JobDone:
         try:

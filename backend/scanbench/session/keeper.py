@@ -16,7 +16,7 @@ from scanbench.faults.history import ErrorRow, RowReaction
 from scanbench.faults.reaction_json import from_json, to_json
 from scanbench.plcmodel.model import Model
 from scanbench.session.events import LogEntry
-from scanbench.store.records import HistoryRow, LogRow, NotFound, StoreError
+from scanbench.store.records import HistoryRow, Json, LogRow, NotFound, StoreError
 from scanbench.store.store import Store
 
 log = logging.getLogger("scanbench")
@@ -36,6 +36,7 @@ class Keeper:
         self._rows: _Rows = {}
         self._lines: _Lines = {}
         self._breakpoints: dict[int, Sequence[Breakpoint]] = {}
+        self._traces: dict[int, Mapping[int, Json]] = {}
         self._untrimmed: dict[int, int] = {}
         """Lines of an instance since old ones were deleted; only the thread that writes uses it."""
         self._wake, self._written = asyncio.Event(), asyncio.Event()
@@ -77,13 +78,20 @@ class Keeper:
         self._breakpoints[instance] = breakpoints
         self._wake.set()
 
+    def keep_traces(self, instance: int, traces: Mapping[int, Json]) -> None:
+        """The traces of an instance, all of them."""
+        self._traces[instance] = traces
+        self._wake.set()
+
     async def _work(self) -> None:
         while True:
             await self._wake.wait()
             self._wake.clear()
             rows, lines, breakpoints, written = self._rows, self._lines, self._breakpoints, self._written
             self._rows, self._lines, self._breakpoints, self._written = {}, {}, {}, asyncio.Event()
+            traces, self._traces = self._traces, {}
             await asyncio.to_thread(self._write, rows, lines, breakpoints)
+            await asyncio.to_thread(self._keep_traces, traces)
             written.set()
 
     def _write(self, rows: _Rows, lines: _Lines, breakpoints: Mapping[int, Sequence[Breakpoint]]) -> None:
@@ -93,6 +101,13 @@ class Keeper:
             self._keep_lines(instance, list(more))
         for instance, shared in breakpoints.items():
             self._keep_breakpoints(instance, shared)
+
+    def _keep_traces(self, traces: Mapping[int, Mapping[int, Json]]) -> None:
+        for instance, contents in traces.items():
+            try:
+                self._store.keep_traces(instance, contents)
+            except (NotFound, StoreError) as error:
+                log.error("the traces of instance %d could not be written: %s", instance, error)
 
     def _keep_breakpoints(self, instance: int, shared: Sequence[Breakpoint]) -> None:
         def write(_all: Sequence[object]) -> None:

@@ -29,8 +29,10 @@ from scanbench.session.marks import Marks, kind_of
 from scanbench.session.reacting import Raised, Reacting
 from scanbench.session.reactions import Reactions
 from scanbench.session.refused import Refused
+from scanbench.session.trace_protocol import TracesAre
+from scanbench.session.tracing import Tracing
 from scanbench.session.watches import Watches
-from scanbench.store.records import InstanceRow
+from scanbench.store.records import InstanceRow, Json
 
 LOG_LINES = 500
 LISTED = 100
@@ -47,7 +49,7 @@ class Session:
     def __init__(
         self, row: InstanceRow, model: Model, memory: Remembered, keeper: Keeper,
         rows: Sequence[ErrorRow], lines: Sequence[LogEntry], loads: Loads, reactions: Reactions,
-        breakpoints: Sequence[Breakpoint], cache: Path | None = None,
+        breakpoints: Sequence[Breakpoint], cache: Path | None = None, traces: Mapping[int, Json] | None = None,
     ) -> None:  # fmt: skip
         """`model` is the device; the project's own errors come with the program that runs."""
         self.row, self._device = row, model
@@ -73,6 +75,7 @@ class Session:
         self.debugging = Debugging(
             self._instance.debug, self._publish, partial(keeper.keep_breakpoints, row.id), breakpoints
         )
+        self.tracing = Tracing(self._instance.ask, self._publish, partial(keeper.keep_traces, row.id), traces or {})
         self._halted = 0
         self._resending: asyncio.Task[None] | None = None
 
@@ -406,6 +409,8 @@ class Session:
                 self._publish_rows((), fresh=True)  # the errors that it has more
             case protocol.Watching():
                 self._on_watching(message)
+            case TracesAre():
+                self.tracing.on_message(message)
             case _:
                 self.debugging.on_message(message)
 
@@ -490,7 +495,11 @@ class Session:
             self._instance.tell(protocol.WatchPaths(_EVERYBODY, self._watches.all()))
         for question, (_, _, pairs) in self._questions.items():
             self._instance.tell(protocol.WatchPaths(question, pairs))
-        self._resending = asyncio.get_running_loop().create_task(self.debugging.resend())
+        self._resending = asyncio.get_running_loop().create_task(self._resend())
+
+    async def _resend(self) -> None:
+        await self.debugging.resend()
+        await self.tracing.resend()
 
     def _on_watching(self, answer: protocol.Watching) -> None:
         if answer.ref is None or answer.ref == _EVERYBODY:

@@ -51,7 +51,10 @@ class Solo:
             row = store.create_instance(store.create_project(name, model.name).id, name)
             keeper, reactions = Keeper(store), Reactions(data / "cache")
             memory = Remembered(name, sources, run_path(data, row.id), row.limits, speed, paused=True)
-            session = Session(row, model, memory, keeper, (), (), Loads(), reactions, data / "cache")
+            session = Session(
+                row, model, memory, keeper, rows=(), lines=(), loads=Loads(), reactions=reactions, breakpoints=(),
+                traces={}, cache=data / "cache",
+            )  # fmt: skip
         except BaseException:
             folder.cleanup()
             raise

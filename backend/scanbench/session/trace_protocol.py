@@ -79,3 +79,48 @@ class TraceRead:
     ref: int
     data: bytes
     message: str = ""
+
+
+# ---- the flight recorder: parent to job process and back -----------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class RecordFlight:
+    """Runs scans `first` to `last` of this run file again, and writes packed samples of these signals to the file `to`.
+
+    The file may be that of a PLC that runs: it is opened read-only. `FlightAt` says how far it got, `FlightDone` ends it. It is
+    cancelled by ending the process.
+    """
+
+    ref: int
+    run: str
+    signals: tuple[str, ...]
+    every: int
+    first: int
+    last: int
+    to: str
+
+
+@dataclass(frozen=True, slots=True)
+class FlightAt:
+    """So many scans of so many are sampled."""
+
+    ref: int
+    done: int
+    of: int
+
+
+@dataclass(frozen=True, slots=True)
+class FlightDone:
+    """The samples are in the file, of these signals; or why they are not."""
+
+    ref: int
+    ok: bool
+    signals: tuple[TraceSignal, ...] = ()
+    rows: int = 0
+    first: int = 0
+    end: int = 0
+    interval_ns: int = 0
+    version: int = 0
+    message: str = ""
+    near: tuple[str, ...] = ()

@@ -28,6 +28,7 @@ from scanbench.session.samples import samples
 from scanbench.session.session import LOG_LINES, Session
 from scanbench.session.states import States
 from scanbench.session.sweeps import Sweeps
+from scanbench.session.trace_records import TraceRecords
 from scanbench.session.watch_lists import WatchLists
 from scanbench.store.records import InstanceRow, Limits, NotFound, ProjectRow
 from scanbench.store.store import Store
@@ -57,6 +58,7 @@ class Workbench:
         self.records = Records(store, self._keeper, f"Scanbench {__version__}")
         self.watch_lists = WatchLists(store, self._sessions_of)
         self.states = States(store, data / "states")
+        self.trace_records = TraceRecords(store, data / "traces", self._cache)
         self.sweeps = Sweeps(
             store, self.states, self._cache, self._sessions_of, self.projects.built, self._open_state
         )  # fmt: skip
@@ -67,6 +69,7 @@ class Workbench:
         await asyncio.to_thread(sweep, self._runs)
         await asyncio.to_thread(nursery().start)
         await asyncio.to_thread(self.states.tidy)
+        await asyncio.to_thread(self.trace_records.tidy)
         await self.sweeps.start()
         if not await self.projects.all():
             await self._first_start()
@@ -91,6 +94,7 @@ class Workbench:
             self._warming.cancel()
             await asyncio.gather(self._warming, return_exceptions=True)
         await self.sweeps.close()
+        await self.trace_records.close()
         await asyncio.gather(*(session.stop() for session in self._sessions.values()))
         await self._reactions.close()
         await self._keeper.close()
@@ -244,7 +248,8 @@ class Workbench:
         kept = map(breakpoint_of, await asyncio.to_thread(self._store.breakpoints, row.id))
         breakpoints = [each for each in kept if each is not None]
         session = Session(
-            row, model, memory, self._keeper, rows, lines, self._loads, self._reactions, breakpoints, self._cache
+            row, model, memory, self._keeper, rows, lines, self._loads, self._reactions, breakpoints, self._cache,
+            await asyncio.to_thread(self._store.traces, row.id),
         )
         self._sessions[row.id] = session
         session.take_sweeps(await self.sweeps.found(project.id))

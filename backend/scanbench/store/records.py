@@ -271,6 +271,19 @@ class WatchListRow:
     at: datetime
 
 
+@dataclass(frozen=True, slots=True)
+class TraceRecordRow:
+    """A record of a trace that was kept; `content` says what of."""
+
+    id: int
+    project: int
+    name: str
+    instance: str
+    content: Json
+    by: str
+    at: datetime
+
+
 class ListConflict(Exception):
     """Somebody else saved this watch list first: nothing was written. `theirs` is what they saved."""
 

@@ -21,6 +21,7 @@ from scanbench.store.records import (
     SweepRow,
     SweepStatus,
     SweptError,
+    TraceRecordRow,
     WatchContent,
     WatchEntry,
     WatchListRow,
@@ -37,6 +38,7 @@ from scanbench.store.tables import (
     Sweep,
     SweepCell,
     TestRecord,
+    TraceRecord,
     WatchList,
 )
 
@@ -112,6 +114,11 @@ def cell(row: SweepCell) -> CellRow:
 def accepted(row: AcceptedFinding) -> AcceptedRow:
     """An accepted finding."""
     return AcceptedRow(row.error, row.state, row.reason, row.by, row.at)
+
+
+def trace_record(row: TraceRecord) -> TraceRecordRow:
+    """A kept record of a trace."""
+    return TraceRecordRow(row.id, row.project_id, row.name, row.instance, row.content, row.by, row.at)
 
 
 def record(row: TestRecord) -> RecordInfo:

@@ -28,10 +28,11 @@ from scanbench.store.records import (
 )
 from scanbench.store.sweeps import Sweeps
 from scanbench.store.tables import AUTHOR, NAME, PATH, File, Instance, Log, ProgramVersion, Project
+from scanbench.store.traces import Traces
 from scanbench.store.watchlists import WatchLists
 
 
-class Store(Errors, Sweeps, ImportedRecords, WatchLists, Breakpoints):
+class Store(Errors, Sweeps, ImportedRecords, WatchLists, Breakpoints, Traces):
     """A database, with today's tables: here projects, files, builds, instances and their log; `close` it at the end."""
 
     # ---- projects -----------------------------------------------------------------------------------------------

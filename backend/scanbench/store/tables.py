@@ -245,6 +245,31 @@ class Breakpoint(Base):
     content: Mapped[dict[str, object]] = mapped_column(JSON)
 
 
+class Trace(Base):
+    """A trace of an instance: what it records, and whether it does."""
+
+    __tablename__ = "trace"
+
+    instance_id: Mapped[int] = mapped_column(ForeignKey("instance.id", ondelete="CASCADE"), primary_key=True)
+    number: Mapped[int] = mapped_column(primary_key=True, autoincrement=False)
+    content: Mapped[dict[str, object]] = mapped_column(JSON)
+
+
+class TraceRecord(Base):
+    """A record of a trace that was kept; the samples stand beside the database."""
+
+    __tablename__ = "trace_record"
+    __table_args__ = (Index(None, "project_id"),)
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    project_id: Mapped[int] = mapped_column(ForeignKey("project.id", ondelete="CASCADE"))
+    name: Mapped[str] = mapped_column(String(NAME))
+    instance: Mapped[str] = mapped_column(String(NAME))
+    content: Mapped[dict[str, object]] = mapped_column(JSON)
+    by: Mapped[str] = mapped_column(String(AUTHOR))
+    at: Mapped[datetime] = mapped_column(Moment)
+
+
 class Log(Base):
     """What was done to an instance, in order."""
 

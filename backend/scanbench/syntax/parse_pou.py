@@ -70,7 +70,9 @@ class PouParser(IlParser):
             if not each.convention:
                 self.report("S003", f"`'value'` or `'reference'` expected, found `{each.said}`.", self._span_of(each))
         for each in mine[1:]:
-            self.report("S003", "One pragma `in_out` is enough for a FUNCTION_BLOCK; remove this one.", self._span_of(each))
+            self.report(
+                "S003", "One pragma `in_out` is enough for a FUNCTION_BLOCK; remove this one.", self._span_of(each)
+            )
         return mine[0].convention if mine else ""
 
     def check_pragmas(self) -> None:

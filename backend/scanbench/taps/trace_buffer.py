@@ -53,6 +53,17 @@ class Samples:
         )  # fmt: skip
         return b"".join((head, self.scans.tobytes(), self.valid.tobytes(), *(each.tobytes() for each in self.values)))
 
+    @staticmethod
+    def unpack(data: bytes) -> "tuple[Samples, int, int]":
+        """What `pack` made, with `first` and `end`; `ValueError` when it is nothing of that kind."""
+        if len(data) < _HEAD.size:
+            raise ValueError(f"{len(data)} bytes are no samples")
+        kind, decimated, signals, rows, first, end, _ = _HEAD.unpack_from(data)
+        if kind != SAMPLES or len(data) != _HEAD.size + 8 * rows * (2 + signals):
+            raise ValueError(f"{len(data)} bytes are not the samples of {signals} signals in {rows} rows")
+        columns = np.frombuffer(data, dtype=np.uint64, offset=_HEAD.size).reshape(2 + signals, rows)
+        return Samples(columns[0], columns[1], tuple(columns[2:]), bool(decimated)), first, end
+
 
 class _Block:
     """Rows side by side; those before `count` are final."""
@@ -139,6 +150,14 @@ class TraceBuffer:
 
 
 Part = tuple[_Block, int, int]
+
+
+def buffer_of(samples: Samples, types: Sequence[tuple[str, int]]) -> TraceBuffer:
+    """Samples to be read again; of each signal the kind of its type and its size, empty and 0 where it never had any."""
+    made = [Elementary("", Kind(kind) if kind else Kind.BOOL, size or 1) for kind, size in types]
+    buffer = TraceBuffer(made, max(1, len(samples)))
+    buffer.append(np.stack((samples.scans, samples.valid, *samples.values), axis=1))
+    return buffer
 
 
 def row_bytes(types: Sequence[Elementary]) -> int:

@@ -18,12 +18,15 @@ from scanbench.session.workbench import Workbench
 from scanbench.store.records import Conflict, ListConflict, NameTaken, NotFound, NotStorable, StoreError
 from scanbench.web import messages as wire
 from scanbench.web import (
+    routes_binding,
+    routes_dap,
     routes_errors,
     routes_instances,
     routes_models,
     routes_projects,
     routes_records,
     routes_sweeps,
+    routes_traces,
     routes_user_errors,
     routes_values,
     routes_watch,
@@ -70,8 +73,8 @@ def bare_app() -> FastAPI:
         responses={"4XX": {"model": wire.Refusal}},
     )  # fmt: skip
     for routes in (
-        routes_instances, routes_errors, routes_sweeps, routes_records, routes_projects, routes_user_errors,
-        routes_models, routes_values, routes_watch,
+        routes_instances, routes_dap, routes_errors, routes_sweeps, routes_records, routes_projects, routes_user_errors,
+        routes_models, routes_binding, routes_traces, routes_values, routes_watch,
     ):  # fmt: skip
         app.include_router(routes.router)
     for error, status in _STATUS.items():

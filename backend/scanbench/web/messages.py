@@ -21,6 +21,7 @@ from scanbench.web.messages_errors import (
     Recover,
     SweepProgress,
 )
+from scanbench.web.messages_trace import Flight, Traces
 from scanbench.web.messages_watch import WatchListChanged
 
 # ---- programs, files, problems -------------------------------------------------------------------------------
@@ -405,6 +406,7 @@ class Write(Wire):
     ref: int
     path: str
     value: str = Field(description="as typed: TRUE, 42, 16#FF, T#5s, 1.5, 'text'")
+    site: str = Field(default="", description="of an in-out: what this call (file:line) passes, instead of the last one")
 
 
 class Force(Wire):
@@ -412,6 +414,7 @@ class Force(Wire):
     ref: int
     path: str
     value: str
+    site: str = Field(default="", description="as of `Write`")
 
 
 class Release(Wire):
@@ -655,6 +658,8 @@ ServerMessage = Annotated[
     | WatchListChanged
     | Dap
     | Breakpoints
+    | Traces
+    | Flight
     | Coverage
     | Alive,
     Field(discriminator="type"),

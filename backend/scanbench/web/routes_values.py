@@ -41,7 +41,7 @@ async def on_read(
 @router.post("/write")
 async def on_write(bench: Bench, request: Request, instance: Id, wanted: messages_values.WriteValue) -> CommandResult:
     """Writes a variable or an address, with the rights of a tool: error memory is read-only here."""
-    command = Write(user_of(request).name, wanted.path, wanted.value)
+    command = Write(user_of(request).name, wanted.path, wanted.value, site=wanted.site)
     return command_result(await bench.session(instance).submit(command))
 
 
@@ -54,7 +54,7 @@ async def on_forces(bench: Bench, instance: Id) -> list[wire.ForceInfo]:
 @router.post("/force")
 async def on_force(bench: Bench, request: Request, instance: Id, wanted: messages_values.WriteValue) -> CommandResult:
     """Holds a variable or an address at a value until it is released."""
-    command = Force(user_of(request).name, wanted.path, wanted.value)
+    command = Force(user_of(request).name, wanted.path, wanted.value, site=wanted.site)
     return command_result(await bench.session(instance).submit(command))
 
 

@@ -28,6 +28,8 @@ from scanbench.web import messages as wire
 from scanbench.web import messages_debug as debugger
 from scanbench.web import messages_errors as simulator
 from scanbench.web import translate, translate_debug, translate_errors
+from scanbench.web.dap.attaching import ForBrowser
+from scanbench.web.dap.conversation import Conversation
 
 WAITING_FRAMES = 4
 """So many frames not yet sent: the browser is slow, and gets a snapshot instead."""
@@ -66,6 +68,7 @@ class Client:
         self._asked = False
         self._wake = asyncio.Event()
         self._slow: set[asyncio.Task[None]] = set()
+        self._dap: Conversation | None = None
 
     # ---- from the session -----------------------------------------------------------------------------------------
 
@@ -138,6 +141,8 @@ class Client:
             pass  # gone, or it sent bytes where only text is understood
         finally:
             self._session.leave(self._id)
+            if self._dap is not None:
+                await self._dap.close()
             tasks = (writer, *self._slow)
             for task in tasks:
                 task.cancel()
@@ -185,7 +190,7 @@ class Client:
             case wire.Watch():
                 self._session.watch(self._id, message.ref, message.paths)
             case debugger.DapOut():
-                pass
+                self._debugger().receive(message.message)
             case wire.Unwatch():
                 self._ids.difference_update(message.ids)
                 self._session.unwatch(self._id, message.ids)
@@ -195,6 +200,20 @@ class Client:
                 task.add_done_callback(self._slow.discard)
             case _:
                 await self._serve(message)
+
+    def _debugger(self) -> Conversation:
+        """The browser's debug session, which begins with its first word."""
+        if self._dap is None:
+            lender = ForBrowser(self._session, self.user.name)
+            self._dap = Conversation(self._say_dap, lender, self.user, self._end_dap)
+        return self._dap
+
+    def _say_dap(self, message: dict[str, object]) -> None:
+        self._texts.append(debugger.Dap.model_validate({"message": message}).model_dump_json())
+        self._wake.set()
+
+    def _end_dap(self) -> None:
+        self._dap = None
 
     async def _serve(self, message: _Wanted) -> None:
         ack = await self._done(message)
@@ -220,9 +239,9 @@ class Client:
         author = self.user.name
         match message:
             case wire.Write():
-                return Write(author, message.path, message.value)
+                return Write(author, message.path, message.value, site=message.site)
             case wire.Force():
-                return Force(author, message.path, message.value)
+                return Force(author, message.path, message.value, site=message.site)
             case wire.Release():
                 return Release(author, message.path)
             case simulator.Generate():

@@ -17,7 +17,7 @@ from scanbench.store.records import FileInfo, FileRow, ProjectRow
 from scanbench.web import messages as wire
 from scanbench.web import messages_debug as debugger
 from scanbench.web import messages_errors as simulator
-from scanbench.web import translate_debug, translate_errors, translate_sweeps
+from scanbench.web import translate_debug, translate_errors, translate_sweeps, translate_trace
 from scanbench.web.messages_watch import WatchListChanged
 
 
@@ -236,6 +236,10 @@ def event(happened: events.Told) -> wire.ServerMessage:
             return debugger.Breakpoints(breakpoints=list(map(translate_debug.breakpoint, happened.verdicts)))
         case events.CoverageChanged():
             return translate_debug.coverage(happened.coverage)
+        case events.TracesChanged():
+            return translate_trace.traces(happened)
+        case events.FlightChanged():
+            return translate_trace.flight(happened)
         case events.WatchListChanged():
             return WatchListChanged(id=happened.id, version=happened.version, author=happened.author)
         case events.ValueWritten():

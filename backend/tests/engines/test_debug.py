@@ -275,7 +275,7 @@ def accesses(make: Make, text: str, watched: str, how: int = READ | WRITE) -> li
     engine.run(1)
     lines = []
     for line in told.lines:
-        count, where, verb, offset, _ = line.split()
+        _, where, verb, offset, _ = line.split()
         lines.append(f"{where.partition(':')[0]} {verb} {names.get(int(offset), '?')}")
     return lines
 
@@ -540,8 +540,8 @@ def test_debugged_code_is_kept(tmp_path: Path) -> None:
     program = check(NESTED)
     made = DebugBuilds(BlobCache(tmp_path)).objects(program)
     kept = {path.read_bytes() for path in tmp_path.glob("*.kept")}
-    assert len(kept) == len(made) == 2
-    assert DebugBuilds(BlobCache(tmp_path)).objects(check(NESTED)) == made
+    assert len(kept) == len(made.objects) == 2
+    assert DebugBuilds(BlobCache(tmp_path)).objects(check(NESTED)).objects == made.objects
 
 
 # ---- both engines on everything -----------------------------------------------------------------------------------

@@ -70,7 +70,10 @@ def test_values_are_those_after_the_scan(make: Callable[[Program, bytearray], En
 @engines
 def test_what_leads_nowhere_has_no_value(make: Callable[[Program, bytearray], Engine]) -> None:
     rows = sampled(make, 14)
-    has = lambda name: [row[1] >> SIGNALS.index(name) & 1 for row in rows]  # noqa: E731
+
+    def has(name: str) -> list[int]:
+        return [row[1] >> SIGNALS.index(name) & 1 for row in rows]
+
     assert has("Main.m.level") == [0] * 4 + [1] * 10
     assert has("Main.list[Main.i]") == [int((n % 6) < 4) for n in range(1, 15)]
     assert has("Main.p^") == [0] * 7 + [1] * 4 + [0] * 3

@@ -3,6 +3,7 @@ import { showState } from "../logic/plcstate";
 import { t } from "../logic/text";
 import { Banners } from "../panels/banner/Banners";
 import { OnlineChange } from "../panels/change/OnlineChange";
+import { DebugSide } from "../panels/debug/DebugSide";
 import { Explorer } from "../panels/explorer/Explorer";
 import { Instances } from "../panels/instances/Instances";
 import { StatusBar } from "../panels/status/StatusBar";
@@ -30,7 +31,7 @@ export function App() {
 
 function Window() {
   const dock = useRef<DockHandle>(null);
-  const [left, setLeft] = useState(false);
+  const [left, setLeft] = useState<"explorer" | "debug" | null>(null);
   const online = useOnline();
   const connecting = usePlc((plc) => plc.link.state === "none" || plc.link.state === "connecting");
   const state = usePlc((plc) => plc.state);
@@ -40,9 +41,9 @@ function Window() {
   const active = useDocuments((documents) => documents.active);
 
   useEffect(() => installKeys(), []);
-  // In a narrow window the explorer lies over the editor; once a file is open it has done its work.
+  // In a narrow window the left side lies over the editor; once a file is open it has done its work.
   // biome-ignore lint/correctness/useExhaustiveDependencies: the change of the file is the reason
-  useEffect(() => setLeft(false), [active]);
+  useEffect(() => setLeft(null), [active]);
   useEffect(() => {
     document.title = name ? `${name} – Scanbench` : "Scanbench";
   }, [name]);
@@ -54,16 +55,25 @@ function Window() {
       <div className="bannerslot">
         <Banners />
       </div>
-      <main className={`work${left ? " showleft" : ""}`}>
+      <main className={`work${left ? ` showleft show-${left}` : ""}`}>
         <div className="strip" role="toolbar" aria-label={t("strip.label")}>
           <IconButton
             icon="folder"
             label={t("explorer.label")}
-            className={left ? "is-on" : ""}
-            onClick={() => setLeft(!left)}
+            className={left === "explorer" ? "is-on" : ""}
+            onClick={() => setLeft(left === "explorer" ? null : "explorer")}
+          />
+          <IconButton
+            icon="stack"
+            label={t("strip.debug")}
+            className={left === "debug" ? "is-on" : ""}
+            onClick={() => setLeft(left === "debug" ? null : "debug")}
           />
         </div>
-        <Explorer />
+        <div className="left leftside">
+          <Explorer />
+          <DebugSide />
+        </div>
         <Splitter />
         <Dock ref={dock} />
       </main>

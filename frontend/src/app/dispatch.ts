@@ -1,6 +1,9 @@
 /** Every message of the server to the store that it concerns. The switch is exhaustive: a new message is a compile error. */
+
 import { onProject, useBench } from "../store/bench";
 import { setClock } from "../store/clock";
+import { onCoverage } from "../store/coverage";
+import { joinDebugger, onBreakpoints } from "../store/debug";
 import { catchUp, onBuilt, onDeleted, onSaved } from "../store/documents";
 import { onForces, onWritten } from "../store/forces";
 import { resetMembers } from "../store/members";
@@ -12,6 +15,8 @@ import { onFileSaved } from "../store/userErrors";
 import { apply } from "../store/values";
 import { onWatching, watchAgain } from "../store/watches";
 import { refreshMembers } from "../store/watchlist";
+import { catchUpLists, onWatchList } from "../store/watchlists";
+import { dap } from "../wire/dap";
 import { abandon, settle } from "../wire/send";
 import { link } from "../wire/socket";
 import type { ServerMessage } from "../wire/types";
@@ -20,6 +25,8 @@ export function connectStores(): void {
   link.listen({
     onStatus: (status) => {
       usePlc.setState({ link: status });
+      if (status.state === "open") return;
+      dap.abandon();
       if (status.state === "lost") abandon("");
     },
     onMessage: dispatch,
@@ -38,7 +45,10 @@ function dispatch(message: ServerMessage): void {
       onTimeline(message.timeline);
       onProject(message.instance.project);
       useBench.setState({ instance: message.instance });
+      joinDebugger(message.breakpoints);
+      onCoverage(message.coverage);
       watchAgain();
+      void catchUpLists();
       onSweepHello();
       void catchUp();
       return;
@@ -89,6 +99,18 @@ function dispatch(message: ServerMessage): void {
       return;
     case "sweep":
       onSweep(message);
+      return;
+    case "watch_list":
+      void onWatchList(message);
+      return;
+    case "dap":
+      dap.receive(message.message);
+      return;
+    case "breakpoints":
+      onBreakpoints(message.breakpoints);
+      return;
+    case "coverage":
+      onCoverage(message);
       return;
     case "alive":
       return;

@@ -2,6 +2,7 @@ import type { IDockviewHeaderActionsProps, IDockviewPanelHeaderProps, IDockviewP
 import { type MouseEvent, type ReactNode, useEffect } from "react";
 import { baseName } from "../logic/paths";
 import { t } from "../logic/text";
+import { ConsolePanel } from "../panels/console/ConsolePanel";
 import { DiagnosticsPanel } from "../panels/diagnostics/DiagnosticsPanel";
 import { EditorPanel } from "../panels/editor/EditorPanel";
 import { ErrorsPanel } from "../panels/errors/ErrorsPanel";
@@ -27,6 +28,7 @@ export const components = {
   problems: ProblemsPanel,
   diagnostics: DiagnosticsPanel,
   log: LogPanel,
+  console: ConsolePanel,
   errors: ErrorsPanel,
   history: HistoryPanel,
   ...pageComponents,

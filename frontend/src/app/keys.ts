@@ -1,6 +1,9 @@
 /** Keys of the whole window. Captured before Monaco, which keeps F8 and others to itself. */
+
+import { toggleBreakpointHere } from "../store/debugKeys";
 import { build, save, useDocuments } from "../store/documents";
 import { restartByKey, singleScan, toggleRun } from "../store/run";
+import { runToCaret, step } from "../store/stepping";
 import { returnToLive, stepBack } from "../store/timeline";
 
 type Handler = (event: KeyboardEvent) => void;
@@ -8,6 +11,14 @@ type Handler = (event: KeyboardEvent) => void;
 const keys: Record<string, Handler> = {
   F5: toggleRun,
   "Ctrl+Shift+F5": restartByKey,
+  "Ctrl+Alt+Pause": () => void step("pause"),
+  F9: toggleBreakpointHere,
+  F10: () => void step("next"),
+  "Ctrl+F10": runToCaret,
+  "Shift+F10": () => void step("stepBack"),
+  F11: () => void step("stepIn"),
+  "Shift+F11": () => void step("stepOut"),
+  "Alt+F5": () => void step("reverseContinue"),
   F8: singleScan,
   "Shift+F8": stepBack,
   "Shift+Escape": returnToLive,
@@ -24,10 +35,11 @@ export function installKeys(): () => void {
   const onKeyDown = (event: KeyboardEvent) => {
     const name = [
       event.ctrlKey || event.metaKey ? "Ctrl+" : "",
+      event.altKey ? "Alt+" : "",
       event.shiftKey ? "Shift+" : "",
       event.key.length === 1 ? event.key.toUpperCase() : event.key,
     ].join("");
-    const handler = event.altKey ? undefined : keys[name];
+    const handler = keys[name];
     if (!handler || document.querySelector("dialog[open]")) return;
     event.preventDefault();
     event.stopPropagation();

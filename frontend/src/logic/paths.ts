@@ -17,13 +17,15 @@ export function isAddress(path: string): boolean {
   return path.startsWith("%") || /^[A-Za-z]{0,3} ?\d+(\.\d+)?(:\d+)?$/.test(path);
 }
 
-/** The paths in a dropped or typed text: one a line, or separated by commas or blanks; `CIO 0.00` is one address. */
+/** The paths in a dropped or typed text: one a line, or separated by commas or blanks; `CIO 0.00` is one address, and the
+ * commas of `a[2,1]` separate nothing. */
 export function pathsIn(text: string): string[] {
   return text
-    .split(/[,;\t\n]+/)
+    .split(/[;\t\n\r]+|,(?![^[\]]*\])/)
+    .map((part) => part.replace(/,\s+(?=[^[\]]*\])/g, ","))
     .flatMap((part) => (isAddress(part.trim()) ? [part] : part.split(/\s+/)))
     .map((part) => part.trim())
-    .filter((part) => isAddress(part) || /^%?[\p{L}_\d][\p{L}\d_.[\]:%]*$/u.test(part));
+    .filter((part) => isAddress(part) || /^%?[\p{L}_\d][\p{L}\d_.[\]:%,^-]*$/u.test(part));
 }
 
 /** `src/Main.st` to `Main.st`. */

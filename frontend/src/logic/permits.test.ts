@@ -19,6 +19,8 @@ const monitor: InstanceState = {
   previous_version: null,
   past: null,
   target: "",
+  halt: null,
+  flavour: "",
   late_percent: 0,
 };
 

@@ -1,5 +1,6 @@
 /** How a state of the PLC is shown: tone, icon and words. One table, so that bar, rail and status bar agree. */
 import type { InstanceState, RunState } from "../wire/types";
+import { haltDetail } from "./halted";
 import { grouped, interval } from "./numbers";
 import { t } from "./text";
 
@@ -29,6 +30,7 @@ const LOOKS: Record<RunState, { tone: Tone; icon: StateIcon }> = {
   starting: { tone: "stopped", icon: "wait" },
   running: { tone: "running", icon: "running" },
   paused: { tone: "halted", icon: "halted" },
+  halted: { tone: "halted", icon: "halted" },
   stopped: { tone: "stopped", icon: "stopped" },
   fatal: { tone: "fatal", icon: "fatal" },
   trapped: { tone: "fatal", icon: "fatal" },
@@ -60,6 +62,8 @@ function detailOf(state: InstanceState): string {
       return t("state.outputsoff");
     case "trapped":
       return state.trap ? `${state.trap.file}:${state.trap.line}` : "";
+    case "halted":
+      return state.halt ? haltDetail(state.halt) : "";
     case "stopped":
       return t("state.noprogram");
     case "past":

@@ -1,5 +1,8 @@
 /** English. */
+import { debugEnglish } from "./text.debug.en";
+
 export const english = {
+  ...debugEnglish,
   "area.access": "{words} words · program: {program} · tools: {tool} · engine: {engine}",
   build: "Build",
   "build.by": " by {author}",

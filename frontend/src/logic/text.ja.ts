@@ -1,7 +1,9 @@
 /** 日本語 */
+import { debugJapanese } from "./text.debug.ja";
 import type { TextKey } from "./text.en";
 
 export const japanese: Record<TextKey, string> = {
+  ...debugJapanese,
   "area.access": "{words} ワード · プログラム: {program} · ツール: {tool} · エンジン: {engine}",
   build: "ビルド",
   "build.by": "（{author}）",

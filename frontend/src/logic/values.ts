@@ -61,6 +61,13 @@ export function formatValue(shape: ValueShape, view: DataView, offset: number, f
   }
 }
 
+/** What the value that stands in the eight bytes from `offset` is sorted by. */
+export function sortKeyAt(shape: ValueShape, view: DataView, offset: number): number | bigint {
+  if (shape.kind === "real") return shape.size === 4 ? view.getFloat32(offset, true) : view.getFloat64(offset, true);
+  const isSigned = shape.kind === "int" || shape.kind === "time" || shape.kind === "date";
+  return isSigned ? signed(shape.size, view, offset) : bitsOf(shape.size, view, offset);
+}
+
 /** The name of an enumeration's value; null for other types, and for numbers without a name. */
 function enumName(shape: ValueShape, view: DataView, offset: number): string | null {
   if (!shape.values?.length) return null;

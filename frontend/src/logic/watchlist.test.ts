@@ -1,6 +1,18 @@
 import { describe, expect, it } from "vitest";
 import type { WatchEntry } from "../wire/types";
-import { addEntries, addGroup, type ListContent, merge, moveEntry, removeEntry, removeGroup, renameGroup, replacePath, sameContent, setFormat } from "./watchlist";
+import {
+  addEntries,
+  addGroup,
+  type ListContent,
+  merge,
+  moveEntry,
+  removeEntry,
+  removeGroup,
+  renameGroup,
+  replacePath,
+  sameContent,
+  setFormat,
+} from "./watchlist";
 
 const entry = (text: string): WatchEntry => {
   const [path = "", group = "", format = "default"] = text.split(";");
@@ -8,10 +20,12 @@ const entry = (text: string): WatchEntry => {
 };
 const list = (entries: string, groups = "", name = "L"): ListContent => ({
   name,
+  shared: false,
   groups: groups.split(" ").filter(Boolean),
   entries: entries.split(" ").filter(Boolean).map(entry),
 });
-const shown = ({ entries }: ListContent) => entries.map(({ path, group }) => (group ? `${path};${group}` : path)).join(" ");
+const shown = ({ entries }: ListContent) =>
+  entries.map(({ path, group }) => (group ? `${path};${group}` : path)).join(" ");
 
 describe("a watch list", () => {
   it("takes each path once, and knows the groups of what is added", () => {
@@ -56,7 +70,12 @@ describe("two edits of one list", () => {
   it("of the same entry take mine, of others theirs", () => {
     const mine = setFormat(base, "a", "hex");
     const theirs = setFormat(setFormat(base, "a", "bcd"), "b", "binary");
-    expect(merge(base, mine, theirs).entries.map(({ format }) => format)).toEqual(["hex", "binary", "default", "default"]);
+    expect(merge(base, mine, theirs).entries.map(({ format }) => format)).toEqual([
+      "hex",
+      "binary",
+      "default",
+      "default",
+    ]);
   });
 
   it("keep my order when only I changed it, and theirs when they did", () => {

@@ -3,6 +3,8 @@ import type { WatchEntry } from "../wire/types";
 
 export interface ListContent {
   name: string;
+  /** With everybody at the project; else it is one's own. */
+  shared: boolean;
   groups: readonly string[];
   entries: readonly WatchEntry[];
 }
@@ -79,6 +81,7 @@ export function merge(base: ListContent, mine: ListContent, theirs: ListContent)
   const known = new Set(groups);
   return {
     name: mine.name === base.name ? theirs.name : mine.name,
+    shared: mine.shared || theirs.shared,
     groups,
     entries: entries.map((entry) => (entry.group === "" || known.has(entry.group) ? entry : { ...entry, group: "" })),
   };
@@ -93,6 +96,7 @@ const same = (one: WatchEntry, other: WatchEntry | undefined) =>
 export function sameContent(one: ListContent, other: ListContent): boolean {
   return (
     one.name === other.name &&
+    one.shared === other.shared &&
     one.groups.join("\n") === other.groups.join("\n") &&
     one.entries.length === other.entries.length &&
     one.entries.every((entry, index) => entry.path === other.entries[index]?.path && same(entry, other.entries[index]))

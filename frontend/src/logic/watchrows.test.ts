@@ -29,7 +29,9 @@ const view: WatchListView = {
   hasChanged: (path) => path === "A402",
 };
 const shown = (of: Partial<WatchListView>) =>
-  watchRows({ ...view, ...of }).map((row) => (row.kind === "group" ? `# ${row.name} ${row.count}` : `${row.kind} ${row.path}`));
+  watchRows({ ...view, ...of }).map((row) =>
+    row.kind === "group" ? `# ${row.name} ${row.count}` : `${row.kind} ${row.path}`,
+  );
 
 describe("watchRows", () => {
   it("has entries without a group first, then the groups, members below their owner, notes below their row", () => {
@@ -51,7 +53,14 @@ describe("watchRows", () => {
     const folded = shown({ collapsed: new Set(["Belt 2"]), open: new Set(), notes: new Map() });
     expect(folded.slice(-2)).toEqual(["# Belt 1 0", "# Belt 2 2"]);
     const byName = shown({ open: new Set(), notes: new Map(), sort: { column: "target", down: false } });
-    expect(byName).toEqual(["value A402", "value Main.belt", "# Belt 1 0", "# Belt 2 2", "value Main.a", "value Main.b"]);
+    expect(byName).toEqual([
+      "value A402",
+      "value Main.belt",
+      "# Belt 1 0",
+      "# Belt 2 2",
+      "value Main.a",
+      "value Main.b",
+    ]);
     const byValue = shown({ open: new Set(), notes: new Map(), sort: { column: "current", down: true } });
     expect(byValue.slice(0, 2)).toEqual(["value A402", "value Main.belt"]);
   });

@@ -156,7 +156,15 @@ function addRows(
     addRows(rows, view, { path: member.path, root, group, level: level + 1, symbol: member, inOut: below });
   }
   if (members.length > shown) {
-    rows.push({ kind: "more", key: `more:${root}:${path}`, path, root, level: level + 1, shown, total: members.length });
+    rows.push({
+      kind: "more",
+      key: `more:${root}:${path}`,
+      path,
+      root,
+      level: level + 1,
+      shown,
+      total: members.length,
+    });
   }
 }
 

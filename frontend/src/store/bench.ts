@@ -4,12 +4,16 @@ import { skeleton } from "../logic/explorer";
 import { Refused, rest } from "../wire/rest";
 import { link } from "../wire/socket";
 import type { AppInfo, Instance, ModelInfo, Project } from "../wire/types";
+import { onCoverage } from "./coverage";
+import { resetDebug } from "./debug";
 import { loadProject, messageOf } from "./documents";
 import { resetForces } from "./forces";
 import { keep, recall } from "./keep";
 import { resetMembers } from "./members";
 import { resetPlc, usePlc } from "./plc";
+import { resetSeenAs } from "./seenAs";
 import { resetSimulator } from "./simulator";
+import { resetStack } from "./stack";
 import { resetTimeline } from "./timeline";
 import { loadWatchList } from "./watchlist";
 
@@ -67,9 +71,13 @@ async function look(project: Project, instance: Instance | null): Promise<void> 
   resetForces();
   resetSimulator();
   resetTimeline();
+  resetDebug();
+  resetStack();
+  resetSeenAs();
+  onCoverage(null);
   resetMembers(instance?.id ?? null);
   link.connect(instance?.id ?? null);
-  loadWatchList(instance?.id ?? null, instance?.project.watch ?? []);
+  loadWatchList(project.id, project.watch);
   await Promise.all([other ? loadProject(project.id) : null, loadModel()]);
 }
 

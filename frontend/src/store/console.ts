@@ -64,7 +64,7 @@ function inFrame(): { frameId?: number } {
 }
 
 /** The value for a hover: in the frame when there is one that the text belongs to, else of a path. Undefined when there is none. */
-export async function valueOf(expression: string, inside: boolean): Promise<Evaluated | undefined> {
+export async function worthOf(expression: string, inside: boolean): Promise<Evaluated | undefined> {
   try {
     const where = inside ? inFrame() : {};
     return await dap.request<Evaluated>("evaluate", { expression, context: "hover", ...where });

@@ -1,9 +1,9 @@
 /** Which statements were reached since coverage was switched on; shared by everybody at the PLC. */
 import { create } from "zustand";
+import { t } from "../logic/text";
 import { send } from "../wire/send";
 import type { Coverage } from "../wire/types";
 import { useDebug } from "./debug";
-import { t } from "../logic/text";
 
 export const useCoverage = create<{ coverage: Coverage | null }>(() => ({ coverage: null }));
 

@@ -1,4 +1,4 @@
-/** Which rows are forced, by whom, and who wrote last. Paths are compared as the PLC does: case does not matter. */
+/** Which variables are forced, by whom, and who wrote last. Paths are compared as the PLC does: case does not matter. */
 import { create } from "zustand";
 import type { ForceInfo } from "../wire/types";
 
@@ -17,6 +17,11 @@ export const useForces = create<Forces>(() => ({ held: new Map(), written: new M
 export function forceOf(forces: Forces, path: string): ForceInfo | undefined {
   return forces.held.get(path.toUpperCase());
 }
+
+/** The force that holds this variable or address, for whoever shows it. */
+export const forcedAt = (path: string): ForceInfo | undefined => forceOf(useForces.getState(), path);
+
+export const useForcedAt = (path: string): ForceInfo | undefined => useForces((forces) => forceOf(forces, path));
 
 /** All forces that hold now, as the PLC tells them. */
 export function onForces(forces: readonly ForceInfo[]): void {

@@ -7,6 +7,7 @@ import type { Mode, RestartKind, RunOrder } from "../wire/types";
 import { useDocuments } from "./documents";
 import { keep, recall } from "./keep";
 import { usePlc } from "./plc";
+import { step, stepScan } from "./stepping";
 import { stepForward, useTimeline } from "./timeline";
 
 export const SPEEDS = [0.01, 0.1, 0.5, 1, 2, 10, 100, 1000, 0] as const;
@@ -118,9 +119,10 @@ usePlc.subscribe(({ state: now }, { state: before }) => {
     forgetRefusals();
 });
 
-/** F5: goes on when paused, pauses when running. */
+/** F5: goes on when paused or halted, pauses when running. */
 export function toggleRun(): void {
   const { state } = usePlc.getState();
+  if (state?.halt) void step("continue");
   if (state?.state === "running") void runAction("pause");
   if (state?.state === "paused") void runAction("continue");
 }
@@ -129,7 +131,8 @@ export function toggleRun(): void {
 export function singleScan(): void {
   const { state } = usePlc.getState();
   if (state?.state === "paused") void runAction("scan");
-  if (state?.past) stepForward();
+  else if (state?.halt) void stepScan();
+  else if (state?.past) stepForward();
 }
 
 /** Ctrl+Shift+F5. */

@@ -2,7 +2,6 @@
 import { create } from "zustand";
 import { rest } from "../wire/rest";
 import type { PlcSymbol } from "../wire/types";
-import { useBench } from "./bench";
 import { loadMembers, useMembers } from "./members";
 import { usePlc } from "./plc";
 import { useStack } from "./stack";
@@ -28,11 +27,12 @@ export function resetSeenAs(): void {
 /** Fetches the instances of a POU, once for each program. */
 export async function loadInstances(pou: string): Promise<void> {
   const key = pou.toUpperCase();
-  const instance = useBench.getState().instance;
-  if (!instance || asked.has(key)) return;
+  const { instance } = useMembers.getState();
+  if (instance === null || asked.has(key)) return;
   asked.add(key);
   try {
-    const paths = (await rest.instancesOf(instance.id, pou)).map(({ path }) => path);
+    const paths = (await rest.instancesOf(instance, pou)).map(({ path }) => path);
+    if (useMembers.getState().instance !== instance) return;
     set(({ instances }) => ({ instances: new Map(instances).set(key, paths) }));
   } catch {
     asked.delete(key); // The PLC is away: it is asked again when the text is looked at the next time.

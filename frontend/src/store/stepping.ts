@@ -1,8 +1,9 @@
 /** Steps of the debugger: what the buttons and keys send, and whom the view follows. */
 import { permits } from "../logic/stepping";
+import { ask } from "./debug";
+import { caretPlace } from "./debugKeys";
 import { openFile } from "./navigate";
 import { usePlc } from "./plc";
-import { ask } from "./debug";
 
 export type StepCommand = "continue" | "pause" | "next" | "stepIn" | "stepOut" | "stepBack" | "reverseContinue";
 
@@ -20,6 +21,12 @@ export async function stepScan(): Promise<void> {
 
 export async function runTo(file: string, line: number): Promise<void> {
   await ask("scanbench/runTo", { source: { path: file }, line });
+}
+
+/** Ctrl+F10. */
+export function runToCaret(): void {
+  const place = caretPlace();
+  if (place) void runTo(place.file, place.line);
 }
 
 /** Back to the last write of a variable. */

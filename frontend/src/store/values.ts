@@ -2,7 +2,8 @@
  * The live values: one typed array, written by frames, read by cells. Cells are functions that write to the page
  * themselves; React does not see twenty frames a second.
  */
-import { type Format, formatString, formatValue, hexWord, lampOf } from "../logic/values";
+import { type Format, formatString, formatValue, hexWord, lampOf, sortKeyAt } from "../logic/values";
+import type { SortKey } from "../logic/watchsort";
 import { type Frame, textOf } from "../wire/frames";
 import type { PlcSymbol } from "../wire/types";
 
@@ -22,9 +23,13 @@ interface Entry {
   /** False until the first value arrives: a first value is no change. */
   known: boolean;
   changed: boolean;
+  /** The mark of its last change. */
+  changedAt: number;
   cells: Set<Cell>;
 }
 
+/** Counts the frames. */
+let frames = 0;
 let bytes = new Uint8Array(8 * 256);
 let view = new DataView(bytes.buffer);
 const freeSlots: number[] = [];
@@ -37,7 +42,15 @@ let scheduled = false;
 function entryOf(path: string): Entry {
   let entry = entries.get(path);
   if (!entry) {
-    entry = { slot: takeSlot(), symbol: null, string: null, known: false, changed: false, cells: new Set() };
+    entry = {
+      slot: takeSlot(),
+      symbol: null,
+      string: null,
+      known: false,
+      changed: false,
+      changedAt: 0,
+      cells: new Set(),
+    };
     entries.set(path, entry);
   }
   return entry;
@@ -79,6 +92,7 @@ export function drop(path: string): void {
 }
 
 export function apply(frame: Frame): void {
+  frames += 1;
   for (let i = 0; i < frame.ids.length; i += 1) {
     const entry = byId.get(frame.ids[i] ?? -1);
     if (entry) take(entry, frame.values, i * 8);
@@ -107,8 +121,10 @@ function take(entry: Entry, values: Uint8Array, from: number): void {
 }
 
 function mark(entry: Entry, changed: boolean): void {
-  entry.changed ||= changed;
   entry.known = true;
+  if (changed) entry.changedAt = frames;
+  if (entry.cells.size === 0) return; // nobody sees it
+  entry.changed ||= changed;
   dirty.add(entry);
 }
 
@@ -150,8 +166,20 @@ export function bindCell(path: string, format: CellFormat, show: (reading: Readi
   };
 }
 
-/** The text of a value as last seen, for copying and for forcing what stands there. */
-export function currentText(path: string): string {
+/** What changes from now on has changed since this mark. */
+export const changeMark = () => frames;
+
+export const hasChangedSince = (path: string, mark: number) => (entries.get(path)?.changedAt ?? 0) > mark;
+
+/** What a value is sorted by: a number by its size; null while it is not known. */
+export function sortKey(path: string): SortKey {
   const entry = entries.get(path);
-  return entry ? read(entry, "default").text : "";
+  if (!entry?.known || !entry.symbol) return null;
+  return entry.symbol.kind === "string" ? entry.string : sortKeyAt(entry.symbol, view, entry.slot * 8);
+}
+
+/** The text of a value as last seen, for copying and for forcing what stands there. */
+export function currentText(path: string, format: Format = "default"): string {
+  const entry = entries.get(path);
+  return entry ? read(entry, format).text : "";
 }

@@ -1,125 +1,205 @@
-/** The watch list of this browser for one instance: entries, unfolded rows, what was typed, what was refused. */
+/** What this browser shows of its watch list: what is unfolded and in sight, how it is sorted and filtered, what was typed, what was refused. */
 import { create } from "zustand";
+import { literalOf } from "../logic/formats";
+import { splitPath } from "../logic/paths";
+import { t } from "../logic/text";
 import type { Format } from "../logic/values";
-import { pathsToWatch, type WatchListView, type WatchNote, watchRows } from "../logic/watchrows";
+import { addEntries, removeEntry, replacePath, setFormat as withFormat } from "../logic/watchlist";
+import { noteOf, PAGE, type WatchNote } from "../logic/watchrows";
+import { type Filter, needsAll, nextSort, type Sort, type SortColumn } from "../logic/watchsort";
 import { type Answer, send } from "../wire/send";
+import type { WatchEntry } from "../wire/types";
 import { keep, recall } from "./keep";
 import { loadMembers, useMembers } from "./members";
+import { changeMark } from "./values";
 import { useWatches, watch } from "./watches";
+import { editList, loadWatchLists, told, undoEdit, useWatchLists } from "./watchlists";
 
-interface WatchList {
-  instance: number | null;
-  roots: readonly string[];
+interface WatchView {
+  project: number | null;
   open: ReadonlySet<string>;
+  collapsed: ReadonlySet<string>;
+  shown: ReadonlyMap<string, number>;
   notes: ReadonlyMap<string, WatchNote>;
   drafts: ReadonlyMap<string, string>;
+  /** Formats of members; an entry's own stands in the list. */
   formats: ReadonlyMap<string, Format>;
+  /** Another call site than the last one that a write of an in-out goes to, `file:line` by path. */
+  sites: ReadonlyMap<string, string>;
   selected: string | null;
+  sort: Sort;
+  filter: Filter;
+  /** What changed after this mark passes the filter of changed values. */
+  since: number;
 }
 
 interface Kept {
-  roots: string[];
   open: string[];
+  collapsed: string[];
   formats: [string, Format][];
 }
 
-const nothing: WatchList = {
-  instance: null,
-  roots: [],
+const nothing: WatchView = {
+  project: null,
   open: new Set(),
+  collapsed: new Set(),
+  shown: new Map(),
   notes: new Map(),
   drafts: new Map(),
   formats: new Map(),
+  sites: new Map(),
   selected: null,
+  sort: null,
+  filter: { text: "", only: "all" },
+  since: 0,
 };
 
-export const useWatchList = create<WatchList>(() => nothing);
+export const useWatchList = create<WatchView>(() => nothing);
 const get = useWatchList.getState;
 const set = useWatchList.setState;
 
-let release: () => void = () => undefined;
+const keptKey = (project: number | null) => `watchview.${project}`;
 
-/** Shows the list that this browser kept for an instance, or the project's first one. */
-export function loadWatchList(instance: number | null, first: readonly string[]): void {
-  const kept = recall<Kept>(`watch.${instance}`, { roots: [...first], open: [], formats: [] });
-  set({ ...nothing, instance, roots: kept.roots, open: new Set(kept.open), formats: new Map(kept.formats) });
+/** Shows the lists of a project; `first` is what its first one begins with. */
+export function loadWatchList(project: number | null, first: readonly string[]): void {
+  if (project !== get().project) {
+    const kept = recall<Partial<Kept>>(keptKey(project), {});
+    set({
+      ...nothing,
+      project,
+      open: new Set(kept.open),
+      collapsed: new Set(kept.collapsed),
+      formats: new Map(kept.formats),
+    });
+  }
+  void loadWatchLists(project, first);
   void refreshMembers();
+}
+
+function keepView(): void {
+  const { project, open, collapsed, formats } = get();
+  if (project === null) return;
+  keep(keptKey(project), { open: [...open], collapsed: [...collapsed], formats: [...formats] } satisfies Kept);
 }
 
 /** Fetches the members of all that is unfolded; after a build they may be others. */
 export async function refreshMembers(): Promise<void> {
   const paths = [...get().open].sort((a, b) => a.length - b.length);
   for (const path of paths) await loadMembers(path);
-  sync();
 }
 
-function viewOf(list: WatchList): WatchListView {
-  return {
-    roots: list.roots,
-    open: list.open,
-    notes: list.notes,
-    members: useMembers.getState().of,
-    symbols: useWatches.getState().symbols,
-    refusals: useWatches.getState().refusals,
-  };
+// ---- what is watched --------------------------------------------------------------------------------------------------
+
+const LINGER = 120;
+let release: () => void = () => undefined;
+let waiting: ReturnType<typeof setTimeout> | undefined;
+let watched = "";
+
+/** Watches what is in sight, and all entries where a sort or a filter looks at them. */
+export function watchInSight(paths: readonly string[]): void {
+  clearTimeout(waiting);
+  waiting = setTimeout(() => {
+    const { sort, filter } = get();
+    const entries = needsAll(sort, filter) ? useWatchLists.getState().content.entries.map(({ path }) => path) : [];
+    const wanted = [...new Set([...entries, ...paths])];
+    const key = wanted.join("\n");
+    if (key === watched) return;
+    watched = key;
+    const before = release;
+    release = watch(wanted);
+    before();
+  }, LINGER);
 }
 
-function sync(): void {
-  const before = release;
-  release = watch(pathsToWatch(watchRows(viewOf(get()))));
-  before();
+/** Nothing is in sight any more. */
+export function watchNothing(): void {
+  clearTimeout(waiting);
+  watched = "";
+  release();
+  release = () => undefined;
 }
 
-function changed(): void {
-  const { instance, roots, open, formats } = get();
-  if (instance !== null) {
-    keep(`watch.${instance}`, { roots: [...roots], open: [...open], formats: [...formats] } satisfies Kept);
-  }
-  sync();
+// ---- the entries ------------------------------------------------------------------------------------------------------
+
+export function addToWatch(paths: readonly string[], group = ""): void {
+  addAll(paths.map((path) => ({ path, group, format: "default" })));
 }
 
-export function addToWatch(paths: readonly string[]): void {
-  const fresh = [...new Set(paths)].filter((path) => !get().roots.includes(path));
-  set(({ roots }) => ({ roots: [...roots, ...fresh], selected: paths.at(-1) ?? null }));
-  changed();
+/** Ranges of addresses are shown as their addresses at once. */
+export function addAll(entries: readonly WatchEntry[]): void {
+  editList((content) => addEntries(content, entries));
+  const ranges = entries.flatMap(({ path }) => (/:\s*\d+$/.test(path) ? path : []));
+  for (const path of ranges) if (!get().open.has(path)) void toggleOpen(path);
+  set({ selected: entries.at(-1)?.path ?? null });
 }
 
 export function removeFromWatch(root: string): void {
-  set(({ roots, notes, drafts }) => ({
-    roots: roots.filter((path) => path !== root),
-    notes: without(notes, root),
-    drafts: without(drafts, root),
-    selected: null,
-  }));
-  changed();
+  editList((content) => removeEntry(content, root));
+  set(({ notes, drafts }) => ({ notes: without(notes, root), drafts: without(drafts, root), selected: null }));
+  told(t("watch.removed", { name: splitPath(root).name }), undoEdit);
 }
 
 /** Another name for an entry that could not be found. */
 export function replaceInWatch(root: string, path: string): void {
-  set(({ roots }) => ({ roots: roots.map((entry) => (entry === root ? path : entry)), selected: path }));
-  changed();
+  editList((content) => replacePath(content, root, path));
+  set({ selected: path });
 }
 
 export async function toggleOpen(path: string): Promise<void> {
   const open = new Set(get().open);
-  if (open.delete(path)) {
-    set({ open });
-    changed();
-    return;
+  if (open.delete(path)) set({ open });
+  else {
+    await loadMembers(path);
+    set({ open: new Set(get().open).add(path) });
   }
-  await loadMembers(path);
-  set({ open: new Set(get().open).add(path) });
-  changed();
+  keepView();
+}
+
+export function showMore(path: string): void {
+  set(({ shown }) => ({ shown: new Map(shown).set(path, (shown.get(path) ?? PAGE) + 10 * PAGE) }));
+}
+
+export function toggleGroup(name: string): void {
+  const collapsed = new Set(get().collapsed);
+  if (!collapsed.delete(name)) collapsed.add(name);
+  set({ collapsed });
+  keepView();
 }
 
 export function select(path: string | null): void {
   set({ selected: path });
 }
 
-export function setFormat(path: string, format: Format): void {
-  set(({ formats }) => ({ formats: new Map(formats).set(path, format) }));
-  changed();
+// ---- how it is shown --------------------------------------------------------------------------------------------------
+
+/** An entry's format is that of its members, unless they have one of their own. */
+export function formatOf(path: string, root: string): Format {
+  const own = get().formats.get(path);
+  if (own && path !== root) return own;
+  return useWatchLists.getState().content.entries.find((entry) => entry.path === root)?.format ?? "default";
 }
+
+export function setFormat(path: string, root: string, format: Format): void {
+  if (path === root) {
+    editList((content) => withFormat(content, path, format));
+    return;
+  }
+  set(({ formats }) => ({ formats: new Map(formats).set(path, format) }));
+  keepView();
+}
+
+export function sortBy(column: SortColumn): void {
+  set(({ sort }) => ({ sort: nextSort(sort, column) }));
+}
+
+export function setFilter(filter: Partial<Filter>): void {
+  set((view) => ({
+    filter: { ...view.filter, ...filter },
+    since: filter.only === "changed" ? changeMark() : view.since,
+  }));
+}
+
+// ---- writing ----------------------------------------------------------------------------------------------------------
 
 export function setDraft(path: string, text: string): void {
   set(({ drafts, notes }) => ({
@@ -128,20 +208,49 @@ export function setDraft(path: string, text: string): void {
   }));
 }
 
-export async function write(path: string, value: string): Promise<void> {
-  landed(path, value, await send({ type: "write", path, value }));
+/** Which call of an in-out's block decides where its writes go; null is the one that ran last. */
+export function chooseSite(path: string, site: string | null): void {
+  set(({ sites }) => ({ sites: site === null ? without(sites, path) : new Map(sites).set(path, site) }));
 }
 
-export async function force(path: string, value: string): Promise<void> {
-  landed(path, value, await send({ type: "force", path, value }));
+/** Where a write of this row goes when somebody picked a call: the row's own choice, or that of the in-out that it is in. */
+function siteOf(path: string): { site?: string } {
+  for (const [inOut, site] of get().sites) {
+    if (path === inOut || path.startsWith(`${inOut}.`) || path.startsWith(`${inOut}[`)) return { site };
+  }
+  return {};
+}
+
+export async function write(path: string, root: string, value: string): Promise<void> {
+  const answer = await send({ type: "write", path, value: meant(path, root, value), ...siteOf(path) });
+  landed("write", path, value, answer);
+}
+
+export async function force(path: string, root: string, value: string): Promise<void> {
+  const answer = await send({ type: "force", path, value: meant(path, root, value), ...siteOf(path) });
+  landed("force", path, value, answer);
+}
+
+/** What is typed is meant in the format of its row. */
+function meant(path: string, root: string, value: string): string {
+  const symbol = useWatches.getState().symbols.get(path) ?? memberSymbol(path);
+  return symbol ? literalOf(symbol, formatOf(path, root), value) : value;
+}
+
+function memberSymbol(path: string) {
+  for (const members of useMembers.getState().of.values()) {
+    const found = members.find((member) => member.path === path);
+    if (found) return found;
+  }
+  return undefined;
 }
 
 export async function releaseForce(path: string | null): Promise<void> {
   const answer = await send({ type: "release", path });
-  if (!answer.ok && path !== null) landed(path, "", answer);
+  if (!answer.ok && path !== null) landed("force", path, "", answer);
 }
 
-function landed(path: string, entry: string, answer: Answer): void {
+function landed(verb: "write" | "force", path: string, entry: string, answer: Answer): void {
   if (answer.ok) {
     set(({ drafts, notes }) => ({
       drafts: drafts.get(path) === entry ? without(drafts, path) : drafts,
@@ -149,12 +258,7 @@ function landed(path: string, entry: string, answer: Answer): void {
     }));
     return;
   }
-  const note: WatchNote = {
-    kind: answer.sent ? "refused" : "unsent",
-    message: answer.message,
-    near: answer.near ?? [],
-    entry,
-  };
+  const note = noteOf(answer.sent, answer.message, answer.near ?? [], entry, verb);
   set(({ notes }) => ({ notes: new Map(notes).set(path, note) }));
 }
 

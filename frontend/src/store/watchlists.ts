@@ -11,7 +11,6 @@ import { forget, keep, recall } from "./keep";
 interface Shown {
   /** Null: it is not on the server yet. */
   id: number | null;
-  shared: boolean;
   /** The version on the server that `base` is. */
   version: number;
   base: ListContent;
@@ -29,12 +28,11 @@ interface WatchLists extends Shown {
   done: { text: string; undo: () => void } | null;
 }
 
-const EMPTY: ListContent = { name: "", groups: [], entries: [] };
+const EMPTY: ListContent = { name: "", shared: false, groups: [], entries: [] };
 const nothing: WatchLists = {
   project: null,
   lists: [],
   id: null,
-  shared: false,
   version: 0,
   base: EMPTY,
   content: EMPTY,
@@ -50,7 +48,9 @@ const set = useWatchLists.setState;
 const HISTORY = 100;
 let history: ListContent[] = [];
 let first: readonly string[] = [];
-let saving = false;
+let saving: Promise<void> | null = null;
+/** The newest version of the list that is shown, as far as anybody told. */
+let newest = 0;
 
 const chosenKey = (project: number | null) => `watchlist.${project}`;
 const pendingKey = (project: number | null) => `watchlist.unsaved.${project}`;
@@ -81,8 +81,8 @@ async function chooseKept(project: number): Promise<void> {
 /** A list that nobody has: with what the project begins with, or empty. */
 function fresh(paths: readonly string[] = first): Shown {
   const entries = paths.map((path) => ({ path, group: "", format: "default" as const }));
-  const content: ListContent = { name: freeName(t("watch.list.new")), groups: [], entries };
-  return { id: null, shared: false, version: 0, base: content, content };
+  const content: ListContent = { name: freeName(t("watch.list.new")), shared: false, groups: [], entries };
+  return { id: null, version: 0, base: content, content };
 }
 
 function freeName(wanted: string): string {
@@ -93,7 +93,7 @@ function freeName(wanted: string): string {
   }
 }
 
-const contentOf = ({ name, groups, entries }: WatchList): ListContent => ({ name, groups, entries });
+const contentOf = ({ name, shared, groups, entries }: WatchList): ListContent => ({ name, shared, groups, entries });
 
 async function refreshLists(): Promise<void> {
   const { project } = get();
@@ -109,7 +109,8 @@ async function refreshLists(): Promise<void> {
 function take(list: WatchList): void {
   const content = contentOf(list);
   history = [];
-  set({ id: list.id, shared: list.shared, version: list.version, base: content, content, trouble: null, deletedBy: null });
+  newest = list.version;
+  set({ id: list.id, version: list.version, base: content, content, trouble: null, deletedBy: null });
   keep(chosenKey(get().project), list.id);
 }
 
@@ -154,45 +155,55 @@ export function told(text: string, undo: () => void): void {
 }
 
 /** Saves until there is nothing to save; whoever was first is put together with what is here. */
-async function save(): Promise<void> {
-  const { project, id, shared, version, base, content } = get();
-  if (project !== null) keep(pendingKey(project), { id, shared, version, base, content } satisfies Shown);
-  if (saving || project === null) return;
-  saving = true;
+function save(): Promise<void> {
+  const { project, id, version, base, content } = get();
+  if (project === null) return Promise.resolve();
+  keep(pendingKey(project), { id, version, base, content } satisfies Shown);
+  saving ??= saveAll(project);
+  return saving;
+}
+
+async function saveAll(project: number): Promise<void> {
   try {
-    while (get().project === project && (isEdited() || get().id === null)) await saveOnce(project);
+    do await saveOnce(project);
+    while (get().project === project && isEdited());
     if (get().project === project) set({ trouble: null });
     forget(pendingKey(project));
-    await refreshLists();
   } catch (error) {
+    if (get().project !== project) return;
     if (error instanceof Refused && error.status === 404 && get().id !== null) onGone("");
-    else if (get().project === project) set({ trouble: messageOf(error) });
+    else set({ trouble: messageOf(error) });
   } finally {
-    saving = false;
+    saving = null;
   }
+  const { id, version } = get();
+  if (id !== null && newest > version) void pull(id);
+  void refreshLists();
 }
 
 async function saveOnce(project: number): Promise<void> {
-  const { id, shared, version, content } = get();
+  const { id, version, content } = get();
   if (id === null) {
-    const made = await created(project, shared, content);
-    if (get().project !== project) return;
-    const renamed = get().content.name === content.name ? { ...get().content, name: made.name } : get().content;
-    set({ id: made.id, version: made.version, base: contentOf(made), content: renamed, deletedBy: null });
+    const made = await created(project, content);
+    if (get().project !== project || get().id !== null) return;
+    const now = get().content;
+    const named = now.name === content.name ? { ...now, name: made.name } : now;
+    set({ id: made.id, version: made.version, base: contentOf(made), content: named, deletedBy: null });
+    newest = made.version;
     keep(chosenKey(project), made.id);
     return;
   }
-  const answer = await rest.saveWatchList(id, { ...content, shared }, version);
+  const answer = await rest.saveWatchList(id, content, version);
   if (get().project !== project || get().id !== id) return;
-  if ("saved" in answer) set({ version: answer.saved.version, base: contentOf(answer.saved), shared: answer.saved.shared });
+  if ("saved" in answer) set({ version: answer.saved.version, base: contentOf(answer.saved) });
   else takeTheirs(answer.theirs);
 }
 
 /** Under its name, or the next one that is free. */
-async function created(project: number, shared: boolean, content: ListContent): Promise<WatchList> {
+async function created(project: number, content: ListContent): Promise<WatchList> {
   for (let number = 2, name = content.name; ; number += 1) {
     try {
-      return await rest.createWatchList(project, { ...content, name, shared });
+      return await rest.createWatchList(project, { ...content, name });
     } catch (error) {
       if (!(error instanceof Refused && error.status === 409) || number > 99) throw error;
       name = `${content.name} ${number}`;
@@ -203,14 +214,17 @@ async function created(project: number, shared: boolean, content: ListContent): 
 function takeTheirs(theirs: WatchList): void {
   const { base, content } = get();
   const their = contentOf(theirs);
-  set({ content: merge(base, content, their), base: their, version: theirs.version, shared: theirs.shared });
+  set({ content: merge(base, content, their), base: their, version: theirs.version });
+  newest = Math.max(newest, theirs.version);
 }
 
 /** Somebody, perhaps here, changed a list. */
 export async function onWatchList({ id, version, author }: WatchListChanged): Promise<void> {
-  const now = get();
-  if (id === now.id && version === 0) onGone(author);
-  else if (id === now.id && version > now.version && !saving) await pull(id);
+  if (id === get().id && version === 0) onGone(author);
+  else if (id === get().id) {
+    newest = Math.max(newest, version);
+    if (version > get().version && !saving) await pull(id);
+  }
   if (!saving) await refreshLists();
 }
 
@@ -226,7 +240,10 @@ async function pull(id: number): Promise<void> {
 /** What is shown stays until something else is chosen. */
 function onGone(author: string): void {
   forget(pendingKey(get().project));
-  set(({ content }) => ({ id: null, shared: false, version: 0, base: content, deletedBy: author || t("somebody") }));
+  set(({ content }) => {
+    const own = { ...content, shared: false };
+    return { id: null, version: 0, base: own, content: own, deletedBy: author || t("somebody") };
+  });
 }
 
 /** After a connection was lost: what others did meanwhile, and what could not be saved. */
@@ -237,40 +254,33 @@ export async function catchUpLists(): Promise<void> {
   else if (id !== null && (lists.find((list) => list.id === id)?.version ?? version) > version) await pull(id);
 }
 
-/** Has a list that was deleted, or a copy of another one, as one's own. */
-export async function keepAsOwn(): Promise<void> {
-  await save();
-}
+/** Has a list that somebody deleted as one's own. */
+export const keepAsOwn = () => save();
 
-export async function renameList(name: string): Promise<void> {
+export function renameList(name: string): void {
   editList((content) => ({ ...content, name }));
 }
 
 export async function duplicateList(): Promise<void> {
   const { content } = get();
   if (isEdited()) await save();
-  const copy = { ...content, name: freeName(t("watch.list.copy", content)) };
-  history = [];
-  set({ id: null, shared: false, version: 0, base: EMPTY, content: copy, deletedBy: null });
-  await save();
+  await begin({ ...content, shared: false, name: freeName(t("watch.list.copy", content)) });
 }
 
-/** With everybody at the project, from now on. */
-export async function shareList(): Promise<void> {
-  set({ shared: true, base: EMPTY });
-  const { id, content, version } = get();
-  if (id === null) return save();
-  set({ base: { ...content, name: "" } }); // what is to be saved is the sharing alone
-  if (version > 0) await save();
+/** With everybody at the project, from now on: others may use it, so it does not become private again. */
+export function shareList(): void {
+  editList((content) => ({ ...content, shared: true }));
+  history = [];
 }
 
 /** Deletes the list that is shown. It can be taken back: the same list, under another number. */
 export async function deleteList(): Promise<void> {
-  const { id, shared, content, project } = get();
+  const { id, content, project } = get();
   try {
+    set({ id: null }); // what is told of it is no news
     if (id !== null) await rest.deleteWatchList(id);
   } catch (error) {
-    set({ trouble: messageOf(error) });
+    set({ id, trouble: messageOf(error) });
     return;
   }
   forget(pendingKey(project));
@@ -278,10 +288,11 @@ export async function deleteList(): Promise<void> {
   set({ ...fresh([]), deletedBy: null, trouble: null });
   await refreshLists();
   if (project !== null) await chooseKept(project);
-  told(t("watch.list.deleted", content), () => void restore(shared, content));
+  told(t("watch.list.deleted", content), () => void begin(content));
 }
 
-async function restore(shared: boolean, content: ListContent): Promise<void> {
-  set({ id: null, shared, version: 0, base: EMPTY, content, done: null, deletedBy: null });
+async function begin(content: ListContent): Promise<void> {
+  history = [];
+  set({ id: null, version: 0, base: EMPTY, content, done: null, deletedBy: null });
   await save();
 }

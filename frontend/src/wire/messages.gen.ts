@@ -20,6 +20,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/flights/{flight}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * On Cancel Flight
+         * @description Gives a record up that is under way.
+         */
+        delete: operations["on_cancel_flight_api_flights__flight__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances": {
         parameters: {
             query?: never;
@@ -70,6 +90,27 @@ export interface paths {
          * @description Renames it, switches it on or off, limits what it may cost.
          */
         patch: operations["on_change_instance_api_instances__instance__patch"];
+        trace?: never;
+    };
+    "/api/instances/{instance}/binding": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Binding
+         * @description What an in-out (`Main.fb1.level`) is bound to: the variable that the block's last execution was given, and what other
+         *     calls pass.
+         */
+        get: operations["on_binding_api_instances__instance__binding_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
         trace?: never;
     };
     "/api/instances/{instance}/branch": {
@@ -266,6 +307,26 @@ export interface paths {
         get: operations["on_export_api_instances__instance__export_get"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/flights": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On New Flight
+         * @description Records scans that are over, by running them again beside the PLC; progress comes by the instance's WebSocket.
+         */
+        post: operations["on_new_flight_api_instances__instance__flights_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -506,6 +567,154 @@ export interface paths {
         get: operations["on_symbols_api_instances__instance__symbols_get"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/traces": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Traces
+         * @description The traces of an instance.
+         */
+        get: operations["on_traces_api_instances__instance__traces_get"];
+        put?: never;
+        /**
+         * On New Trace
+         * @description A new trace.
+         */
+        post: operations["on_new_trace_api_instances__instance__traces_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/traces/{trace}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        /**
+         * On Define Trace
+         * @description Another definition for a trace; what was recorded is forgotten, unless only the name changed.
+         */
+        put: operations["on_define_trace_api_instances__instance__traces__trace__put"];
+        post?: never;
+        /**
+         * On Delete Trace
+         * @description Forgets a trace and what it recorded.
+         */
+        delete: operations["on_delete_trace_api_instances__instance__traces__trace__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/traces/{trace}/csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Csv
+         * @description Every sample of these scans, as CSV.
+         */
+        get: operations["on_csv_api_instances__instance__traces__trace__csv_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/traces/{trace}/keep": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Keep
+         * @description Keeps what a trace has recorded until now, in the project.
+         */
+        post: operations["on_keep_api_instances__instance__traces__trace__keep_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/traces/{trace}/samples": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Samples
+         * @description Samples of scans `first` to `last`, as bytes; where there are more than `points`, the least and greatest of stretches.
+         */
+        get: operations["on_samples_api_instances__instance__traces__trace__samples_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/traces/{trace}/start": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Start Trace
+         * @description Records anew; arms a trace with a trigger again.
+         */
+        post: operations["on_start_trace_api_instances__instance__traces__trace__start_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/traces/{trace}/stop": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Stop Trace
+         * @description Records no more; what was recorded stays.
+         */
+        post: operations["on_stop_trace_api_instances__instance__traces__trace__stop_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -832,6 +1041,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/projects/{project}/trace-records": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Records
+         * @description The kept records of a project, the newest first.
+         */
+        get: operations["on_records_api_projects__project__trace_records_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/projects/{project}/user-errors": {
         parameters: {
             query?: never;
@@ -1124,6 +1353,70 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/trace-records/{record}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Record
+         * @description A kept record.
+         */
+        get: operations["on_record_api_trace_records__record__get"];
+        put?: never;
+        post?: never;
+        /**
+         * On Delete Record
+         * @description Forgets a kept record.
+         */
+        delete: operations["on_delete_record_api_trace_records__record__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/trace-records/{record}/csv": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Record Csv
+         * @description Every sample of these scans of a kept record, as CSV.
+         */
+        get: operations["on_record_csv_api_trace_records__record__csv_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/trace-records/{record}/samples": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Record Samples
+         * @description Samples of a kept record, as those of a trace.
+         */
+        get: operations["on_record_samples_api_trace_records__record__samples_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/watch-lists/{id}": {
         parameters: {
             query?: never;
@@ -1322,6 +1615,47 @@ export interface components {
              * @description start and shape in a sentence
              */
             text: string;
+        };
+        /**
+         * Binding
+         * @description What an in-out is bound to: `GET /api/instances/{id}/binding?path=`.
+         */
+        Binding: {
+            /**
+             * Convention
+             * @enum {string}
+             */
+            convention: "reference" | "value";
+            /** Message */
+            message: string;
+            /** Ok */
+            ok: boolean;
+            /** Sites */
+            sites: components["schemas"]["BoundTo"][];
+        };
+        /**
+         * BoundTo
+         * @description One call site of an in-out.
+         */
+        BoundTo: {
+            /** Actual */
+            actual: string;
+            /** Address */
+            address: string;
+            /** Call */
+            call: string;
+            /** Column */
+            column: number;
+            /** File */
+            file: string;
+            /** Last */
+            last: boolean;
+            /** Line */
+            line: number;
+            /** Message */
+            message: string;
+            /** Scan */
+            scan: number | null;
         };
         /**
          * Branch
@@ -1625,6 +1959,41 @@ export interface components {
              * @enum {string}
              */
             type: "dap";
+        };
+        /** DefineTrace */
+        DefineTrace: {
+            /**
+             * Every
+             * @description so many scans from sample to sample
+             * @default 1
+             */
+            every: number;
+            /** Name */
+            name: string;
+            /**
+             * Repeat
+             * @description armed again when it is complete
+             * @default false
+             */
+            repeat: boolean;
+            /**
+             * Scans
+             * @description how far the buffer reaches back
+             * @default 30000
+             */
+            scans: number;
+            /**
+             * Signals
+             * @description variables, addresses, expressions
+             */
+            signals: string[];
+            /**
+             * Start
+             * @description recorded from now on; else only when it was already
+             * @default true
+             */
+            start: boolean;
+            trigger?: components["schemas"]["TraceTrigger"] | null;
         };
         /**
          * Deleted
@@ -2055,12 +2424,50 @@ export interface components {
             /** Version */
             version: number;
         };
+        /**
+         * Flight
+         * @description How far the flight recorder is.
+         */
+        Flight: {
+            /** By */
+            by: string;
+            /** Done */
+            done: number;
+            /** Id */
+            id: number;
+            /**
+             * Message
+             * @description why nothing came of it
+             */
+            message: string;
+            /**
+             * Of
+             * @description scans
+             */
+            of: number;
+            /**
+             * Record
+             * @description what came of it
+             */
+            record: number | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "flight";
+        };
         /** Force */
         Force: {
             /** Path */
             path: string;
             /** Ref */
             ref: number;
+            /**
+             * Site
+             * @description as of `Write`
+             * @default
+             */
+            site: string;
             /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
@@ -2386,6 +2793,11 @@ export interface components {
             trap: components["schemas"]["TrapInfo"] | null;
         };
         JsonValue: unknown;
+        /** KeepTrace */
+        KeepTrace: {
+            /** Name */
+            name: string;
+        };
         /** Log */
         Log: {
             /** Lines */
@@ -2493,6 +2905,23 @@ export interface components {
              * @description errors whose facts were looked up, not only known
              */
             verified_count: number;
+        };
+        /**
+         * NewFlight
+         * @description Scans that are over, to be recorded afterwards.
+         */
+        NewFlight: {
+            /**
+             * Every
+             * @default 1
+             */
+            every: number;
+            /** First */
+            first: number;
+            /** Last */
+            last: number;
+            /** Signals */
+            signals: string[];
         };
         /** NewInstance */
         NewInstance: {
@@ -3180,7 +3609,7 @@ export interface components {
             /** Version */
             version: number;
         };
-        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Coverage"] | components["schemas"]["Alive"];
+        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Flight"] | components["schemas"]["Coverage"] | components["schemas"]["Alive"];
         /** SetCoverage */
         SetCoverage: {
             /** On */
@@ -3538,6 +3967,195 @@ export interface components {
              * @description before this scan checkpoints were thinned: going there takes longer; 0: none
              */
             thinned_before: number;
+        };
+        /** TraceDefinition */
+        TraceDefinition: {
+            /**
+             * Every
+             * @description so many scans from sample to sample
+             * @default 1
+             */
+            every: number;
+            /** Name */
+            name: string;
+            /**
+             * Repeat
+             * @description armed again when it is complete
+             * @default false
+             */
+            repeat: boolean;
+            /**
+             * Scans
+             * @description how far the buffer reaches back
+             * @default 30000
+             */
+            scans: number;
+            /**
+             * Signals
+             * @description variables, addresses, expressions
+             */
+            signals: string[];
+            /** @default null */
+            trigger: components["schemas"]["TraceTrigger"] | null;
+        };
+        /**
+         * TraceInfo
+         * @description A trace of an instance, shared by everybody.
+         */
+        TraceInfo: {
+            /** By */
+            by: string;
+            /**
+             * Bytes
+             * @description what the buffer takes when it is full
+             */
+            bytes: number;
+            definition: components["schemas"]["TraceDefinition"];
+            /** End */
+            end: number;
+            /**
+             * First
+             * @description scans `first` to `end` - 1 are in the buffer; both 0 where there are none
+             */
+            first: number;
+            /**
+             * Generation
+             * @description other samples than those of another generation
+             */
+            generation: number;
+            /**
+             * Hits
+             * @description how often it came since it was started
+             */
+            hits: number;
+            /** Id */
+            id: number;
+            /** Interval Ns */
+            interval_ns: number;
+            /** Note */
+            note: string;
+            /** Rows */
+            rows: number;
+            /** Signals */
+            signals: components["schemas"]["TraceSignal"][];
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "stopped" | "recording" | "armed" | "triggered" | "complete";
+            /**
+             * Triggered
+             * @description after which scan the trigger came, of what is shown
+             */
+            triggered: number | null;
+        };
+        /**
+         * TraceRecordInfo
+         * @description A record that was kept in the project: of a trace, or by the flight recorder.
+         */
+        TraceRecordInfo: {
+            /** At */
+            at: string;
+            /** By */
+            by: string;
+            /** End */
+            end: number;
+            /** Every */
+            every: number;
+            /** First */
+            first: number;
+            /** Id */
+            id: number;
+            /** Instance */
+            instance: string;
+            /** Interval Ns */
+            interval_ns: number;
+            /** Name */
+            name: string;
+            /**
+             * Origin
+             * @enum {string}
+             */
+            origin: "trace" | "flight";
+            /** Program Version */
+            program_version: number;
+            /** Project */
+            project: number;
+            /** Rows */
+            rows: number;
+            /** Signals */
+            signals: components["schemas"]["TraceSignal"][];
+            /** Triggered */
+            triggered: number | null;
+        };
+        /**
+         * Traces
+         * @description All traces of the instance, whenever one changes, and a few times a second while one grows.
+         */
+        Traces: {
+            /** Traces */
+            traces: components["schemas"]["TraceInfo"][];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "traces";
+        };
+        /** TraceSignal */
+        TraceSignal: {
+            /** Kind */
+            kind: string;
+            /**
+             * Message
+             * @description why it has no values now; empty when it has
+             */
+            message: string;
+            /** Size */
+            size: number;
+            /** Text */
+            text: string;
+            /**
+             * Type
+             * @description empty where it was never found
+             */
+            type: string;
+            /**
+             * Values
+             * @description names of an enumeration's numbers
+             */
+            values: [
+                string,
+                number
+            ][];
+        };
+        /**
+         * TraceTrigger
+         * @description What a trace waits for. An edge of a number is that of `text >= value`.
+         */
+        TraceTrigger: {
+            /**
+             * Before
+             * @description percent of the buffer that is in front of the trigger
+             * @default 50
+             */
+            before: number;
+            /**
+             * Text
+             * @description a variable, an address, or an expression
+             */
+            text: string;
+            /**
+             * Value
+             * @description to compare with; empty for an edge of a BOOL
+             * @default
+             */
+            value: string;
+            /**
+             * When
+             * @default rises
+             * @enum {string}
+             */
+            when: "rises" | "falls" | "changes" | "above" | "below" | "equals" | "holds";
         };
         /**
          * TrapInfo
@@ -4089,6 +4707,12 @@ export interface components {
             /** Ref */
             ref: number;
             /**
+             * Site
+             * @description of an in-out: what this call (file:line) passes, instead of the last one
+             * @default
+             */
+            site: string;
+            /**
              * @description discriminator enum property added by openapi-typescript
              * @enum {string}
              */
@@ -4106,6 +4730,12 @@ export interface components {
         WriteValue: {
             /** Path */
             path: string;
+            /**
+             * Site
+             * @description of an in-out: what this call (file:line) passes, instead of the last one
+             * @default
+             */
+            site: string;
             /**
              * Value
              * @description as typed: TRUE, 42, 16#FF, T#5s, 1.5, 'text'
@@ -4166,6 +4796,35 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["AppInfo"];
                 };
+            };
+        };
+    };
+    on_cancel_flight_api_flights__flight__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                flight: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
         };
     };
@@ -4322,6 +4981,39 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Instance"];
+                };
+            };
+        };
+    };
+    on_binding_api_instances__instance__binding_get: {
+        parameters: {
+            query: {
+                path: string;
+            };
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Binding"];
                 };
             };
         };
@@ -4656,6 +5348,41 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+        };
+    };
+    on_new_flight_api_instances__instance__flights_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewFlight"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Flight"];
+                };
             };
         };
     };
@@ -5057,6 +5784,305 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Symbol"][];
+                };
+            };
+        };
+    };
+    on_traces_api_instances__instance__traces_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceInfo"][];
+                };
+            };
+        };
+    };
+    on_new_trace_api_instances__instance__traces_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DefineTrace"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceInfo"];
+                };
+            };
+        };
+    };
+    on_define_trace_api_instances__instance__traces__trace__put: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+                trace: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DefineTrace"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceInfo"];
+                };
+            };
+        };
+    };
+    on_delete_trace_api_instances__instance__traces__trace__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+                trace: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    on_csv_api_instances__instance__traces__trace__csv_get: {
+        parameters: {
+            query?: {
+                first?: number;
+                last?: number | null;
+            };
+            header?: never;
+            path: {
+                instance: number;
+                trace: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    on_keep_api_instances__instance__traces__trace__keep_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+                trace: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["KeepTrace"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceRecordInfo"];
+                };
+            };
+        };
+    };
+    on_samples_api_instances__instance__traces__trace__samples_get: {
+        parameters: {
+            query?: {
+                first?: number;
+                last?: number | null;
+                points?: number | null;
+            };
+            header?: never;
+            path: {
+                instance: number;
+                trace: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    on_start_trace_api_instances__instance__traces__trace__start_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+                trace: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceInfo"];
+                };
+            };
+        };
+    };
+    on_stop_trace_api_instances__instance__traces__trace__stop_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+                trace: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceInfo"];
                 };
             };
         };
@@ -5708,6 +6734,37 @@ export interface operations {
             };
         };
     };
+    on_records_api_projects__project__trace_records_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceRecordInfo"][];
+                };
+            };
+        };
+    };
     on_user_errors_api_projects__project__user_errors_get: {
         parameters: {
             query?: never;
@@ -6270,6 +7327,131 @@ export interface operations {
             };
             /** @description Successful Response */
             204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    on_record_api_trace_records__record__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                record: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceRecordInfo"];
+                };
+            };
+        };
+    };
+    on_delete_record_api_trace_records__record__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                record: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    on_record_csv_api_trace_records__record__csv_get: {
+        parameters: {
+            query?: {
+                first?: number;
+                last?: number | null;
+            };
+            header?: never;
+            path: {
+                record: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    on_record_samples_api_trace_records__record__samples_get: {
+        parameters: {
+            query?: {
+                first?: number;
+                last?: number | null;
+                points?: number | null;
+            };
+            header?: never;
+            path: {
+                record: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
                 headers: {
                     [name: string]: unknown;
                 };

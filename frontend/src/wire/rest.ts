@@ -1,8 +1,8 @@
 /** The REST routes of the backend (`web/README.md` there), typed and thin. */
 import type {
-  Binding,
   Accepted,
   AppInfo,
+  Binding,
   BuildResult,
   CellRef,
   ChangeInstance,

@@ -154,4 +154,4 @@ def bytes_of(type: Type, value: Value) -> bytes:
 
 def _within(type: Type, value: Value, target: str) -> None:
     if isinstance(type, Subrange) and not type.low <= cast(Number, value) <= type.high:
-        raise NoValue(f"{value} is outside of {target}: {type.low}..{type.high}")
+        raise NoValue(f"{target}: {shown(type, value)} is outside of {type.low}..{type.high} ({type.name})")

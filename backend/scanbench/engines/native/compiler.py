@@ -9,6 +9,7 @@ from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.native import inlining, jit
 from scanbench.engines.native.emit_program import emit_program
+from scanbench.engines.native.flavour import RUN, Flavour
 from scanbench.engines.native.parts import Part, Parts
 from scanbench.garbage import without_collection
 
@@ -62,7 +63,7 @@ class Compiler:
 
     def build(self, program: Program, opt_level: int = FAST) -> Build:
         """All of the program at this level."""
-        build = self._emitted(program)
+        build = self.emitted(program)
         codes = build.fast if opt_level == FAST else build.quick
         codes.update({part: self._compiled(part, opt_level, build.timings) for part in build.parts})
         return build
@@ -76,7 +77,7 @@ class Compiler:
         first = self._parts.fresh
         if first and sum(inlining.size(pou.body) for pou in program.pous) > WHOLE:
             return self._whole(program)
-        build = self._emitted(program)
+        build = self.emitted(program)
         self.take_known(build)
         # the first only: each run of LLVM's passes leaves some memory behind, and edits are many
         if first and sum(len(part.text) for part in build.pending) <= AT_ONCE:
@@ -126,9 +127,10 @@ class Compiler:
             build.whole = None
         self._keep(part.key(FAST), code)
 
-    def _emitted(self, program: Program) -> Build:
+    def emitted(self, program: Program, flavour: Flavour = RUN) -> Build:
+        """The parts of a program, of which nothing is compiled yet."""
         start = perf_counter_ns()
-        build = Build(self._parts.of(program), jit.Timings())
+        build = Build(self._parts.of(program, flavour), jit.Timings())
         build.timings.emit = (perf_counter_ns() - start) / 1e6
         return build
 

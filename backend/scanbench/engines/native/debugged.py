@@ -4,9 +4,10 @@ The program is one module, compiled quickly, as observed code is; what its state
 """
 
 import ctypes
-from collections.abc import Sequence
+from dataclasses import dataclass
 
 from scanbench.check.program import Program
+from scanbench.check.sites import Sites
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.debug import NOTHING, READ, WRITE, DebugEngine, Frame, Hook, Listen, frame_of
 from scanbench.engines.engine import Pace, Reason, Stop
@@ -25,17 +26,27 @@ _TRAPPED = (1 << 32) + emit_debug.HALTED
 """What the loop says of the trap when the hook halted."""
 
 
+@dataclass(frozen=True, slots=True)
+class DebugCode:
+    """What was compiled for one program."""
+
+    objects: tuple[bytes, ...]
+    sites: Sites
+
+
 class DebugBuilds:
     """Compiles programs to be debugged, or takes from the cache what was compiled. Thread-safe."""
 
     def __init__(self, cache: BlobCache | None = None) -> None:
         self._cache = cache
 
-    def objects(self, program: Program) -> list[bytes]:
-        """The object code of the program."""
+    def objects(self, program: Program) -> DebugCode:
+        """All that `debug_engine` needs to make engines for the program without any delay."""
         with without_collection():
-            text = emit_program(program, Debugging(program))
-        return [self._object(text, QUICK), self._object(emit_debug.helpers(), FAST)]
+            debugging = Debugging(program)
+            text = emit_program(program, debugging)
+        objects = self._object(text, QUICK), self._object(emit_debug.helpers(), FAST)
+        return DebugCode(objects, debugging.sites)
 
     def engine(self, program: Program, memory: bytearray) -> DebugEngine:
         """An engine on this image."""
@@ -51,16 +62,16 @@ class DebugBuilds:
         return code
 
 
-def debug_engine(program: Program, memory: bytearray, objects: Sequence[bytes]) -> "NativeDebugEngine":
-    """An engine with code that `DebugBuilds` compiled for the program: only linked."""
+def debug_engine(program: Program, memory: bytearray, objects: DebugCode) -> "NativeDebugEngine":
+    """An engine with what `DebugBuilds` made for the program: only linked."""
     return NativeDebugEngine(program, memory, objects)
 
 
 class DebugObserver(NativeObserver):
     """Also tells which ways statements went."""
 
-    def __init__(self, program: Program) -> None:
-        super().__init__(program)
+    def __init__(self, program: Program, sites: Sites) -> None:
+        super().__init__(program, sites)
         self.ways = (ctypes.c_uint8 * max(len(self.sites.outcomes), 1))()
 
     def take(self) -> Seen:
@@ -94,10 +105,10 @@ class _State(ctypes.Structure):
 class NativeDebugEngine(NativeEngine, DebugEngine):
     """Runs debugged machine code."""
 
-    def __init__(self, program: Program, memory: bytearray, objects: Sequence[bytes]) -> None:
-        self.observer = DebugObserver(program)
-        self.sites = self.observer.sites
-        super().__init__(program, memory, objects=objects, observer=self.observer)
+    def __init__(self, program: Program, memory: bytearray, code: DebugCode) -> None:
+        self.observer = DebugObserver(program, code.sites)
+        self.sites = code.sites
+        super().__init__(program, memory, objects=code.objects, observer=self.observer)
         self._memory = memory
         self._hook: Hook | None = None
         self._error: BaseException | None = None

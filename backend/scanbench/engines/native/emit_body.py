@@ -73,7 +73,7 @@ class Unit:
 
     def registers(self, pou: Pou) -> dict[int, str]:
         """The frame variables of the POU that may be registers."""
-        return {} if self.flavour.whole_image else registers(pou)
+        return {} if self.flavour.whole_image else registers(pou, self.flavour.looks(pou))
 
     def signature(self, pou: Pou) -> Signature:
         """How the FUNCTION is called."""

@@ -186,7 +186,7 @@ class Debugging(Observing):
     def declare(self, unit: Unit) -> None:
         super().declare(unit)
         unit.module.declare("@debug.begin", DECLARATIONS)
-        unit.module.add(f"{STATE} = global [{STATE_BYTES} x i8] zeroinitializer, align 8")
+        unit.module.define(STATE, f"global [{STATE_BYTES} x i8] zeroinitializer, align 8")
 
     # ---- the scan ---------------------------------------------------------------------------------------------
 

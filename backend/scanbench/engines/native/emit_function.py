@@ -46,6 +46,7 @@ class FunctionText:
         self.block = "start"
         self._count = 0
         self._failures: dict[str, str] = {}
+        self._trapping_to = ""
         self._addresses: dict[tuple[str, int], str] = {}
         """Those computed in this block."""
 
@@ -85,10 +86,19 @@ class FunctionText:
 
     def fail(self, status: str) -> str:
         """The block that leaves the function with this status: the number of a trap, a value, or less than 0."""
+        if self._trapping_to:
+            return self._trapping_to
         label = self._failures.get(status)
         if label is None:
             label = self._failures[status] = self.name("fail")
         return label
+
+    @contextmanager
+    def trapping_to(self, label: str) -> Iterator[None]:
+        """What would leave the function meanwhile goes on at a block instead."""
+        self._trapping_to = label
+        yield
+        self._trapping_to = ""
 
     def trap_if(self, condition: str, trap: int) -> None:
         """Leaves with the trap where the condition holds."""

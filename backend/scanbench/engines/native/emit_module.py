@@ -1,5 +1,8 @@
 """The text of one LLVM module: functions, constants, declarations, alias tags."""
 
+from collections.abc import Iterator
+from contextlib import contextmanager
+
 ATTRIBUTES = "attributes #0 = { nounwind willreturn mustprogress }"
 
 
@@ -16,6 +19,8 @@ class ModuleText:
             '!{!"scanbench"}',
         ]
         self._tags: dict[str, str] = {"": ""}
+        self._any_variable = False
+        self._globals: dict[str, str] = {}
 
     def tag(self, variable: str) -> str:
         """Suffix of an access to this variable.
@@ -25,6 +30,8 @@ class ModuleText:
         """
         if variable.startswith("@"):
             variable = "@"
+        if self._any_variable:
+            return ""
         tag = self._tags.get(variable)
         if tag is None:
             leaf = self._node(f'!{{!"{_escape(variable.encode())}", !1, i64 0}}')
@@ -34,6 +41,21 @@ class ModuleText:
     def _node(self, text: str) -> str:
         self._metadata.append(text)
         return f"!{len(self._metadata) - 1}"
+
+    @contextmanager
+    def any_variable(self) -> Iterator[None]:
+        """Accesses meanwhile may be to any variable."""
+        self._any_variable = True
+        yield
+        self._any_variable = False
+
+    def define(self, name: str, text: str) -> None:
+        """A variable that other modules may refer to."""
+        self._globals[name] = text
+
+    def refer(self, name: str, text: str) -> None:
+        """A variable that stands in another module, unless this one defines it."""
+        self._globals.setdefault(name, text)
 
     def constant(self, data: bytes) -> str:
         """The name of a constant with these bytes."""
@@ -66,8 +88,18 @@ class ModuleText:
             f'{name} = private unnamed_addr constant [{len(data)} x i8] c"{_escape(data)}"'
             for data, name in self._constants.items()
         ]
+        shared = [f"{name} = {text}" for name, text in self._globals.items()]
         metadata = [f"!{number} = {text}" for number, text in enumerate(self._metadata)]
-        parts = [*constants, *self._reserved, *self._declarations.values(), *self._functions, ATTRIBUTES, *metadata, ""]
+        parts = [
+            *constants,
+            *shared,
+            *self._reserved,
+            *self._declarations.values(),
+            *self._functions,
+            ATTRIBUTES,
+            *metadata,
+            "",
+        ]
         return "\n".join(parts)
 
 

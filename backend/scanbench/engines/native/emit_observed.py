@@ -147,7 +147,7 @@ class Observing(Flavour):
         return pou in self.sites.bodies
 
     def declare(self, unit: Unit) -> None:
-        unit.module.add(f"{STATE} = global [{STATE_BYTES} x i8] zeroinitializer, align 8")
+        unit.module.define(STATE, f"global [{STATE_BYTES} x i8] zeroinitializer, align 8")
 
     # ---- the scan ---------------------------------------------------------------------------------------------
 

@@ -3,7 +3,7 @@
 from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING
 
-from scanbench.check.program import If, Place, Pou, ProgramInstance, Stmt
+from scanbench.check.program import Expr, If, Place, Pou, ProgramInstance, Stmt
 
 if TYPE_CHECKING:
     from scanbench.engines.native.emit_body import Body, Unit
@@ -24,6 +24,16 @@ class Flavour:
     def may_select(self, body: "Body", statement: If) -> bool:
         """Whether all branches of the IF may be run, to choose among the results."""
         return not self.exact
+
+    # ---- what a POU's code depends on -------------------------------------------------------------------------
+
+    def key(self, pou: Pou) -> object:
+        """What the flavour makes of this POU, to be compared with what it made of it in another program."""
+        return None
+
+    def looks(self, pou: Pou) -> tuple[Expr, ...]:
+        """What is evaluated in the POU's body besides."""
+        return ()
 
     # ---- the scan ---------------------------------------------------------------------------------------------
 

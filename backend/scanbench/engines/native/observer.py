@@ -5,6 +5,7 @@ import struct
 from collections.abc import Iterable
 
 from scanbench.check.program import Program
+from scanbench.check.sites import Sites
 from scanbench.engines.native import emit_observed, jit
 from scanbench.engines.observe import Observer, ReadAt, Seen, areas_end
 
@@ -17,8 +18,8 @@ _PADDING = 8
 class NativeObserver(Observer):
     """Reads what the code of one engine notes."""
 
-    def __init__(self, program: Program) -> None:
-        super().__init__(program)
+    def __init__(self, program: Program, sites: Sites | None = None) -> None:
+        super().__init__(program, sites)
         self._marks, self._spare_marks = (_memory(len(self.sites.statements)) for _ in range(2))
         self._map, self._spare_map = (_memory(areas_end(program.layout) + _PADDING) for _ in range(2))
         self._log = _memory(emit_observed.LOG_BYTES)

@@ -7,6 +7,7 @@ from scanbench.engines.native import inlining, jit
 from scanbench.engines.native.effects import Effects, touched
 from scanbench.engines.native.emit_body import SCRATCH_LIMIT, TooLarge
 from scanbench.engines.native.emit_program import Emitter
+from scanbench.engines.native.flavour import RUN, Flavour
 from scanbench.engines.native.registers import Signature, registers, signature
 from scanbench.garbage import without_collection
 
@@ -55,6 +56,8 @@ class _Body:
     callees: tuple[Pou, ...]
     shared: bool
     signature: Signature | None
+    key: object
+    """What the flavour makes of it."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -75,24 +78,24 @@ class Parts:
         """Whether there was no program before."""
         return not self._bodies
 
-    def of(self, program: Program) -> list[Part]:
+    def of(self, program: Program, flavour: Flavour = RUN) -> list[Part]:
         """One part for each POU, the scan, and the numbers that the others refer to; one part for a small program."""
         with without_collection():
             if sum(inlining.size(pou.body) for pou in program.pous) <= SMALL:
-                unit = Emitter(program).whole()
+                unit = Emitter(program, flavour=flavour).whole()
                 return _fitting([Part(unit.module.text(), unit.scratch)])
-            return self._of(program)
+            return self._of(program, flavour)
 
-    def _of(self, program: Program) -> list[Part]:
+    def _of(self, program: Program, flavour: Flavour) -> list[Part]:
         bodies: dict[Pou, _Body] = {}
         emitted: dict[Pou, _Emitted] = {}
         faces: dict[Pou, object] = {}
         writes: dict[Pou, frozenset[str]] = {}
         signatures: dict[Pou, Signature] = {}
-        emitter = Emitter(program, Effects(writes), signatures)
+        emitter = Emitter(program, Effects(writes), signatures, flavour)
         sizes = program.layout.size, program.layout.state_size
         for pou in program.pous:
-            body = bodies[pou] = self._body(pou)
+            body = bodies[pou] = self._body(pou, flavour)
             writes[pou] = body.writes.union(*(writes[callee] for callee in body.callees))
             if body.signature is not None:
                 signatures[pou] = body.signature
@@ -100,7 +103,7 @@ class Parts:
                 continue  # no POU calls a program
             called = tuple(faces[callee] for callee in body.callees)
             faces[pou] = _face(emitter.names[pou], pou, body, writes[pou], called)
-            depends = (emitter.names[pou], body.same, pou.frame_offset, sizes, called)
+            depends = (emitter.names[pou], body.same, pou.frame_offset, sizes, called, body.key)
             known = self._emitted.get(pou)
             if known is None or known.depends != depends:
                 unit = emitter.pou(pou)
@@ -110,20 +113,20 @@ class Parts:
         ends = [Part(unit.module.text(), unit.scratch) for unit in (emitter.scan(), emitter.numbers())]
         return _fitting([*(each.part for each in emitted.values()), *ends])
 
-    def _body(self, pou: Pou) -> _Body:
-        known = self._bodies.get(pou)
-        if known is not None and known.same.body is pou.body:
+    def _body(self, pou: Pou, flavour: Flavour) -> _Body:
+        known, key = self._bodies.get(pou), flavour.key(pou)
+        if known is not None and known.same.body is pou.body and known.key == key:
             return known
         writes, callees = touched(pou.body)
-        how = signature(pou, registers(pou)) if pou.kind == "function" else None
-        return _Body(_Same(pou.body), frozenset(writes), tuple(callees), inlining.shared(pou), how)
+        how = signature(pou, registers(pou, flavour.looks(pou))) if pou.kind == "function" else None
+        return _Body(_Same(pou.body), frozenset(writes), tuple(callees), inlining.shared(pou), how, key)
 
 
 def _face(name: str, pou: Pou, body: _Body, writes: frozenset[str], called: object) -> object:
     """Everything that the modules of callers may depend on."""
     how = body.signature
     passed = how and tuple((each.member.name, each.member.offset, each.passing) for each in how.all)
-    inside = (body.same, called) if body.shared else None
+    inside = (body.same, called, body.key) if body.shared else None
     return name, pou.frame_offset, passed, writes, inside
 
 

@@ -1,9 +1,10 @@
 """Which frame variables can be registers, and how a FUNCTION takes and gives its parameters."""
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 
-from scanbench.check.program import Base, Place, Pou
+from scanbench.check.program import Base, Expr, Place, Pou
 from scanbench.check.types import Elementary, Member, Section, StringType
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_types import stored
@@ -84,14 +85,16 @@ def _back(member: Member, free: dict[int, str]) -> Passing:
     return Passing.POINTER if member.offset in free else Passing.FRAME
 
 
-def registers(pou: Pou) -> dict[int, str]:
-    """Frame offsets of the variables that nothing refers to or sees a part of, with their LLVM types.
+def registers(pou: Pou, looks: Iterable[Expr] = ()) -> dict[int, str]:
+    """Frame offsets of the variables that nothing refers to or sees a part of, with their LLVM types. `looks` are
+    evaluated in the POU's body besides.
 
     A slot that only this POU follows is a register too.
     """
     members = [each for each in pou.frame.members.values() if each.storage]
     free = {each.offset: _register_type(each) for each in members}
-    for seen in walk.of_statements(pou.body):
+    seen_there = [each for expr in looks for each in walk.of_expression(expr)]
+    for seen in (*walk.of_statements(pou.body), *seen_there):
         if isinstance(seen, Pou):
             continue
         place, use = seen

@@ -147,5 +147,3 @@ class Traces:
         last = end if asked.last is None else asked.last
         samples = buffer.read(asked.first, last, asked.points)
         self._link.post(TraceRead(asked.ref, samples.pack(first, end, generation)))
-
-

@@ -2,7 +2,6 @@
 
 from collections.abc import Sequence
 from dataclasses import replace
-from typing import TypeVar
 
 from scanbench.debug.breakpoint import Breakpoint, BreakpointKind, DataAccess, Verdict
 from scanbench.session import debug_protocol as host
@@ -15,7 +14,6 @@ _ALL_LINES = 1 << 30
 _ACCESS: dict[str, DataAccess] = {"read": "read", "write": "change", "readWrite": "access"}
 """`write` is what clients offer as "break on value change"."""
 FILTERS: dict[str, BreakpointKind] = {"trap": "trap", "violation": "violation", "error": "error"}
-_T = TypeVar("_T")
 
 
 # ---- of lines ------------------------------------------------------------------------------------------------------
@@ -135,36 +133,20 @@ async def on_set_exception_breakpoints(plc: Debuggee, args: shapes.SetExceptionB
     """Traps, subrange violations, errors raised: of errors, the condition names which."""
     options = [*(shapes.FilterOptions(filter_id=each) for each in args.filters), *args.filter_options]
     wanted: dict[BreakpointKind, list[Breakpoint]] = {kind: [] for kind in FILTERS.values()}
-    counts: list[tuple[BreakpointKind, int]] = []
+    asked: list[tuple[BreakpointKind, int]] = []
     for each in options:
         kind = FILTERS.get(each.filter_id)
         if kind is None:
             raise Refused(f"there is no filter {each.filter_id}; there are {', '.join(FILTERS)}", tuple(FILTERS))
-        made = _exception(plc, kind, each.condition.strip())
-        counts.append((kind, len(made)))
-        wanted[kind] += made
+        condition = each.condition.strip()
+        made = Breakpoint(0, kind, plc.author, plc.group)
+        made = replace(made, error=condition) if kind == "error" else replace(made, condition=condition)
+        asked.append((kind, len(wanted[kind])))
+        wanted[kind].append(made)
     verdicts = {
-        kind: list(await plc.session.debugging.set_breakpoints(plc.group, kind, None, made))
-        for kind, made in wanted.items()
+        kind: await plc.session.debugging.set_breakpoints(plc.group, kind, None, made) for kind, made in wanted.items()
     }
-    told: list[Body] = []
-    for kind, count in counts:
-        mine, verdicts[kind] = verdicts[kind][:count], verdicts[kind][count:]
-        told.append(_worst(plc, mine))
-    return {"breakpoints": told}
-
-
-def _exception(plc: Debuggee, kind: BreakpointKind, condition: str) -> list[Breakpoint]:
-    if kind != "error":
-        return [Breakpoint(0, kind, plc.author, plc.group, condition=condition)]
-    errors = [each.strip() for each in condition.split(",") if each.strip()] or [""]
-    return [Breakpoint(0, kind, plc.author, plc.group, error=each) for each in errors]
-
-
-def _worst(plc: Debuggee, verdicts: Sequence[Verdict]) -> Body:
-    """One answer for a filter that became several breakpoints: the first that is not verified, if any."""
-    bodies = [tell(plc, each) for each in verdicts]
-    return next((each for each in bodies if not each["verified"]), bodies[0])
+    return {"breakpoints": [tell(plc, verdicts[kind][number]) for kind, number in asked]}
 
 
 # ---- one at a time, so that those who share a list do not undo each other's ----------------------------------------

@@ -153,6 +153,9 @@ class Conversation:
         if handler is None:
             raise Refused(f"there is no request {request.command!r} here", tuple(sorted({*own, *HANDLERS})))
         attached = self._needed()
+        if not attached.plc.breaks and request.command.endswith("Breakpoints"):
+            self._respond(request.seq, request.command, _ignored(request.arguments))
+            return
         if not handler.moves:
             self._respond(request.seq, request.command, await handler(attached.plc, request.arguments))
             return
@@ -312,6 +315,13 @@ def _without_nulls(value: object) -> object:
     if isinstance(value, dict):
         return {key: _without_nulls(each) for key, each in value.items() if each is not None}
     return [_without_nulls(each) for each in value] if isinstance(value, list) else value
+
+
+def _ignored(arguments: Body) -> Body:
+    """The answer to breakpoints of a client that did not want to debug."""
+    wanted = arguments.get("breakpoints")
+    count = len(wanted) if isinstance(wanted, list) else 0
+    return {"breakpoints": [{"verified": False, "message": "launched without debugging"}] * count}
 
 
 def _first(error: ValidationError) -> str:

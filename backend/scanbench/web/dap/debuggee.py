@@ -26,6 +26,8 @@ class Debuggee:
     group: str
     """Of its breakpoints; empty is the list that all browsers share."""
     paths: Paths
+    breaks: bool = True
+    """False: it was launched without debugging."""
     client: Initialize = field(default_factory=Initialize)
     handles: Handles = field(default_factory=Handles)
     threads: Threads = field(default_factory=Threads)

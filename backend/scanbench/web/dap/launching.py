@@ -31,6 +31,8 @@ class Found:
     """What is to be launched."""
 
     root: Path
+    real: str
+    """The same folder without links."""
     sources: Sources
     model: Model
 
@@ -54,7 +56,7 @@ class Launcher:
         await _check(found, say)
         self._solo = await Solo.start(found.root.name, found.sources, found.model, args.pace)
         session = self._solo.session
-        paths = FolderPaths(lambda: session.sources.files, str(found.root), os.path.realpath(found.root))
+        paths = FolderPaths(lambda: session.sources.files, str(found.root), found.real)
         return Debuggee(session, self._author, "launched", paths, breaks=not args.no_debug)
 
     async def attach(self, args: shapes.Attach) -> Debuggee:
@@ -101,7 +103,7 @@ def find(args: shapes.Launch) -> Found:
         model = model_named(name)
     except (NoModels, NoSuchModel) as error:
         raise Refused(str(error)) from error
-    return Found(root, Sources(model.name, texts, _interval(args.interval), 1), model)
+    return Found(root, os.path.realpath(root), Sources(model.name, texts, _interval(args.interval), 1), model)
 
 
 def _interval(text: str | None) -> int:

@@ -100,7 +100,9 @@ export function BreakpointForm({ editing, pou, onClose }: Props) {
           value={wanted.hits}
           onChange={(hits) => change({ hits })}
         />
-        {pou !== undefined && <Instances pou={pou} value={wanted.instance} onChange={(instance) => change({ instance })} />}
+        {pou !== undefined && (
+          <Instances pou={pou} value={wanted.instance} onChange={(instance) => change({ instance })} />
+        )}
         <Tasks value={wanted.task} onChange={(task) => change({ task })} />
       </div>
       <div className="row">
@@ -188,14 +190,24 @@ function Instances({ pou, value, onChange }: ChoiceProps & { pou: string }) {
   useEffect(() => void loadInstances(pou), [pou]);
   const all = new Set([...(instances ?? []), ...(value ? [value] : [])]);
   if (all.size < 2 && value === "") return null;
-  return <Choice label={t("debug.form.instance")} any={t("debug.form.any")} all={[...all]} value={value} onChange={onChange} />;
+  return (
+    <Choice
+      label={t("debug.form.instance")}
+      any={t("debug.form.any")}
+      all={[...all]}
+      value={value}
+      onChange={onChange}
+    />
+  );
 }
 
 function Tasks({ value, onChange }: ChoiceProps) {
   const tasks = useTasks();
   const all = new Set([...tasks, ...(value ? [value] : [])]);
   if (all.size < 2 && value === "") return null;
-  return <Choice label={t("debug.form.task")} any={t("debug.form.any")} all={[...all]} value={value} onChange={onChange} />;
+  return (
+    <Choice label={t("debug.form.task")} any={t("debug.form.any")} all={[...all]} value={value} onChange={onChange} />
+  );
 }
 
 function Choice({ label, any, all, value, onChange }: ChoiceProps & { label: string; any: string; all: string[] }) {
@@ -210,4 +222,3 @@ function Choice({ label, any, all, value, onChange }: ChoiceProps & { label: str
     </Labelled>
   );
 }
-

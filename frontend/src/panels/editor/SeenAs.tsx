@@ -24,7 +24,9 @@ export function SeenAs({ pou }: { pou: string }) {
       <MenuButton
         label={t("debug.seenas.label", { pou, instance })}
         className="btn quiet sm seenas"
-        items={() => all.map((path) => ({ label: path, checked: path === instance, onSelect: () => choose(pou, path) }))}
+        items={() =>
+          all.map((path) => ({ label: path, checked: path === instance, onSelect: () => choose(pou, path) }))
+        }
       >
         <span className="mono cut">{instance}</span>
         <Icon name="chev-d" small />

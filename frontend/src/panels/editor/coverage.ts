@@ -1,8 +1,9 @@
 /** Which lines were reached: bars beside the numbers, solid, dashed or hollow. */
+
+import { lineIn } from "../../logic/breakpoints";
 import { linesOf, sitesIn } from "../../logic/coverage";
 import { useCoverage } from "../../store/coverage";
 import { useDocuments } from "../../store/documents";
-import { lineIn } from "../../logic/breakpoints";
 import type { editor } from "./monaco";
 
 /** Marks them in this editor while coverage is on. Returns how to stop. */

@@ -1,8 +1,8 @@
 /** What the context menu of the text offers for debugging. */
 import { t } from "../../logic/text";
 import { runTo } from "../../store/stepping";
-import type { editor } from "./monaco";
 import type { Gutter } from "./gutter";
+import type { editor } from "./monaco";
 
 type OpenMenu = (line: number, at: { x: number; y: number }) => void;
 

@@ -59,7 +59,8 @@ function existing(known: BreakpointInfo, line: number, several: boolean): MenuIt
   return [
     {
       label: t("debug.bp.edit") + said,
-      onSelect: () => editBreakpoint({ file: known.file, line, wanted: wantedOf(known), id: known.id, does: doesOf(known) }),
+      onSelect: () =>
+        editBreakpoint({ file: known.file, line, wanted: wantedOf(known), id: known.id, does: doesOf(known) }),
     },
     {
       label: t(known.enabled ? "debug.bp.disable" : "debug.bp.enable") + said,

@@ -1,6 +1,6 @@
 /** What a name is and what it is worth now: in the frame while the program is halted, else as the instance that the text is seen as. */
 import { t } from "../../logic/text";
-import { valueOf } from "../../store/console";
+import { worthOf } from "../../store/console";
 import { useDocuments } from "../../store/documents";
 import { loadNames, seenAsNow } from "../../store/seenAs";
 import { frameNow } from "../../store/stack";
@@ -28,8 +28,8 @@ async function variable(name: string, pou: string | undefined): Promise<string[]
   const inFrame = frameNow()?.scanbench?.pou.toUpperCase() === pou.toUpperCase();
   const instance = seenAsNow(pou);
   const whole = instance === undefined ? null : `${instance}.${name}`;
-  const own = inFrame ? await valueOf(name, true) : whole && (await valueOf(whole, false));
-  const found = own || (await valueOf(name, false));
+  const own = inFrame ? await worthOf(name, true) : whole && (await worthOf(whole, false));
+  const found = own || (await worthOf(name, false));
   if (!found) return null;
   const where = inFrame || !own ? [] : [t("debug.seenas.hover", { instance })];
   return [code(`${name} : ${found.type ?? ""} := ${found.result}`), ...where];

@@ -195,4 +195,3 @@ function place(code: editor.IStandaloneCodeEditor, rows: ReadonlyMap<number, Row
     if (at) element.style.transform = `translate(${at.left - contentLeft + 24}px, ${at.top}px)`;
   }
 }
-

@@ -1,7 +1,9 @@
-import { type KeyboardEvent, useEffect, useRef } from "react";
+import { type KeyboardEvent, type MouseEvent, useEffect, useRef, useState } from "react";
 import { type CatalogueRow, rowFor } from "../../logic/catalogue";
 import { t } from "../../logic/text";
+import { addErrorBreakpoint } from "../../store/debug";
 import { selectError, toggleChecked, toggleGroup, useSimulator } from "../../store/simulator";
+import { Menu, type MenuItem } from "../../ui/Menu";
 import { Group, Leaf, RefusalRow } from "./rows";
 
 interface Props {
@@ -21,7 +23,23 @@ export function ErrorTree({ rows, label, refused, onGenerate }: Props) {
   const typed = useRef({ text: "", at: 0 });
   const selected = useSimulator((state) => state.selected);
   const now = rows.findIndex((row) => row.key === selected);
+  const [menu, setMenu] = useState<{ items: readonly MenuItem[]; at: { x: number; y: number } } | null>(null);
   useRowInSight(grid, selected);
+
+  /** By the mouse at the row below it, by the menu key at the one selected. */
+  function onContextMenu(event: MouseEvent): void {
+    const below = (event.target as HTMLElement).closest<HTMLElement>("[data-key]")?.dataset.key ?? selected;
+    const row = rows.find(({ key }) => key === below);
+    if (row?.kind !== "error") return;
+    event.preventDefault();
+    selectError(row.key);
+    const raised: MenuItem = {
+      label: t("debug.break.error"),
+      icon: "bp-data",
+      onSelect: () => void addErrorBreakpoint(row.error.id),
+    };
+    setMenu({ items: [raised], at: { x: event.clientX, y: event.clientY } });
+  }
 
   function move(index: number): void {
     const row = rows[Math.max(0, Math.min(rows.length - 1, index))];
@@ -72,6 +90,7 @@ export function ErrorTree({ rows, label, refused, onGenerate }: Props) {
       aria-activedescendant={now >= 0 ? `error-${now}` : undefined}
       tabIndex={0}
       onKeyDown={onKeyDown}
+      onContextMenu={onContextMenu}
       onFocus={(event) => {
         // A click brings the focus, too, and the rows must not move away below the pointer.
         if (now < 0 && event.currentTarget.matches(":focus-visible")) move(0);
@@ -88,6 +107,7 @@ export function ErrorTree({ rows, label, refused, onGenerate }: Props) {
         ),
       )}
       {rows.length === 0 && <p className="lonely faint">{t("errors.nomatch")}</p>}
+      {menu && <Menu label={t("menu.label")} {...menu} onClose={() => setMenu(null)} />}
     </div>
   );
 }

@@ -18,6 +18,7 @@ const LOOK: Record<LogLine["kind"], { icon: IconName; tone: string }> = {
   run: { icon: "running", tone: "stopped" },
   build: { icon: "init", tone: "stopped" },
   system: { icon: "info", tone: "warning" },
+  halt: { icon: "halted", tone: "halted" },
 };
 
 /** Everything that was done to this PLC, by whom and before which scan; the newest at the end. */

@@ -1,5 +1,6 @@
 import { interval, percent } from "../../logic/numbers";
 import { languageNames, languages, t } from "../../logic/text";
+import { useDebug } from "../../store/debug";
 import { isDirty, useDocuments } from "../../store/documents";
 import { showPanel } from "../../store/navigate";
 import { useOnline, usePlc } from "../../store/plc";
@@ -33,6 +34,7 @@ export function StatusBar() {
           {t("status.program", { version: state.program_version })}
         </span>
       )}
+      {state && state.flavour !== "" && <span title={t("status.flavour.hint")}>{t("status.flavour", state)}</span>}
       {state !== null && state.restarts > 0 && (
         <span>{t(state.restarts === 1 ? "status.restarts.one" : "status.restarts", { count: state.restarts })}</span>
       )}
@@ -98,7 +100,8 @@ function Sweeping() {
 function RunRefusal() {
   const order = useRun((run) => run.refused);
   const journey = useTimeline((timeline) => timeline.refused);
-  const refused = order ?? journey;
+  const steps = useDebug((debug) => debug.refused);
+  const refused = order ?? journey ?? steps;
   if (!refused) return null;
   return (
     <span className="st fatal" role="alert" title={refused}>

@@ -19,6 +19,7 @@ const LOOK: Record<Mark["kind"], { icon: IconName | null; tone: string }> = {
   mode: { icon: "swap", tone: "plain" },
   build: { icon: "init", tone: "plain" },
   system: { icon: "info", tone: "system" },
+  halt: { icon: "bp", tone: "brk" },
 };
 
 /** Room for an icon and a number of two digits with its plus. */

@@ -1,58 +1,101 @@
+import { permits } from "../../logic/stepping";
 import { t } from "../../logic/text";
 import { useForbidden, useOnline, usePlc } from "../../store/plc";
 import { runAction, singleScan } from "../../store/run";
+import { step } from "../../store/stepping";
 import { stepBack, useTimeline } from "../../store/timeline";
 import { IconButton } from "../../ui/IconButton";
 import { RestartMenu } from "./RestartMenu";
 import { RunMenu } from "./RunMenu";
 import { SpeedMenu } from "./SpeedMenu";
 
-/** Back, continue, pause, single scan, restart, speed: each at its place, usable when it means something. */
+/** Back, continue or pause, steps, single scan, restart, speed: each at its place, usable when it means something. */
 export function RunControls() {
   const state = usePlc((plc) => plc.state);
   const online = useOnline();
   const forbidden = useForbidden("run");
-  const first = useTimeline((timeline) => timeline.info?.first_scan ?? 0);
+  const halted = online && state?.halt != null;
   const past = online && state?.past != null;
   const running = forbidden === null && state?.state === "running";
   const paused = forbidden === null && state?.state === "paused";
   return (
     <>
       <div className="runset" role="toolbar" aria-label={t("run.label")}>
-        <IconButton
-          icon="step-back"
-          label={t("run.back")}
-          hint="Shift+F8"
-          disabled={!(past || paused) || (state?.scan ?? 0) <= first}
-          onClick={stepBack}
-        />
-        <IconButton
-          icon="play"
-          label={t("run.continue")}
-          hint="F5"
-          className={paused ? "go" : ""}
-          disabled={!paused}
-          onClick={() => void runAction("continue")}
-        />
-        <IconButton
-          icon="pause"
-          label={t("run.pause")}
-          hint="F5"
-          disabled={!running}
-          onClick={() => void runAction("pause")}
-        />
+        <Back />
+        {running ? (
+          <IconButton icon="pause" label={t("run.pause")} hint="F5" onClick={() => void runAction("pause")} />
+        ) : (
+          <IconButton
+            icon="play"
+            label={t("run.continue")}
+            hint="F5"
+            className={paused || halted ? "go" : ""}
+            disabled={!paused && !halted}
+            onClick={() => void (halted ? step("continue") : runAction("continue"))}
+          />
+        )}
+        <Steps />
+        <span className="vr" />
         <IconButton
           icon="scan"
-          label={t(past ? "run.scan.past" : "run.scan")}
+          label={t(past && !halted ? "run.scan.past" : "run.scan")}
           hint="F8"
-          disabled={!(past || paused)}
+          disabled={!(past || paused || halted)}
           onClick={singleScan}
         />
-        <RunMenu disabled={!(running || paused)} />
-        <span className="vr" />
+        <RunMenu disabled={!(running || paused || halted)} />
         <RestartMenu />
       </div>
       <SpeedMenu />
     </>
   );
+}
+
+/** A statement back while one stands at one; else a scan. */
+function Back() {
+  const state = usePlc((plc) => plc.state);
+  const online = useOnline();
+  const first = useTimeline((timeline) => timeline.info?.first_scan ?? 0);
+  if (state?.halt) {
+    return (
+      <IconButton
+        icon="step-back"
+        label={t("debug.back")}
+        hint="Shift+F10"
+        disabled={!online}
+        onClick={() => void step("stepBack")}
+      />
+    );
+  }
+  const stands = online && (state?.past != null || state?.state === "paused");
+  return (
+    <IconButton
+      icon="step-back"
+      label={t("run.back")}
+      hint="Shift+F8"
+      disabled={!stands || (state?.scan ?? 0) <= first}
+      onClick={stepBack}
+    />
+  );
+}
+
+const STEPS = [
+  { command: "next", icon: "step-over", text: "debug.over", key: "F10" },
+  { command: "stepIn", icon: "step-in", text: "debug.in", key: "F11" },
+  { command: "stepOut", icon: "step-out", text: "debug.out", key: "Shift+F11" },
+] as const;
+
+function Steps() {
+  const state = usePlc((plc) => plc.state);
+  const online = useOnline();
+  return STEPS.map(({ command, icon, text, key }) => (
+    <IconButton
+      key={command}
+      icon={icon}
+      label={t(text)}
+      hint={key}
+      disabled={!online || !permits(state, command)}
+      onClick={() => void step(command)}
+    />
+  ));
 }

@@ -1,6 +1,10 @@
 import { useState } from "react";
+import { permits } from "../../logic/stepping";
 import { t } from "../../logic/text";
+import { caretPlace } from "../../store/debugKeys";
+import { usePlc } from "../../store/plc";
 import { runUntilAgain, useRun } from "../../store/run";
+import { runToCaret, step } from "../../store/stepping";
 import { Icon } from "../../ui/Icon";
 import { MenuButton } from "../../ui/Menu";
 import { RunScans } from "./RunScans";
@@ -12,6 +16,7 @@ type Asking = "scans" | "until" | null;
 export function RunMenu({ disabled }: { disabled: boolean }) {
   const [asking, setAsking] = useState<Asking>(null);
   const conditions = useRun((run) => run.conditions);
+  const state = usePlc((plc) => plc.state);
   return (
     <>
       <MenuButton
@@ -21,6 +26,20 @@ export function RunMenu({ disabled }: { disabled: boolean }) {
         items={() => [
           { label: t("run.scans"), icon: "scan", onSelect: () => setAsking("scans") },
           { label: t("run.until"), icon: "until", onSelect: () => setAsking("until") },
+          {
+            label: t("debug.runcaret"),
+            icon: "here",
+            hint: "Ctrl+F10",
+            disabled: caretPlace() === null,
+            onSelect: runToCaret,
+          },
+          {
+            label: t("debug.reverse"),
+            icon: "reverse",
+            hint: "Alt+F5",
+            disabled: !permits(state, "reverseContinue"),
+            onSelect: () => void step("reverseContinue"),
+          },
           ...conditions.map((condition, index) => ({
             label: t("run.until.last", { condition }),
             separated: index === 0,

@@ -1,4 +1,4 @@
-import { type KeyboardEvent, useEffect, useId, useRef, useState } from "react";
+import { type ClipboardEvent, type KeyboardEvent, useEffect, useId, useRef, useState } from "react";
 import { pathsIn } from "../../logic/paths";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
@@ -9,7 +9,7 @@ import type { PlcSymbol } from "../../wire/types";
 
 const DELAY = 80;
 
-/** Typing a path or an address, with what the running program has to offer. Enter adds it. */
+/** Typing a path, an address or a range of them, with what the running program has to offer. Enter adds it. */
 export function AddBox() {
   const [text, setText] = useState("");
   const [offers, setOffers] = useState<readonly PlcSymbol[]>([]);
@@ -17,7 +17,10 @@ export function AddBox() {
   const turn = useRef(0);
   const id = useId();
   // A model without areas is watched by variables only.
-  const example = useBench(({ model }) => [model?.areas[0]?.first, model?.code_word].filter(Boolean).join(", "));
+  const example = useBench(({ model }) => {
+    const first = model?.areas[0]?.first;
+    return [first, model?.code_word, first && `${first}:8`].filter(Boolean).join(", ");
+  });
 
   useEffect(() => {
     turn.current += 1;
@@ -55,6 +58,15 @@ export function AddBox() {
     event.preventDefault();
   }
 
+  // One line is edited as usual; many lines are many entries.
+  function onPaste(event: ClipboardEvent): void {
+    const pasted = event.clipboardData.getData("text/plain");
+    if (!/\S[\r\n]+\s*\S/.test(pasted)) return;
+    event.preventDefault();
+    event.stopPropagation();
+    add(pathsIn(pasted));
+  }
+
   const open = offers.length > 0;
   return (
     <div className="addbox">
@@ -73,6 +85,7 @@ export function AddBox() {
           autoComplete="off"
           onChange={(event) => setText(event.target.value)}
           onKeyDown={onKeyDown}
+          onPaste={onPaste}
           onBlur={() => setOffers([])}
         />
       </span>

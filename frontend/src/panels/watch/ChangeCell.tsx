@@ -2,11 +2,11 @@ import type { KeyboardEvent } from "react";
 import { t } from "../../logic/text";
 import type { ValueRow } from "../../logic/watchrows";
 import { useForbidden, useOnline } from "../../store/plc";
-import { select, setDraft, useWatchList, write } from "../../store/watchlist";
+import { force, releaseForce, select, setDraft, useWatchList, write } from "../../store/watchlist";
 import { Icon } from "../../ui/Icon";
 import type { PlcSymbol } from "../../wire/types";
 
-/** Where a value is typed. Enter writes it; what was refused stays, with the reason below: the PLC says why a read-only value is none. */
+/** Where a value is typed. Enter writes it, F7 forces it; what was refused stays, with the reason below: the PLC says why a read-only value is none. */
 export function ChangeCell({ row, symbol, forced }: { row: ValueRow; symbol: PlcSymbol | null; forced: boolean }) {
   const draft = useWatchList((list) => list.drafts.get(row.path)) ?? "";
   const online = useOnline();
@@ -18,7 +18,9 @@ export function ChangeCell({ row, symbol, forced }: { row: ValueRow; symbol: Plc
   if (!symbol || symbol.expandable) return <span className="edit" role="gridcell" />;
 
   function onKeyDown(event: KeyboardEvent<HTMLInputElement>): void {
-    if (event.key === "Enter" && draft !== "" && locked === null) void write(row.path, draft);
+    if (event.key === "Enter" && draft !== "" && locked === null) void write(row.path, row.root, draft);
+    else if (event.key === "F7" && event.shiftKey) void releaseForce(row.path);
+    else if (event.key === "F7" && draft !== "") void force(row.path, row.root, draft);
     else if (event.key === "Escape") {
       setDraft(row.path, "");
       event.currentTarget.closest<HTMLElement>("[role=treegrid]")?.focus();

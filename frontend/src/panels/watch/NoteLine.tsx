@@ -1,15 +1,26 @@
 import type { CSSProperties } from "react";
 import { t } from "../../logic/text";
 import type { NoteRow } from "../../logic/watchrows";
-import { replaceInWatch } from "../../store/watchlist";
+import { force, replaceInWatch, setDraft, write } from "../../store/watchlist";
 import { Icon } from "../../ui/Icon";
 
-/** What a row has to say: why nothing was written, what is not known and what it may have meant. */
+/** What a row has to say: why nothing was written and what would be, what is not known and what it may have meant. */
 export function NoteLine({ row, style, index }: { row: NoteRow; style: CSSProperties; index: number }) {
-  const { note } = row;
+  const { note, path, root } = row;
   const refused = note.kind !== "unsent";
-  const head = { refused: t("notwritten"), unsent: t("notsent"), unknown: t("notknown") }[note.kind];
+  const forcing = note.verb === "force";
+  const head = {
+    refused: t(forcing ? "notforced" : "notwritten"),
+    unsent: t("notsent"),
+    unknown: t("notknown"),
+  }[note.kind];
   const message = note.message || t("notsent.about");
+
+  function take(value: string): void {
+    setDraft(path, value);
+    void (forcing ? force(path, root, value) : write(path, root, value));
+  }
+
   return (
     <div className={`gr note${refused ? " bad" : ""}`} role="row" style={style} aria-rowindex={index + 2}>
       <span className="full" role="gridcell">
@@ -17,9 +28,15 @@ export function NoteLine({ row, style, index }: { row: NoteRow; style: CSSProper
         <span className="cut" role="alert" title={message}>
           <b>{head}</b> {message}
         </span>
-        {note.near.slice(0, 3).map((near) => (
-          <button key={near} type="button" className="link mono" onClick={() => replaceInWatch(row.root, near)}>
-            {near}
+        {note.kind === "unknown" &&
+          note.near.slice(0, 3).map((near) => (
+            <button key={near} type="button" className="link mono" onClick={() => replaceInWatch(root, near)}>
+              {near}
+            </button>
+          ))}
+        {note.instead.map((value) => (
+          <button key={value} type="button" className="link" onClick={() => take(value)}>
+            {t(forcing ? "watch.instead.force" : "watch.instead.write", { value })}
           </button>
         ))}
       </span>

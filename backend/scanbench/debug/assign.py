@@ -1,0 +1,86 @@
+"""Assignments from outside in the scope of a frame: what an execution point does, and an expression that assigns."""
+
+from dataclasses import dataclass
+
+from scanbench.check.condition import BadCondition
+from scanbench.check.local import locals_of
+from scanbench.check.program import Pou, Program
+from scanbench.check.types import ArrayType, OpenArray, Record, Type
+from scanbench.check.values import format_value
+from scanbench.debug.called import called
+from scanbench.engines.interpreter.evaluate import Evaluator, NoValue, Spot
+from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
+from scanbench.runtime.forces import read_table
+from scanbench.runtime.rights import Right, may
+
+
+@dataclass(frozen=True, slots=True)
+class Assign(Command):
+    """`text` as typed, `a := a + 1; b := TRUE;`, in the scope of a POU: values are those of the moment."""
+
+    pou: str
+    """Empty: of the whole program."""
+    instance: int
+    """Byte offset of its instance."""
+    text: str
+
+    def plan(self, view: View) -> Plan | Refusal:
+        """A patch for each assignment, in their order."""
+        program = view.statements
+        pou = pou_of(program, self.pou)
+        if isinstance(pou, Refusal):
+            return pou
+        local = locals_of(program).assignments(pou, self.text)
+        if isinstance(local, BadCondition):
+            return Refusal(local.message, local.near)
+        try:
+            stored = Evaluator(program, bytearray(view.memory)).assigned(local, self.instance)
+        except NoValue as error:
+            return Refusal(str(error))
+        for (spot, type, _), each in zip(stored, local.assignments, strict=False):
+            refusal = refused(view, spot, type, each.shown)
+            if refusal is not None:
+                return refusal
+        patches = tuple(patch(spot, data) for spot, _, data in stored)
+        return Plan(patches, "; ".join(_said(program, *each) for each in stored) or f"{self.text}: nothing to do")
+
+
+def pou_of(program: Program, name: str) -> Pou | Refusal | None:
+    """The POU of this name; None for the whole program."""
+    if not name:
+        return None
+    found = next((each for each in program.pous if each.name.upper() == name.upper()), None)
+    return found or Refusal(f"the program has no POU {name} any more")
+
+
+def patch(spot: Spot, data: bytes) -> Patch:
+    """What stores a value there."""
+    offset, bit = spot
+    return Patch.whole(offset, data) if bit is None else Patch.of_bit(offset, bit, data[0] != 0)
+
+
+def refused(view: View, spot: Spot, type: Type, shown: str) -> Refusal | None:
+    """Why a tool may not write there."""
+    offset, bit = spot
+    found = view.program.layout.area_at(offset)
+    if found is not None and found[0].access(found[1] // 2, "tool") != "write":
+        where = called(view.program, offset, bit, type)
+        return Refusal(f"{shown}: {where} is read-only for tools on {view.model.name}, as on the device")
+    table = read_table(view.memory)
+    one = 1 << bit if bit is not None else 0xFF
+    size = 1 if bit is not None else type.size
+    if any(table.get(at, (0, 0))[0] & one for at in range(offset, offset + size)):
+        return Refusal(f"{shown} is forced, so a write would be lost: release the force first")
+    return may(view.header.mode, Right.WRITE, shown)
+
+
+def _said(program: Program, spot: Spot, type: Type, data: bytes) -> str:
+    whole = isinstance(type, ArrayType | OpenArray | Record)
+    value = (
+        f"({type.name})"
+        if whole
+        else ("TRUE" if data[0] else "FALSE")
+        if spot[1] is not None
+        else format_value(type, data)
+    )
+    return f"{called(program, *spot, type)} := {value}"

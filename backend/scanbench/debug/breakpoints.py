@@ -1,0 +1,60 @@
+"""All breakpoints of one PLC, group by group, as they stand in the program that runs."""
+
+from scanbench.debug.breakpoint import Breakpoint
+from scanbench.debug.placed import Placed, Placing
+from scanbench.debug.texts import Texts
+from scanbench.runtime.programs import Loaded
+
+_KEPT = 3
+"""Programs whose statements stay known."""
+
+
+class Breakpoints:
+    """Keeps them in the order in which they were set."""
+
+    def __init__(self) -> None:
+        self.placed: tuple[Placed, ...] = ()
+        self._placings: list[tuple[Loaded, Placing]] = []
+
+    def placing(self, loaded: Loaded) -> Placing:
+        """Places breakpoints in this program."""
+        found = next((placing for known, placing in self._placings if known is loaded), None)
+        if found is None or found.program is not loaded.statements:
+            sites, program = loaded.debugged().sites, loaded.statements
+            found = Placing(program, sites, Texts(program, loaded.memory))
+            rest = [each for each in self._placings if each[0] is not loaded]
+            self._placings = [*rest[1 - _KEPT :], (loaded, found)]
+        return found
+
+    def set(
+        self, group: str, kind: str | None, file: str | None, breakpoints: tuple[Breakpoint, ...], placing: Placing,
+        scan: int,
+    ) -> list[Placed]:  # fmt: skip
+        """Puts these in the place of those of the group, of a kind and a file only where these are given. What stays
+        as it was goes on counting."""
+
+        def replaced(each: Breakpoint) -> bool:
+            same_file = file is None or (each.kind == "line" and each.file == file)
+            return each.group == group and (kind is None or each.kind == kind) and same_file
+
+        known = {each.breakpoint: each for each in self.placed}
+        made = [known.get(each) or placing.place(each, scan) for each in breakpoints]
+        self.placed = (*(each for each in self.placed if not replaced(each.breakpoint)), *made)
+        return made
+
+    def place_again(self, loaded: Loaded, scan: int) -> None:
+        """In another program."""
+        if not self.placed:
+            return
+        placing = self.placing(loaded)
+        again = []
+        for old in self.placed:
+            new = placing.place(old.breakpoint, scan)
+            new.hits = old.hits
+            again.append(new)
+        self.placed = tuple(again)
+
+    def placed_in(self, loaded: Loaded, scan: int) -> tuple[Placed, ...]:
+        """Where they would stand in a program of the past."""
+        placing = self.placing(loaded)
+        return tuple(placing.place(each.breakpoint, scan) for each in self.placed)

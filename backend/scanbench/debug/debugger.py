@@ -1,0 +1,356 @@
+"""The debugger of one PLC: breakpoints, halts, steps, forward and back. In the thread that runs the scans."""
+
+from typing import Protocol
+
+from scanbench.debug.assign import Assign
+from scanbench.debug.breakpoint import Breakpoint, Verdict
+from scanbench.debug.breakpoints import Breakpoints
+from scanbench.debug.goals import Goal
+from scanbench.debug.halt import Halt
+from scanbench.debug.listener import Actions, Found, Listener, Position
+from scanbench.debug.past import Past
+from scanbench.debug.placed import Placing, error_names
+from scanbench.debug.standing import halt_of
+from scanbench.engines.debug import NOTHING, Frame, Listen
+from scanbench.engines.engine import Pace, Reason, Stop
+from scanbench.problems import Span
+from scanbench.runtime.command import Command, Entry, Refusal
+from scanbench.runtime.inside import HaltAt
+from scanbench.runtime.resource import Resource
+from scanbench.runtime.timeline import Timeline
+
+STEPS = ("continue", "in", "over", "out", "statement", "scan", "to", "pause", "entry")
+
+
+class Told(Protocol):
+    """Who is told what breakpoints do, and knows what the debugger does not."""
+
+    def said(self, breakpoint: Breakpoint, text: str, scan: int, span: Span | None) -> None:
+        """A logpoint was reached."""
+
+    def raised(self, entry: Entry) -> tuple[str, ...]:
+        """The errors that an entry of the journal raises."""
+
+
+class Debugger:
+    """Runs the PLC in place of its timeline. While `halt` stands it must not be run."""
+
+    def __init__(self, timeline: Timeline, told: Told) -> None:
+        self._timeline, self._told = timeline, told
+        self.breakpoints = Breakpoints()
+        self.covering = False
+        """Somebody wants to know what is reached: the debug flavour runs."""
+        self.changed = False
+        """Whether hits were counted since somebody last looked."""
+        self._live_halt: Halt | None = None
+        self._past_halt: Halt | None = None
+        self._number = 0
+        self._goal: Goal | None = None
+        self._pending: Found | None = None
+        self._listener: Listener | None = None
+        self._trap_found: Found | None = None
+        self._trap_seen: Position | None = None
+        """The statement in front of which it halted before it traps."""
+        self._last_entry: Entry | None = None
+        self._past = Past(timeline, self.breakpoints)
+        timeline.resource.on_trap = self._on_trap
+        self._note_entries()
+
+    # ---- what there is --------------------------------------------------------------------------------------------
+
+    @property
+    def resource(self) -> Resource:
+        """What is shown."""
+        return self._timeline.resource
+
+    @property
+    def halt(self) -> Halt | None:
+        """Where it is halted: the PLC, or what is shown of its past."""
+        return self._past_halt if self._timeline.past else self._live_halt
+
+    @property
+    def moving(self) -> bool:
+        """Whether a step goes on in the past: `move` is to be called."""
+        return self._past.moving
+
+    @property
+    def busy(self) -> bool:
+        """Whether the debug flavour is wanted now, or may be at any time."""
+        listens = any(each.active for each in self.breakpoints.placed)
+        return listens or self.covering or self._goal is not None or self.halt is not None or self._timeline.past
+
+    @property
+    def flavour(self) -> str:
+        """Which code runs."""
+        return "" if self.resource.hook is None else "debug"
+
+    @property
+    def verdicts(self) -> tuple[Verdict, ...]:
+        """All breakpoints, and what became of each."""
+        sites = self._placing.sites if self.breakpoints.placed else None
+        return () if sites is None else tuple(each.verdict(sites) for each in self.breakpoints.placed)
+
+    @property
+    def placing(self) -> Placing:
+        """Of the program that is shown."""
+        return self._placing
+
+    @property
+    def _placing(self) -> Placing:
+        return self.breakpoints.placing(self.resource.loaded)
+
+    # ---- breakpoints ----------------------------------------------------------------------------------------------
+
+    def set(
+        self, group: str, kind: str | None, file: str | None, breakpoints: tuple[Breakpoint, ...]
+    ) -> tuple[Verdict, ...]:  # fmt: skip
+        """All breakpoints of a group from now on; `kind` and `file` narrow that."""
+        placing = self.breakpoints.placing(self._timeline.live)
+        made = self.breakpoints.set(group, kind, file, breakpoints, placing, self._timeline.live_scan)
+        self._listener = None
+        return tuple(each.verdict(placing.sites) for each in made)
+
+    def moved(self) -> None:
+        """Another program runs: each breakpoint has to find its place in it."""
+        self.breakpoints.place_again(self._timeline.live, self._timeline.live_scan)
+        self._listener, self.changed = None, True
+        if not self._timeline.past:
+            self._goal = None
+
+    # ---- running --------------------------------------------------------------------------------------------------
+
+    def run(self, scans: int, pace: Pace | None = None) -> Stop:
+        """As `Timeline.run`. HALTED: `halt` says where, and it is not to be run until somebody steps."""
+        if self._live_halt is not None:
+            raise RuntimeError("the PLC is halted: it must not be run")
+        resource = self.resource
+        scans = min(scans, self._until_scan_breakpoint())
+        listener = self._arm()
+        if listener is not None:
+            listener.begin()
+        stop = self._timeline.run(scans, pace)
+        self._look_for_errors()
+        if stop.reason is Reason.HALTED:
+            found = self._trap_found or (listener.found if listener is not None else None)
+            self._trap_found = None
+            assert found is not None
+            self._halted(found)
+        elif listener is not None and not resource.begun:
+            found = listener.behind_scan()
+            if found is not None:
+                self._halted(found)
+                return Stop(Reason.HALTED)
+        if not resource.runnable:
+            self._goal = self._pending = None
+        return stop
+
+    def submit(self, command: Command) -> Entry | Refusal:
+        """As `Timeline.submit`; what needs the seam lets a halted scan run to its end."""
+        if self._timeline.past:
+            return self._timeline.submit(command)
+        halt, listener = self._live_halt, self._listener
+        if halt is not None and self.resource.inside is not None and listener is not None:
+            listener.goal, listener.finishing = None, True
+            listener.passed.begin = halt.scan, halt.count
+            listener.begin()
+        outcome = self._timeline.submit(command)
+        if listener is not None:
+            listener.finishing = False
+        self._look_for_errors()
+        if halt is not None and not self.resource.begun and halt.count:
+            self._halted(Found(halt.reason, f"{halt.text}; the scan ran to its end", halt.by, halt.breakpoints))
+        return outcome
+
+    def step(self, action: str, author: str, file: str = "", line: int = 0, path: str = "") -> Refusal | None:
+        """Begins a step: it is over when `halt` is another. Steps back are done at once."""
+        if action in ("back", "reverse"):
+            return self._back(action, author, path)
+        if action not in STEPS:
+            return Refusal(f"there is no step `{action}`: there are {', '.join(STEPS)}, back, reverse")
+        goal = self._goal_of(action, author, file, line)
+        if isinstance(goal, Refusal):
+            return goal
+        if self._timeline.past:
+            self._past_halt = None
+            self._past.begin(goal)
+            return None
+        if not self.resource.runnable and not self.resource.begun:
+            return Refusal("the program is stopped: let it run first")
+        if action == "pause" and self._live_halt is not None:
+            return None
+        self._goal, self._live_halt = None if action == "continue" else goal, None
+        return None
+
+    def forget_step(self) -> None:
+        """A step that is under way is not to halt any more."""
+        self._goal = self._pending = None
+
+    def move(self) -> None:
+        """Goes on with a step in the past."""
+        found = self._past.move()
+        if found is None:
+            return
+        if found == "live":
+            self._return()
+        else:
+            self._number += 1
+            self._past_halt = halt_of(self.resource, self._placing, found, self._number, True)
+
+    def travelled(self) -> None:
+        """Somebody went to the past, or returned."""
+        self._past.stop()
+        self._past_halt = None
+
+    # ---- halting --------------------------------------------------------------------------------------------------
+
+    def _halted(self, found: Found) -> None:
+        self._number += 1
+        self._goal = self._pending = None
+        self._live_halt = halt_of(self.resource, self._placing, found, self._number, False)
+
+    def _arm(self) -> Listener | None:
+        """Who listens from now on; nobody where there is nothing to listen for."""
+        resource, placed = self.resource, self.breakpoints.placed
+        listener = self._listener
+        if listener is None:
+            listener = self._listener = Listener(resource, self._placing, placed, _Acting(self, resource))
+        due = self._until_scan_breakpoint(0) == 0
+        wanted = listener.needed or self._goal is not None or self._pending is not None or self.covering or due
+        if not wanted:
+            if resource.hook is not None:
+                resource.look()
+            resource.hook = None
+            return None
+        listener.goal, listener.pending = self._goal, self._pending or listener.pending
+        inside = resource.inside
+        listener.passed.begin = (resource.header.scan, inside.count) if inside is not None else (-1, 0)
+        resource.hook = listener
+        return listener
+
+    def _until_scan_breakpoint(self, least: int = 1) -> int:
+        """Scans that may run until the debug flavour is needed for a breakpoint at a scan."""
+        scan = self.resource.header.scan
+        each = [
+            one.breakpoint.scan - scan
+            for one in self.breakpoints.placed
+            if one.breakpoint.kind == "scan" and one.active
+        ]
+        ahead = [one for one in each if one >= 0]
+        return max(least, min(ahead)) if ahead else 1 << 40
+
+    def _look_for_errors(self) -> None:
+        """Errors that were raised since: the next statement is the first one behind them."""
+        new = self._note_entries()
+        kinds = [each for each in self.breakpoints.placed if each.active and each.breakpoint.kind == "error"]
+        if not kinds or not new:
+            return
+        for entry in new:
+            for error in self._told.raised(entry):
+                for placed in kinds:
+                    names = error_names(placed.breakpoint)
+                    if not names or error in names:
+                        placed.hits += 1
+                        self.changed = True
+                        if placed.rule is None or placed.rule.holds(placed.hits):
+                            by = placed.breakpoint.author
+                            self._pending = Found("error", f"{error} was raised", by, (placed.breakpoint.id,))
+
+    def _note_entries(self) -> list[Entry]:
+        """Entries of the journal since the last time."""
+        journal, last = self._timeline.live_journal, self._last_entry
+        index = len(journal)
+        while index and journal[index - 1] is not last:
+            index -= 1
+        self._last_entry = journal[-1] if journal else None
+        return journal[index:] if index or last is None else []
+
+    # ---- traps ----------------------------------------------------------------------------------------------------
+
+    def _on_trap(self) -> bool:
+        """In front of the statement that traps, if somebody wants that; it is run again up to there."""
+        breakpoints = [each for each in self.breakpoints.placed if each.active and each.breakpoint.kind == "trap"]
+        resource = self.resource
+        scan = resource.header.scan
+        if not breakpoints or (self._trap_seen is not None and self._trap_seen[0] == scan):
+            self._trap_seen = None
+            return False
+        hook = resource.hook
+        self._timeline.rewind()
+        engine = resource.loaded.debugged()
+        try:
+            resource.hook = HaltAt(0)
+            resource.listen(NOTHING)
+            self._rerun()
+            count = engine.count
+            resource.memory[:] = engine.begin
+            if count:
+                resource.hook = HaltAt(count)
+                resource.listen(Listen(count=count))
+                self._rerun()
+        finally:
+            resource.hook = hook
+        if resource.inside is None:
+            return False
+        self._trap_seen = scan, count
+        placed = breakpoints[0]
+        placed.hits += 1
+        self.changed = True
+        text = "the statement ends in a run-time error"
+        self._trap_found = Found("trap", text, placed.breakpoint.author, (placed.breakpoint.id,))
+        return True
+
+    def _rerun(self) -> None:
+        while self.resource.rerun(1).reason is Reason.KNOCKED:
+            pass
+
+    # ---- the past -------------------------------------------------------------------------------------------------
+
+    def _back(self, action: str, author: str, path: str) -> Refusal | None:
+        if self.resource.runnable and self._live_halt is None and not self._timeline.past and self._goal is not None:
+            return Refusal("a step is under way: wait until it is over, or pause")
+        found = self._past.back(author) if action == "back" else self._past.reverse(author, path)
+        if isinstance(found, Refusal):
+            return found
+        self._number += 1
+        self._past_halt = halt_of(self.resource, self._placing, found, self._number, True)
+        return None
+
+    def _return(self) -> None:
+        """Back to where the PLC stands."""
+        self._timeline.return_live()
+        self._past_halt = None
+        if self._live_halt is None:
+            self._halted(Found("step", "this is where the PLC stands", ""))
+
+    def _goal_of(self, action: str, author: str, file: str, line: int) -> Goal | Refusal:
+        inside = self.resource.inside
+        frames = inside.frames if inside is not None else ()
+        sites: frozenset[int] = frozenset()
+        if action == "to":
+            placed = self._placing.place(Breakpoint(0, "line", author, file=file, line=line), self.resource.header.scan)
+            if placed.flaw:
+                return Refusal(placed.flaw)
+            sites = placed.sites
+        return Goal(action, author, self.resource.header.scan, frames, sites)
+
+
+class _Acting(Actions):
+    """What breakpoints do in the PLC that runs."""
+
+    def __init__(self, debugger: Debugger, resource: Resource) -> None:
+        self._debugger, self._resource = debugger, resource
+
+    def say(self, breakpoint: Breakpoint, text: str, span: Span | None) -> None:
+        self._debugger._told.said(breakpoint, text, self._resource.header.scan, span)
+
+    def assign(self, breakpoint: Breakpoint, frame: Frame, count: int) -> None:
+        command = Assign(breakpoint.author, frame.pou.name, frame.instance, breakpoint.assign)
+        outcome = self._resource.enter_here(command, count)
+        if isinstance(outcome, Refusal):
+            span = self._debugger._placing.sites.statements[frame.site].span
+            self._debugger._told.said(
+                breakpoint, f"nothing was assigned: {outcome.message}", self._resource.header.scan, span
+            )
+
+    def counted(self) -> None:
+        self._debugger.changed = True

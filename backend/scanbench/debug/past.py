@@ -1,0 +1,112 @@
+"""Steps in what was: back to an earlier position, and forward again up to where the PLC stands."""
+
+from typing import Literal
+
+from scanbench.debug.breakpoints import Breakpoints
+from scanbench.debug.goals import Goal
+from scanbench.debug.listener import Found, Listener, Position
+from scanbench.debug.reverse import search
+from scanbench.engines.engine import Reason
+from scanbench.runtime.command import Refusal
+from scanbench.runtime.timeline import Timeline
+
+_EMPTY = 10_000
+"""Scans in which no statement runs that a step back passes over, at most."""
+
+
+class Past:
+    """Moves what is shown. The PLC stands meanwhile."""
+
+    def __init__(self, timeline: Timeline, breakpoints: Breakpoints) -> None:
+        self._timeline, self._breakpoints = timeline, breakpoints
+        self._listener: Listener | None = None
+        self._goal: Goal | None = None
+
+    # ---- forward --------------------------------------------------------------------------------------------------
+
+    @property
+    def moving(self) -> bool:
+        """Whether a step forward is under way."""
+        return self._goal is not None
+
+    def begin(self, goal: Goal) -> None:
+        """A step forward from here."""
+        self._goal, self._listener = goal, None
+
+    def stop(self) -> None:
+        """The step is given up."""
+        self._goal = self._listener = None
+
+    def move(self) -> Found | Literal["live"] | None:
+        """Goes on: where it halted, or up to where the PLC stands; None: it is still under way."""
+        timeline, resource, goal = self._timeline, self._timeline.resource, self._goal
+        assert goal is not None
+        listener = self._listener
+        if listener is None or listener.loaded is not resource.loaded:
+            listener = self._listener = self._listening(goal)
+        inside = resource.inside
+        if inside is not None:
+            listener.passed.begin = resource.header.scan, inside.count
+        hook, resource.hook = resource.hook, listener
+        try:
+            listener.begin()
+            stop = timeline.go_on(timeline.live_scan)
+        finally:
+            resource.hook = hook
+        if stop.reason is Reason.KNOCKED:
+            found = listener.behind_scan()
+            if found is not None:
+                self.stop()
+            return found
+        self.stop()
+        if stop.reason is Reason.HALTED and listener.found is not None:
+            return listener.found
+        return "live"
+
+    def _listening(self, goal: Goal) -> Listener:
+        timeline, resource = self._timeline, self._timeline.resource
+        placed = self._breakpoints.placed_in(resource.loaded, resource.header.scan)
+        listener = Listener(resource, self._breakpoints.placing(resource.loaded), placed, None)
+        listener.goal = goal
+        live = timeline.live_inside
+        if live is not None:
+            listener.passed.end = timeline.live_scan, live.count
+        return listener
+
+    # ---- back -----------------------------------------------------------------------------------------------------
+
+    @property
+    def position(self) -> Position:
+        """What is shown."""
+        resource = self._timeline.resource
+        return resource.header.scan, resource.inside.count if resource.inside is not None else 0
+
+    def back(self, author: str) -> Found | Refusal:
+        """To the statement before."""
+        before = self._before()
+        if isinstance(before, Refusal):
+            return before
+        refusal = self._timeline.goto(*before)
+        return refusal or Found("step", f"step back by {author}", author)
+
+    def _before(self) -> Position | Refusal:
+        timeline = self._timeline
+        scan, count = self.position
+        if count > 1:
+            return scan, count - 1
+        if timeline.resource.header.halted_by_trap:
+            scan += 1  # the scan that trapped is behind it, in part
+        first = max(timeline.recording.first_scan, scan - _EMPTY)
+        for each in range(scan - 1, first - 1, -1):
+            found = timeline.statements(each)
+            if isinstance(found, Refusal):
+                return found
+            if found:
+                return each, found
+        if first > timeline.recording.first_scan:
+            return Refusal(f"no statement ran in the last {_EMPTY} scans: go back to an earlier scan")
+        return Refusal(f"this is the first statement that is kept: the run begins with scan {first}")
+
+    def reverse(self, author: str, path: str) -> Found | Refusal:
+        """To where a breakpoint would have halted last, or to the last write of a variable."""
+        return search(self._timeline, self._breakpoints, self.position, author, path)

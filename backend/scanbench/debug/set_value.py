@@ -1,0 +1,82 @@
+"""Giving a variable of a frame another value: through the one door, as a write or, for temporaries, by its frame."""
+
+from dataclasses import dataclass
+
+from scanbench.check.condition import BadCondition
+from scanbench.check.local import locals_of
+from scanbench.check.types import Subrange, Type
+from scanbench.check.values import parse_value
+from scanbench.debug.assign import Assign, patch, pou_of, refused
+from scanbench.debug.scene import NoFrame, Scene, at
+from scanbench.debug.scopes import named
+from scanbench.engines.interpreter.evaluate import Evaluator, NoValue
+from scanbench.runtime.command import Command, Plan, Refusal, View
+from scanbench.runtime.write import Write
+
+
+@dataclass(frozen=True, slots=True)
+class SetLocal(Command):
+    """Gives a temporary, or a variable of a FUNCTION, a value. It counts while the call is open in which it is."""
+
+    pou: str
+    instance: int
+    expression: str
+    value: str
+    """As typed."""
+
+    def plan(self, view: View) -> Plan | Refusal:
+        """One patch in the frame."""
+        program = view.statements
+        pou = pou_of(program, self.pou)
+        if isinstance(pou, Refusal):
+            return pou
+        local = locals_of(program).place(pou, self.expression)
+        if isinstance(local, BadCondition):
+            return Refusal(local.message, local.near)
+        try:
+            spot = Evaluator(program, bytearray(view.memory)).locate(local, self.instance)
+            data = parsed_value(local.place.type, self.value, self.expression)
+        except NoValue as error:
+            return Refusal(str(error))
+        name = f"{self.pou}.{self.expression}" if self.pou else self.expression
+        return refused(view, spot, local.place.type, name) or Plan(
+            (patch(spot, data),), f"{name} := {self.value.strip()}"
+        )
+
+
+def set_value(scene: Scene, index: int | None, target: str, value: str, author: str) -> Command | BadCondition:
+    """The command that gives the variable this value, as typed or as an expression; or why there is none."""
+    try:
+        frame = scene.frame(index)
+        pou, instance = at(frame)
+        found = named(scene, frame, target)
+        if isinstance(found, BadCondition):
+            return found
+        type = found.symbol.type
+        if found.symbol.constant:
+            return BadCondition(f"{target} is a CONSTANT: change it in the program and build.")
+        name = "" if pou is None else pou.name
+        try:
+            parsed_value(type, value, target)
+        except NoValue:
+            computed = scene.locals.assignments(pou, f"{target} := {value}")
+            if isinstance(computed, BadCondition):
+                raise
+            scene.evaluator.assigned(computed, instance)  # to refuse at once
+            return Assign(author, name, instance, f"{target} := {value}")
+    except (NoFrame, NoValue) as error:
+        return BadCondition(str(error))
+    return Write(author, found.path, value) if found.path else SetLocal(author, name, instance, target, value)
+
+
+def parsed_value(type: Type, text: str, target: str) -> bytes:
+    """The bytes of a value as typed. Raises NoValue, which names target, type and what fits."""
+    try:
+        data = parse_value(type, text)
+    except ValueError as error:
+        raise NoValue(f"{target}: {error}") from None
+    if isinstance(type, Subrange):
+        number = int.from_bytes(data, "little", signed=type.signed)
+        if not type.low <= number <= type.high:
+            raise NoValue(f"{target}: {number} is outside of {type.low}..{type.high} ({type.name})")
+    return data

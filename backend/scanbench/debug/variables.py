@@ -1,0 +1,147 @@
+"""One variable as it is shown: its value as text, what it refers to, what is below."""
+
+from dataclasses import dataclass, replace
+
+from scanbench.check.symbols import Symbol, referred
+from scanbench.check.types import SLOT_BYTES, ArrayType, Elementary, OpenArray, Record, Reference, Section, StringType, Type
+from scanbench.check.values import format_value
+from scanbench.debug.called import address_at, called, variable_at
+from scanbench.debug.scene import Scene
+from scanbench.debug.shown import VariableInfo
+
+UNBOUND = "not connected"
+MANY = 10_000_000
+"""Elements beyond which the bounds of an ARRAY[*] are not believed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Shown:
+    """A variable, and how it is named in the scope of its frame."""
+
+    expression: str
+    symbol: Symbol
+    """Where it lives, as the program sees it: of an in-out by value the copy."""
+    path: str
+    """By which tools watch and write it; empty for temporaries."""
+    actual: Symbol | None = None
+    """Of an in-out by value: what was passed."""
+
+
+def info(scene: Scene, shown: Shown, name: str = "") -> VariableInfo:
+    """All that is shown of it in one line."""
+    symbol = shown.symbol
+    alias = _alias(scene, shown)
+    symbol = _through(scene, symbol)
+    type = symbol.type
+    spot = symbol.locate(scene.memory)
+    value, children = (UNBOUND, 0) if spot is None else _value(scene, symbol, *spot)
+    address = symbol.address or ("" if spot is None else address_at(scene.program, *spot, type))
+    return VariableInfo(
+        name=name or shown.symbol.name,
+        expression=shown.expression,
+        value=value,
+        type=shown.symbol.type.name,
+        path=shown.path,
+        alias=alias,
+        address=address,
+        children=children,
+        indexed=isinstance(type, ArrayType),
+        writable=spot is not None and not scene.past and _writable(scene, symbol, spot[0]),
+    )
+
+
+def _through(scene: Scene, symbol: Symbol) -> Symbol:
+    """What uses of the variable mean: behind a REFERENCE TO; of an ARRAY[*] with the bounds of what was passed."""
+    type = symbol.type
+    if isinstance(type, Reference) and type.automatic and type.target is not None:
+        return replace(referred(symbol), path=symbol.path, name=symbol.name)
+    if isinstance(type, OpenArray):
+        return with_bounds(scene, symbol)
+    return symbol
+
+
+def with_bounds(scene: Scene, symbol: Symbol) -> Symbol:
+    """An ARRAY[*] as the array that was passed: its bounds stand behind the slot."""
+    type = symbol.type
+    if not isinstance(type, OpenArray) or not symbol.slots:
+        return symbol
+    slot = replace(symbol, slots=symbol.slots[:-1], offset=symbol.slots[-1]).locate(scene.memory)
+    if slot is None:
+        return symbol
+    numbers = [
+        int.from_bytes(scene.memory[at : at + 8], "little", signed=True)
+        for at in range(slot[0] + SLOT_BYTES, slot[0] + SLOT_BYTES * (1 + 2 * type.dimensions), SLOT_BYTES)
+    ]
+    bounds = tuple(zip(numbers[::2], numbers[1::2], strict=True))
+    if any(low > high for low, high in bounds):
+        return symbol
+    made = ArrayType(bounds, type.element)
+    return replace(symbol, type=made) if made.count < MANY else symbol
+
+
+def _value(scene: Scene, symbol: Symbol, offset: int, bit: int | None) -> tuple[str, int]:
+    """The value as text, and how many stand below."""
+    type = symbol.type
+    if isinstance(type, Reference):
+        target = _target(scene, symbol)
+        return ("NULL", 0) if target is None else (f"-> {target}", 1)
+    if isinstance(type, Elementary | StringType):
+        if bit is not None:
+            return ("TRUE" if scene.memory[offset] >> bit & 1 else "FALSE"), 0
+        return format_value(type, bytes(scene.memory[offset : offset + type.size])), 0
+    count = _below(type)
+    what = "element" if isinstance(type, ArrayType | OpenArray) else "member"
+    return f"({count} {what}{'s' if count != 1 else ''})", count
+
+
+def _below(type: Type) -> int:
+    if isinstance(type, ArrayType):
+        return type.count
+    if isinstance(type, Record):
+        return sum(not member.hidden for member in type.members.values())
+    return 0
+
+
+def _alias(scene: Scene, shown: Shown) -> str:
+    """`-> Main.tank[3].level (D120)`: of an in-out or REFERENCE TO, what it is bound to."""
+    symbol = shown.actual or shown.symbol
+    if isinstance(symbol.type, Reference) and symbol.type.automatic:
+        target = _target(scene, symbol)
+        return f"-> {target}" if target else ""
+    if symbol.section != Section.IN_OUT.value or symbol.name == "^" or not symbol.slots:
+        return ""
+    symbol = with_bounds(scene, symbol)
+    spot = symbol.locate(scene.memory)
+    if spot is None:
+        return ""
+    real = scene.program.layout.copies.actual(scene.memory, *spot) or spot
+    return f"-> {called(scene.program, *real, symbol.type)}"
+
+
+def _target(scene: Scene, symbol: Symbol) -> str | None:
+    """What a reference refers to; None for nothing."""
+    type = symbol.type
+    assert isinstance(type, Reference)
+    if type.target is None:
+        return None
+    target = referred(symbol)
+    spot = target.locate(scene.memory)
+    return None if spot is None else called(scene.program, *spot, target.type)
+
+
+def _writable(scene: Scene, symbol: Symbol, offset: int) -> bool:
+    if not isinstance(symbol.type, Elementary | StringType) or symbol.constant:
+        return False
+    found = scene.program.layout.area_at(offset)
+    return found is None or found[0].access(found[1] // 2, "tool") == "write"
+
+
+def tool_path(scene: Scene, symbol: Symbol, given: str) -> str:
+    """`given`, or the path of what lives there."""
+    if given:
+        return given
+    spot = symbol.locate(scene.memory)
+    if spot is None:
+        return ""
+    found = variable_at(scene.program, *spot, symbol.type)
+    return "" if found is None else found.path

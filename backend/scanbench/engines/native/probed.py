@@ -1,0 +1,93 @@
+"""Engines with probes, and their machine code; see `engines.probe`.
+
+Only the modules that the probes stand in are compiled anew, and those that have copies of such a POU inside; the others come
+from where the run flavour keeps them.
+"""
+
+import ctypes
+from collections.abc import Callable, Iterable, Iterator, Sequence
+
+from scanbench.check.program import Program
+from scanbench.engines.cache import BlobCache
+from scanbench.engines.engine import Pace, Reason, Stop
+from scanbench.engines.native import emit_probe, jit
+from scanbench.engines.native.compiler import FAST, Compiler
+from scanbench.engines.native.emit_probe import Probing
+from scanbench.engines.native.engine import NativeEngine
+from scanbench.engines.native.parts import Part
+from scanbench.engines.probe import Probe, ProbedEngine
+
+Optimise = Callable[[Iterable[Part]], Iterator[tuple[Part, bytes]]]
+"""Optimises modules, one after the other; may end early, as `worker.optimised` does."""
+
+
+class ProbedBuilds:
+    """Compiles program after program with probes. Not thread-safe."""
+
+    def __init__(self, cache: BlobCache | None = None, optimise: Optimise | None = None) -> None:
+        """`optimise` compiles elsewhere; without it that is done here."""
+        self._compiler = Compiler(cache)
+        self._optimise = optimise or _here
+
+    def objects(self, program: Program, probes: Sequence[Probe]) -> list[bytes] | None:
+        """The object code, for an engine with exactly these probes; None where `optimise` ended early.
+
+        Raises BadProbe.
+        """
+        build = self._compiler.emitted(program, Probing(program, probes))
+        self._compiler.take_known(build)
+        for part, code in self._optimise(build.pending):
+            self._compiler.learn(build, part, code)
+        return build.objects if build.finished else None
+
+    def engine(self, program: Program, memory: bytearray, probes: Sequence[Probe]) -> ProbedEngine:
+        """An engine on this image; `optimise` must not end early."""
+        objects = self.objects(program, probes)
+        assert objects is not None
+        return probed_engine(program, memory, probes, objects)
+
+
+def _here(parts: Iterable[Part]) -> Iterator[tuple[Part, bytes]]:
+    for part in parts:
+        yield part, jit.compile_object(part.text, FAST, jit.Timings())
+
+
+def probed_engine(
+    program: Program, memory: bytearray, probes: Sequence[Probe], objects: Sequence[bytes]
+) -> "NativeProbedEngine":
+    """An engine with code that `ProbedBuilds` compiled for the program and these probes: only linked."""
+    return NativeProbedEngine(program, memory, probes, objects)
+
+
+class NativeProbedEngine(NativeEngine, ProbedEngine):
+    """Runs probed machine code."""
+
+    def __init__(self, program: Program, memory: bytearray, probes: Sequence[Probe], objects: Sequence[bytes]) -> None:
+        super().__init__(program, memory, objects=objects)
+        self.probes = tuple(probes)
+        self._halted: int | None = None
+        self._slots = (ctypes.c_int64 * len(self.probes)).from_address(
+            self._code.variable(emit_probe.SLOTS.removeprefix("@"))
+        )
+
+    def run(self, scans: int, pace: Pace | None = None) -> Stop:
+        """See `ProbedEngine`."""
+        stop = super().run(scans, pace)
+        self._halted = None
+        left = ctypes.c_int32(stop.trap).value
+        if left >= 0:
+            return stop
+        self._halted = emit_probe.status(left)
+        return Stop(Reason.HALTED)
+
+    @property
+    def halted(self) -> int | None:
+        return self._halted
+
+    @property
+    def reached(self) -> tuple[int | None, ...]:
+        return tuple(None if scan == emit_probe.NEVER else scan for scan in self._slots)
+
+    def forget(self) -> None:
+        for number in range(len(self._slots)):
+            self._slots[number] = emit_probe.NEVER

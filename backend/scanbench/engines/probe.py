@@ -1,0 +1,55 @@
+"""The contract of probed code: the run flavour, as fast, but for tests at chosen statements.
+
+For what seldom happens: breakpoints in lines, and the question when in a million scans a statement last ran. Nothing else
+can be asked of it: where a probe halts, variables may be in registers, so the image is of no use. The owner goes back to
+the beginning of that scan, and runs it in the debug flavour up to the statement.
+"""
+
+from abc import abstractmethod
+from dataclasses import dataclass
+
+from scanbench.check.program import Expr
+from scanbench.check.sites import StatementSite
+from scanbench.engines.engine import Engine
+
+
+@dataclass(frozen=True, slots=True)
+class Probe:
+    """Looks each time when a statement is to begin; not while common processing or the plant runs."""
+
+    site: int
+    """Index into `Sites.statements`."""
+    condition: Expr | None = None
+    """A BOOL in the scope of the statement's POU (`check.local`), without calls of the program's POUs; a trap inside of it
+    is FALSE. Of a line of a CONFIGURATION, one on the whole program. Only where it holds, the statement counts as
+    reached."""
+    halt: bool = True
+    """Whether reaching the statement leaves the scan, with `Reason.HALTED`; else it is noted, no more."""
+
+
+class BadProbe(ValueError):
+    """A probe that no code can be made for."""
+
+    def __init__(self, probe: Probe, site: StatementSite | None, why: str) -> None:
+        where = f"statement {probe.site}" if site is None else str(site.span)
+        super().__init__(f"no probe can be put at {where}: {why}")
+
+
+class ProbedEngine(Engine):
+    """An engine whose code has probes. The scan that a probe halted is not counted."""
+
+    probes: tuple[Probe, ...]
+
+    @property
+    @abstractmethod
+    def halted(self) -> int | None:
+        """Index of the probe that ended the last run with `Reason.HALTED`; None after any other."""
+
+    @property
+    @abstractmethod
+    def reached(self) -> tuple[int | None, ...]:
+        """Of each probe the number of the scan that last reached it since it was made, or since `forget`."""
+
+    @abstractmethod
+    def forget(self) -> None:
+        """No probe was reached."""

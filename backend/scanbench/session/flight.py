@@ -1,0 +1,206 @@
+"""The flight recorder: what signals did in earlier scans, found out afterwards by running those scans again.
+
+From the nearest checkpoint of the run file, with the journal, in a job process: the PLC itself goes on meanwhile.
+"""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field
+from pathlib import Path
+
+import numpy as np
+
+from scanbench.check.condition import BadCondition, Signal, compile_signal
+from scanbench.check.program import Program
+from scanbench.check.types import BOOL, Elementary
+from scanbench.engines.cache import BlobCache
+from scanbench.engines.engine import Engine
+from scanbench.engines.sample import HEAD_WORDS, Sampling
+from scanbench.runtime.command import Entry, Swapped
+from scanbench.runtime.contents import KeptProgram
+from scanbench.runtime.programs import Loaded, NoProgram
+from scanbench.runtime.recording import Recording
+from scanbench.runtime.replay import Diverged, replay
+from scanbench.runtime.resource import Resource
+from scanbench.runtime.runfile import RunFileError
+from scanbench.runtime.timeline import NOT_AS_RECORDED, KeptPrograms, open_at
+from scanbench.session.codec import ENTRIES
+from scanbench.session.runs import sources_in
+from scanbench.session.starting import NoStart, ProgramOf
+from scanbench.session.trace_protocol import FlightDone, RecordFlight
+from scanbench.taps.trace import TraceSignal, described
+from scanbench.taps.trace_buffer import TraceBuffer, Words, row_bytes
+
+MAX_BYTES = 512 << 20
+"""What a record may take while it is made."""
+_CHUNK = 4096
+MakeEngine = Callable[[Program, bytearray], Engine]
+
+
+class BadSignal(NoStart):
+    """A signal that is in no version of the program; `near` was perhaps meant."""
+
+    def __init__(self, message: str, near: tuple[str, ...]) -> None:
+        super().__init__(message)
+        self.near = near
+
+
+def plain_engines(cache: BlobCache | None) -> MakeEngine:
+    """Native where LLVM is there, else the reference engine."""
+    try:
+        from scanbench.engines.native.compiler import Compiler
+        from scanbench.engines.native.engine import NativeEngine
+    except ImportError:
+        from scanbench.engines.interpreter.engine import ReferenceEngine
+
+        return ReferenceEngine
+    compiler = Compiler(cache)
+    return lambda program, memory: NativeEngine(program, memory, objects=compiler.build(program).objects)
+
+
+def fly(ask: RecordFlight, program_of: ProgramOf, make: MakeEngine, on_chunk: Callable[[int, int], None]) -> FlightDone:
+    """Samples the scans that are asked for, and writes them to the file; `NoStart` says why that cannot be."""
+    path = Path(ask.run)
+    try:
+        with Recording.open(path, ENTRIES, read_only=True) as recording:
+            flight = _Flight(ask, recording, _Plain(recording.programs, program_of, make))
+            resource = flight.run(on_chunk)
+    except OSError as error:
+        raise NoStart(f"{path.name} cannot be read: {error.strerror or error}") from error
+    except (RunFileError, NoProgram) as error:
+        raise NoStart(str(error)) from error
+    except (Diverged, *NOT_AS_RECORDED) as error:
+        raise NoStart(f"{path.name} cannot be replayed: {error}") from error
+    buffer = flight.buffer()
+    first, end = buffer.extent
+    Path(ask.to).write_bytes(buffer.read(0, end).pack(first, end, 1))
+    return FlightDone(
+        ask.ref, True, flight.signals(), buffer.rows, first, end, resource.program.interval_ns, resource.version
+    )  # fmt: skip
+
+
+@dataclass
+class _Plain:
+    """`Programs` on the code that PLCs run on."""
+
+    kept: Mapping[int, KeptProgram]
+    program_of: ProgramOf
+    make: MakeEngine
+    known: dict[int, Loaded] = field(default_factory=dict)
+
+    def get(self, version: int) -> Loaded:
+        """See `Programs`."""
+        if version not in self.known:
+            if version not in self.kept:
+                raise NoProgram(f"there is no program version {version} in the run")
+            program = self.program_of(sources_in(self.kept[version]))
+            memory = bytearray(program.layout.size)
+            self.known[version] = Loaded(version, program, memory, self.make(program, memory))
+        return self.known[version]
+
+
+class _Flight:
+    """One record under way."""
+
+    def __init__(self, ask: RecordFlight, recording: Recording, programs: _Plain) -> None:
+        if not ask.first <= ask.last:
+            raise NoStart(f"scans {ask.first} to {ask.last} are none")
+        rows = (ask.last - ask.first) // ask.every + 1
+        if rows * row_bytes([_LARGEST] * len(ask.signals)) > MAX_BYTES:
+            fits = MAX_BYTES // row_bytes([_LARGEST] * len(ask.signals))
+            raise NoStart(
+                f"{rows:,} samples of {len(ask.signals)} signals are too many: {fits:,} fit. Take every n-th scan"
+            )
+        self._ask, self._recording, self._programs = ask, recording, programs
+        self._entries = recording.take_entries()
+        self._types: list[Elementary | None] = [None] * len(ask.signals)
+        self._described = list(map(TraceSignal, ask.signals))
+        self._parts: list[Words] = []
+        self._sampling: Sampling | None = None
+        self._columns: list[int] = []
+
+    def run(self, on_chunk: Callable[[int, int], None]) -> Resource:
+        """Runs the scans."""
+        ask, recording = self._ask, self._recording
+        checkpoint = recording.before(ask.first)
+        if checkpoint is None:
+            raise NoStart(
+                f"scan {ask.first} is not kept any more: the run can be gone back to scan {recording.first_scan}"
+            )
+        resource = open_at(recording, KeptPrograms(recording, self._programs), checkpoint, self._entries)
+        at = self._run_on(resource, checkpoint.entries, ask.first)
+        end = ask.last + 1
+        while resource.header.scan < end:
+            self._aim(resource)
+            now = resource.header.scan
+            stop = min(end, now + _CHUNK * ask.every, *_swaps(self._entries[at:], now))
+            at = self._run_on(resource, at, stop)
+            if self._sampling is not None:
+                self._parts.append(self._whole(self._sampling.take()))
+            on_chunk(resource.header.scan - ask.first, end - ask.first)
+            if resource.header.scan == now:  # it trapped, and nothing follows
+                break
+        bad = next((each for each, type in zip(self._described, self._types, strict=True) if type is None), None)
+        if bad is not None:
+            raise BadSignal(bad.message, self._near(resource.program, bad.text))
+        return resource
+
+    def _run_on(self, resource: Resource, at: int, scan: int) -> int:
+        """To the seam in front of a scan; the index of the next entry."""
+        after = at
+        while after < len(self._entries) and self._entries[after].scan <= scan:
+            after += 1
+        replay(resource, self._entries[at:after], scan)
+        return after
+
+    def _aim(self, resource: Resource) -> None:
+        """Finds the signals in the program that runs now."""
+        if self._sampling is not None and self._sampling.program is resource.program:
+            return
+        good: list[Signal] = []
+        self._columns = []
+        for index, text in enumerate(self._ask.signals):
+            signal = compile_signal(resource.program, text)
+            if isinstance(signal, BadCondition):
+                if self._types[index] is None:
+                    self._described[index] = TraceSignal(text, message=signal.message)
+            elif self._types[index] in (None, signal.type):
+                self._types[index], self._described[index] = signal.type, described(signal)
+                good.append(signal)
+                self._columns.append(index)
+        self._sampling = Sampling(resource.program, good, self._ask.every, rows=_CHUNK + 2) if good else None
+        if self._sampling is not None:
+            self._sampling.skip_to(self._ask.first)
+        resource.samplings = () if self._sampling is None else (self._sampling,)
+
+    def _whole(self, rows: Words) -> Words:
+        count = len(self._ask.signals)
+        whole = np.zeros((len(rows), HEAD_WORDS + count), dtype=np.uint64)
+        whole[:, 0] = rows[:, 0]
+        for at, column in enumerate(self._columns):
+            whole[:, 1] |= (rows[:, 1] >> np.uint64(at) & np.uint64(1)) << np.uint64(column)
+            whole[:, HEAD_WORDS + column] = rows[:, HEAD_WORDS + at]
+        return whole
+
+    @staticmethod
+    def _near(program: Program, text: str) -> tuple[str, ...]:
+        signal = compile_signal(program, text)
+        return signal.near if isinstance(signal, BadCondition) else ()
+
+    def signals(self) -> tuple[TraceSignal, ...]:
+        """What was sampled."""
+        return tuple(self._described)
+
+    def buffer(self) -> TraceBuffer:
+        """All rows."""
+        buffer = TraceBuffer([type or BOOL for type in self._types], max(1, sum(map(len, self._parts))))
+        for part in self._parts:
+            buffer.append(part)
+        return buffer
+
+
+_LARGEST = Elementary("LWORD", BOOL.kind, 8)
+
+
+def _swaps(entries: Sequence[Entry], now: int) -> list[int]:
+    """Where the program becomes another one."""
+    return [each.scan for each in entries if isinstance(each.plan.effect, Swapped) and each.scan > now][:1]

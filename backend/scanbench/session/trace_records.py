@@ -1,0 +1,259 @@
+"""Records of traces that were kept, and the flight recorder that makes them of scans that are over."""
+
+import asyncio
+from collections import OrderedDict
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import asdict, dataclass, replace
+from pathlib import Path
+from typing import cast
+
+import zstandard
+
+from scanbench.engines.sample import MAX_SIGNALS
+from scanbench.runtime.clock import fresh_token
+from scanbench.session.events import FlightChanged
+from scanbench.session.jobs import DIED, Job
+from scanbench.session.refused import Refused
+from scanbench.session.session import Session
+from scanbench.session.trace_protocol import FlightAt, FlightDone, RecordFlight
+from scanbench.store.records import Json, TraceRecordRow
+from scanbench.store.store import Store
+from scanbench.taps.trace import TraceSignal
+from scanbench.taps.trace_buffer import Samples, TraceBuffer, buffer_of
+
+SUFFIX = ".trace"
+MAX_FLIGHT = 10_000_000
+"""Scans of one flight."""
+_OPEN = 4
+"""Records that stay in memory."""
+
+
+@dataclass(frozen=True, slots=True)
+class TraceRecord:
+    """A kept record: what of, when, and whose."""
+
+    row: TraceRecordRow
+    origin: str
+    """`trace` or `flight`."""
+    signals: tuple[TraceSignal, ...]
+    every: int
+    triggered: int | None
+    first: int
+    end: int
+    rows: int
+    interval_ns: int
+    version: int
+
+
+@dataclass
+class _Flight:
+    """A flight under way."""
+
+    session: Session
+    job: Job
+    changed: FlightChanged
+    file: Path
+    every: int
+    ended: bool = False
+
+
+class TraceRecords:
+    """The records of a server. `directory` has their samples."""
+
+    def __init__(self, store: Store, directory: Path, cache: Path) -> None:
+        self._store, self._directory, self._cache = store, directory, cache
+        self._open: OrderedDict[int, TraceBuffer] = OrderedDict()
+        self._flights: dict[int, _Flight] = {}
+        self._next = 1
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    def tidy(self) -> None:
+        """Removes files that belong to nothing any more. Waits for the disk."""
+        self._directory.mkdir(parents=True, exist_ok=True)
+        rows = [row for project in self._store.projects() for row in self._store.trace_records(project.id)]
+        known = {self._path(row.id) for row in rows}
+        for path in self._directory.iterdir():
+            if path not in known:
+                path.unlink(missing_ok=True)
+
+    async def close(self) -> None:
+        """Ends every flight."""
+        await asyncio.gather(*(flight.job.end() for flight in self._flights.values()))
+        await asyncio.gather(*self._tasks, return_exceptions=True)
+
+    # ---- kept records ---------------------------------------------------------------------------------------------
+
+    async def of_project(self, project: int) -> list[TraceRecord]:
+        """The newest first."""
+        return list(map(_record, await asyncio.to_thread(self._store.trace_records, project)))
+
+    async def one(self, id: int) -> TraceRecord:
+        """One record."""
+        return _record(await asyncio.to_thread(self._store.trace_record, id))
+
+    async def keep(self, session: Session, trace: int, name: str, author: str) -> TraceRecord:
+        """Keeps what a trace has recorded until now."""
+        status = session.tracing.trace(trace)
+        data = await session.tracing.read(trace, 0, None, None)
+        status = session.tracing.trace(trace)
+        samples, first, end = await asyncio.to_thread(Samples.unpack, data)
+        if not len(samples):
+            raise Refused("the trace has recorded nothing yet: start it, then keep it")
+        content: Json = {
+            "origin": "trace", "signals": [asdict(each) for each in status.signals], "every": status.definition.every,
+            "triggered": status.triggered, "first": first, "end": end, "rows": len(samples),
+            "interval_ns": status.interval_ns, "version": session.state.version,
+        }  # fmt: skip
+        return await self._keep(session, name, content, data, author)
+
+    async def _keep(self, session: Session, name: str, content: Json, data: bytes, author: str) -> TraceRecord:
+        row = await asyncio.to_thread(
+            lambda: self._store.create_trace_record(
+                session.project_id, name=name, instance=session.name, content=content, by=author
+            )
+        )
+        try:
+            await asyncio.to_thread(_write, self._path(row.id), data)
+        except BaseException as error:
+            await asyncio.to_thread(self._store.delete_trace_record, row.id)
+            if isinstance(error, OSError):
+                raise Refused(f"the record cannot be kept: {error.strerror}") from error
+            raise
+        return _record(row)
+
+    async def delete(self, id: int) -> None:
+        """Forgets a record."""
+        await asyncio.to_thread(self._store.delete_trace_record, id)
+        self._open.pop(id, None)
+        await asyncio.to_thread(self._path(id).unlink, True)
+
+    async def samples(self, id: int, first: int, last: int | None, points: int | None) -> bytes:
+        """Packed samples; see `TraceBuffer.read`."""
+        record = await self.one(id)
+        buffer = self._open.get(id)
+        if buffer is None:
+            try:
+                buffer = await asyncio.to_thread(_loaded, self._path(id), record.signals)
+            except (OSError, ValueError, zstandard.ZstdError) as error:
+                raise Refused(f"the samples of {record.row.name} cannot be read: {error}") from error
+            self._open[id] = buffer
+            while len(self._open) > _OPEN:
+                self._open.popitem(last=False)
+        self._open.move_to_end(id)
+        end = record.end if last is None else last
+        found = await asyncio.to_thread(buffer.read, first, end, points)
+        return found.pack(record.first, record.end, 1)
+
+    # ---- the flight recorder --------------------------------------------------------------------------------------
+
+    def fly(
+        self, session: Session, signals: tuple[str, ...], first: int, last: int, every: int, author: str
+    ) -> FlightChanged:  # fmt: skip
+        """Begins to record scans that are over; how far it is comes as `FlightChanged` events."""
+        live = max(session.state.scan, session.state.live_scan)
+        if not 0 < len(signals) <= MAX_SIGNALS or len(set(signals)) < len(signals):
+            raise Refused(f"{len(set(signals))} different signals: a record has 1 to {MAX_SIGNALS}")
+        if not 0 <= first <= last < live:
+            raise Refused(f"scans {first:,} to {last:,} are not over yet, or none: the PLC is at scan {live:,}")
+        if last - first >= MAX_FLIGHT:
+            raise Refused(f"{last - first + 1:,} scans are too many: {MAX_FLIGHT:,} at most")
+        id, self._next = self._next, self._next + 1
+        file = self._directory / f"flight-{fresh_token()}"
+        changed = FlightChanged(id, author, 0, last - first + 1)
+        job = Job(self._cache, lambda message: self._on_message(id, message), lambda _job: self._on_end(id))
+        self._flights[id] = _Flight(session, job, changed, file, every)
+        job.ask(RecordFlight(id, str(session.run_file), signals, every, first, last, str(file)))
+        self._tell(id, changed)
+        return changed
+
+    async def cancel(self, id: int) -> None:
+        """Gives a flight up."""
+        flight = self._flights.get(id)
+        if flight is None:
+            raise Refused("this record is over already")
+        flight.ended = True
+        self._tell(id, replace(flight.changed, message="cancelled"))
+        await self._over(id)
+
+    def _on_message(self, id: int, message: object) -> None:
+        flight = self._flights.get(id)
+        if flight is None or flight.ended:
+            return
+        match message:
+            case FlightAt():
+                self._tell(id, replace(flight.changed, done=message.done))
+            case FlightDone():
+                flight.ended = True
+                task = asyncio.get_running_loop().create_task(self._landed(id, flight, message))
+                self._tasks.add(task)
+                task.add_done_callback(self._tasks.discard)
+
+    async def _landed(self, id: int, flight: _Flight, done: FlightDone) -> None:
+        changed = replace(flight.changed, message=done.message)
+        if done.ok:
+            try:
+                data = await asyncio.to_thread(flight.file.read_bytes)
+                content: Json = {
+                    "origin": "flight", "signals": [asdict(each) for each in done.signals], "every": flight.every,
+                    "triggered": None, "first": done.first, "end": done.end, "rows": done.rows,
+                    "interval_ns": done.interval_ns, "version": done.version,
+                }  # fmt: skip
+                name = f"Scans {done.first:,} to {max(done.first, done.end - 1):,}"
+                kept = await self._keep(flight.session, name, content, data, changed.by)
+                changed = replace(changed, done=changed.of, record=kept.row.id)
+            except Exception as error:  # whatever it is, somebody waits for it
+                changed = replace(changed, message=f"the record cannot be kept: {error}")
+        self._tell(id, changed)
+        await self._over(id)
+
+    def _on_end(self, id: int) -> None:
+        flight = self._flights.get(id)
+        if flight is not None and not flight.ended:
+            flight.ended = True
+            self._tell(id, replace(flight.changed, message=DIED))
+            self._flights.pop(id, None)
+
+    async def _over(self, id: int) -> None:
+        flight = self._flights.pop(id, None)
+        if flight is not None:
+            await flight.job.end()
+            with suppress(OSError):
+                await asyncio.to_thread(flight.file.unlink, True)
+
+    def _tell(self, id: int, changed: FlightChanged) -> None:
+        flight = self._flights.get(id)
+        if flight is not None:
+            flight.changed = changed
+            flight.session.tell(changed)
+
+    def _path(self, id: int) -> Path:
+        return self._directory / f"{id}{SUFFIX}"
+
+
+def _write(path: Path, data: bytes) -> None:
+    part = path.with_suffix(".part")
+    part.write_bytes(zstandard.ZstdCompressor(level=3).compress(data))
+    part.replace(path)
+
+
+def _loaded(path: Path, signals: tuple[TraceSignal, ...]) -> TraceBuffer:
+    samples, _, _ = Samples.unpack(zstandard.ZstdDecompressor().decompress(path.read_bytes()))
+    return buffer_of(samples, [(each.kind, each.size) for each in signals])
+
+
+def _record(row: TraceRecordRow) -> TraceRecord:
+    content = row.content
+    signals = tuple(map(_signal, cast("list[dict[str, object]]", content["signals"])))
+    number: Callable[[str], int] = lambda name: cast(int, content[name])  # noqa: E731
+    return TraceRecord(
+        row, str(content["origin"]), signals, number("every"), cast("int | None", content["triggered"]), number("first"),
+        number("end"), number("rows"), number("interval_ns"), number("version"),
+    )  # fmt: skip
+
+
+def _signal(data: dict[str, object]) -> TraceSignal:
+    values = tuple((str(name), int(number)) for name, number in cast("list[tuple[str, int]]", data["values"]))
+    return TraceSignal(
+        str(data["text"]), str(data["type"]), str(data["kind"]), cast(int, data["size"]), values, str(data["message"])
+    )

@@ -1,0 +1,143 @@
+"""The traces of one PLC, seen from the parent: what people want recorded, and what the host says of it."""
+
+from collections.abc import Awaitable, Callable, Mapping
+from contextlib import suppress
+from dataclasses import asdict, dataclass, replace
+from typing import cast
+
+from scanbench.session import events, protocol
+from scanbench.session.instance import Unavailable
+from scanbench.session.refused import Refused
+from scanbench.session.trace_protocol import DefineTrace, DriveTrace, ReadTrace, TraceRead, TracesAre, TraceStatus
+from scanbench.store.records import Json, NotFound
+from scanbench.taps.trace import TraceDefinition, TraceTrigger
+
+Ask = Callable[[Callable[[int], object]], Awaitable[object]]
+_RUNNING = ("recording", "armed", "triggered")
+
+
+@dataclass(frozen=True, slots=True)
+class _Wanted:
+    """What the next host is told, when this one dies or is switched off."""
+
+    definition: TraceDefinition
+    by: str
+    on: bool
+
+
+class Tracing:
+    """Every change is asked of the host; what it accepted is kept."""
+
+    def __init__(
+        self, ask: Ask, publish: Callable[[events.Event], None], keep: Callable[[Mapping[int, Json]], None],
+        kept: Mapping[int, Json],
+    ) -> None:  # fmt: skip
+        """`kept` is what an earlier life of the server gave to `keep`."""
+        self._ask, self._publish, self._keep = ask, publish, keep
+        self._wanted = {number: _read(content) for number, content in kept.items()}
+        self._told: dict[int, TraceStatus] = {}
+        self._next = max(self._wanted, default=0) + 1
+
+    @property
+    def traces(self) -> tuple[TraceStatus, ...]:
+        """All traces, in the order in which they were made; also of a PLC that is off."""
+        return tuple(self.trace(number) for number in sorted(self._wanted))
+
+    def trace(self, number: int) -> TraceStatus:
+        """One trace; `NotFound`."""
+        wanted = self._wanted.get(number)
+        if wanted is None:
+            raise NotFound(f"there is no trace {number}")
+        return self._told.get(number) or TraceStatus(
+            number, wanted.definition, wanted.by, "stopped", (), 0, None, 0, 0, 0, 0, 0, 0, "the PLC is not there"
+        )
+
+    async def define(self, number: int | None, definition: TraceDefinition, author: str, start: bool) -> TraceStatus:
+        """A new trace, or another definition for one; `Refused` says why it cannot be."""
+        id = self._next if number is None else self.trace(number).id
+        if number is None:
+            self._next += 1
+        before = self._wanted.get(id)
+        self._wanted[id] = _Wanted(definition, author, start or (before is not None and before.on))
+        try:
+            await self._accepted(lambda ref: DefineTrace(ref, id, definition, author, start))
+        except BaseException:
+            if before is None:
+                self._wanted.pop(id, None)
+            else:
+                self._wanted[id] = before
+            raise
+        self._changed()
+        return self.trace(id)
+
+    async def drive(self, number: int, action: str, author: str) -> TraceStatus:
+        """`start` (or arm again) or `stop`."""
+        self.trace(number)
+        await self._accepted(lambda ref: DriveTrace(ref, number, action, author))
+        self._wanted[number] = replace(self._wanted[number], on=action == "start")
+        self._changed()
+        return self.trace(number)
+
+    async def delete(self, number: int, author: str) -> None:
+        """Forgets a trace with what it recorded; also while the PLC is off."""
+        self.trace(number)
+        with suppress(Refused, Unavailable):  # it is not there, which is what was wanted
+            await self._accepted(lambda ref: DriveTrace(ref, number, "delete", author))
+        self._wanted.pop(number, None)
+        self._told.pop(number, None)
+        self._changed()
+
+    async def read(self, number: int, first: int, last: int | None, points: int | None) -> bytes:
+        """Packed samples; see `TraceBuffer.read`."""
+        self.trace(number)
+        answer = await self._ask(lambda ref: ReadTrace(ref, number, first, last, points))
+        assert isinstance(answer, TraceRead)
+        if answer.message:
+            raise Refused(answer.message)
+        return answer.data
+
+    async def resend(self) -> None:
+        """Tells a new host what there is; what cannot be any more says so in its note."""
+        self._told.clear()
+        for number, wanted in list(self._wanted.items()):
+            try:
+                await self._accepted(lambda ref, n=number, w=wanted: DefineTrace(ref, n, w.definition, w.by, w.on))  # type: ignore[misc]
+            except Refused as error:
+                note = f"it cannot be recorded: {error.message}"
+                self._told[number] = replace(self.trace(number), note=note)
+            except Unavailable:
+                return
+        self._publish(events.TracesChanged(self.traces))
+
+    def on_message(self, message: object) -> None:
+        """From the host."""
+        if isinstance(message, TracesAre):
+            self._told |= {each.id: each for each in message.traces if each.id in self._wanted}
+            self._publish(events.TracesChanged(self.traces))
+
+    async def _accepted(self, make: Callable[[int], object]) -> None:
+        answer = await self._ask(make)
+        assert isinstance(answer, protocol.Ack)
+        if not answer.ok:
+            raise Refused(answer.message, answer.near)
+
+    def _changed(self) -> None:
+        self._keep({number: _json(wanted) for number, wanted in self._wanted.items()})
+        self._publish(events.TracesChanged(self.traces))
+
+
+def _json(wanted: _Wanted) -> Json:
+    return asdict(wanted)
+
+
+def _read(content: Json) -> _Wanted:
+    about = cast(dict[str, object], content["definition"])
+    trigger = cast("dict[str, object] | None", about["trigger"])
+    made = TraceDefinition(
+        str(about["name"]), tuple(cast(list[str], about["signals"])), cast(int, about["every"]), cast(int, about["scans"]),
+        None if trigger is None else TraceTrigger(
+            str(trigger["text"]), str(trigger["when"]), str(trigger["value"]), cast(int, trigger["before"])
+        ),
+        bool(about["repeat"]),
+    )  # fmt: skip
+    return _Wanted(made, str(content["by"]), bool(content["on"]))

@@ -1,0 +1,189 @@
+"""`scanbench dap`: the adapter on standard input and output, as editors start it."""
+
+import asyncio
+import os
+import queue
+import sys
+import threading
+from collections.abc import Callable
+from contextlib import suppress
+
+from pydantic import ValidationError
+
+from scanbench.session.events import User
+from scanbench.session.refused import Refused
+from scanbench.web.dap import shapes
+from scanbench.web.dap.conversation import Conversation
+from scanbench.web.dap.framing import BadFrame, Framing, framed
+from scanbench.web.dap.launching import Launcher
+from scanbench.web.dap.remote import Remote
+from scanbench.web.dap.shapes import Body
+
+_CHUNK = 1 << 16
+
+
+def serve_stdio(author: str) -> None:
+    """Speaks DAP until the client disconnects or closes the stream."""
+    with suppress(KeyboardInterrupt):
+        asyncio.run(_serve(*_own_streams(), author))
+
+
+def _own_streams() -> tuple[int, int]:
+    """Standard input and output for us alone: what a library or a child prints must not get between the messages."""
+    ours = os.dup(0), os.dup(1)
+    nothing = os.open(os.devnull, os.O_RDONLY)
+    os.dup2(nothing, 0)
+    os.close(nothing)
+    os.dup2(2, 1)
+    return ours
+
+
+async def _serve(incoming: int, outgoing: int, author: str) -> None:
+    loop = asyncio.get_running_loop()
+    chunks: asyncio.Queue[bytes] = asyncio.Queue()
+    threading.Thread(target=_read, args=(incoming, loop, chunks), daemon=True).start()
+    writer = Writer(outgoing)
+    over = asyncio.Event()
+    front = Front(writer.send, author, over.set)
+    framing = Framing()
+    ended = loop.create_task(over.wait())
+    try:
+        while not over.is_set():
+            chunk = loop.create_task(chunks.get())
+            await asyncio.wait((chunk, ended), return_when=asyncio.FIRST_COMPLETED)
+            if not chunk.done():
+                chunk.cancel()
+                break
+            if not chunk.result():
+                break
+            for message in framing.feed(chunk.result()):
+                front.receive(message)
+    except BadFrame as error:
+        print(f"scanbench dap: {error}", file=sys.stderr)  # noqa: T201  # there is nobody else to tell
+    finally:
+        ended.cancel()
+        await front.close()
+        await asyncio.to_thread(writer.close)
+
+
+def _read(stream: int, loop: asyncio.AbstractEventLoop, chunks: "asyncio.Queue[bytes]") -> None:
+    """In a thread of its own: standard input may be a pipe, a socket, a file, a terminal."""
+    with suppress(RuntimeError):  # the loop is over
+        while True:
+            try:
+                data = os.read(stream, _CHUNK)
+            except OSError:
+                data = b""
+            loop.call_soon_threadsafe(chunks.put_nowait, data)
+            if not data:
+                return
+
+
+class Writer:
+    """Writes in a thread of its own, so that a client that does not read keeps nobody."""
+
+    def __init__(self, stream: int) -> None:
+        self._stream = stream
+        self._queue: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
+        self._thread = threading.Thread(target=self._work, daemon=True)
+        self._thread.start()
+
+    def send(self, message: Body) -> None:
+        """Soon."""
+        self._queue.put(framed(message))
+
+    def close(self) -> None:
+        """Writes the rest."""
+        self._queue.put(None)
+        self._thread.join(2)
+
+    def _work(self) -> None:
+        with suppress(OSError):
+            while (data := self._queue.get()) is not None:
+                rest = memoryview(data)
+                while rest:
+                    rest = rest[os.write(self._stream, rest) :]
+
+
+class Front:
+    """The client's only partner: first we, and with `attach` a server, to which everything goes on then."""
+
+    def __init__(self, send: Callable[[Body], None], author: str, on_end: Callable[[], None]) -> None:
+        self._out, self._author, self._on_end = send, author, on_end
+        self._seq = 0
+        self._conversation = Conversation(self._send, Launcher(author), User(author), on_end)
+        self._initialize: Body = {}
+        self._remote: Remote | None = None
+        self._waiting: list[object] | None = None
+        self._tasks: set[asyncio.Task[None]] = set()
+        self._last = ""
+
+    def _send(self, message: Body) -> None:
+        self._seq += 1
+        self._out({**message, "seq": self._seq})
+
+    def receive(self, message: object) -> None:
+        """A message of the client's, to whoever serves it."""
+        command = message.get("command") if isinstance(message, dict) else None
+        self._last = command if isinstance(command, str) else self._last
+        if self._waiting is not None:
+            self._waiting.append(message)
+        elif self._remote is not None:
+            self._waiting = [message]
+            self._begin(self._forward())
+        elif command == "attach" and isinstance(message, dict) and self._initialize:
+            self._waiting = []
+            self._begin(self._attach(message))
+        else:
+            if command == "initialize" and isinstance(message, dict) and not self._initialize:
+                self._initialize = message
+            self._conversation.receive(message)
+
+    def _begin(self, work: "asyncio.Future[None] | object") -> None:
+        assert asyncio.iscoroutine(work)
+        task = asyncio.get_running_loop().create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    async def _attach(self, message: Body) -> None:
+        try:
+            args = shapes.Attach.model_validate(message.get("arguments") or {})
+            remote = await Remote.reach(args, args.user or self._author, self._send, self._on_remote_end)
+        except (Refused, ValidationError) as error:
+            text = str(error) if isinstance(error, Refused) else f"attach: {error.errors()[0]['msg']}"
+            self._send({
+                "type": "response", "request_seq": message.get("seq", 0), "command": "attach", "success": False,
+                "message": text, "body": {"error": {"id": 1, "format": text, "showUser": True}},
+            })  # fmt: skip
+            waiting, self._waiting = self._waiting or [], None
+            for each in waiting:
+                self.receive(each)
+            return
+        self._remote = remote
+        await remote.begin(self._initialize)
+        await remote.forward(message)
+        await self._forward()
+
+    async def _forward(self) -> None:
+        """What came meanwhile, in order."""
+        assert self._remote is not None
+        while self._waiting:
+            await self._remote.forward(self._waiting.pop(0))
+        self._waiting = None
+
+    def _on_remote_end(self) -> None:
+        if self._last != "disconnect":
+            self._send({"type": "event", "event": "output", "body": {
+                "category": "important", "output": "the server has closed the connection\n",
+            }})  # fmt: skip
+            self._send({"type": "event", "event": "terminated"})
+        self._on_end()
+
+    async def close(self) -> None:
+        """The client is gone."""
+        for task in self._tasks:
+            task.cancel()
+        await asyncio.gather(*self._tasks, return_exceptions=True)
+        if self._remote is not None:
+            await self._remote.close()
+        await self._conversation.close()

@@ -1,0 +1,84 @@
+"""DAP on a WebSocket of its own, for tools that attach: each text is one message."""
+
+import asyncio
+import json
+from collections import deque
+from contextlib import suppress
+
+from fastapi import APIRouter, WebSocket, WebSocketDisconnect
+
+from scanbench.store.records import NotFound
+from scanbench.web.auth import user_of
+from scanbench.web.dap.attaching import ForTool
+from scanbench.web.dap.conversation import Conversation
+from scanbench.web.dap.shapes import Body
+from scanbench.web.messages_base import Id
+from scanbench.web.reach import SocketBench
+
+router = APIRouter(prefix="/api", tags=["debug"])
+_WAITING = 20_000
+"""So many messages not yet sent: the client does not read."""
+
+
+@router.websocket("/instances/{instance}/dap")
+async def on_dap(bench: SocketBench, socket: WebSocket, instance: Id) -> None:
+    """A debug session of its own at this PLC."""
+    try:
+        session = bench.session(instance)
+    except NotFound as error:
+        await socket.close(1008, str(error))
+        return
+    await socket.accept()
+    user = user_of(socket)
+    outbox = Outbox(socket)
+    conversation = Conversation(outbox.send, ForTool(session, user.name), user, outbox.end)
+    writer = asyncio.get_running_loop().create_task(outbox.write())
+    try:
+        while True:
+            text = await socket.receive_text()
+            try:
+                message = json.loads(text)
+            except ValueError:
+                message = text
+            conversation.receive(message)
+    except (WebSocketDisconnect, RuntimeError, KeyError):
+        pass  # gone, or it sent bytes where only text is understood
+    finally:
+        await conversation.close()
+        writer.cancel()
+        await asyncio.gather(writer, return_exceptions=True)
+
+
+class Outbox:
+    """What is to be sent, in order."""
+
+    def __init__(self, socket: WebSocket) -> None:
+        self._socket = socket
+        self._texts: deque[str] = deque()
+        self._wake = asyncio.Event()
+        self._over = False
+
+    def send(self, message: Body) -> None:
+        """Soon."""
+        self._texts.append(json.dumps(message, ensure_ascii=False))
+        self._wake.set()
+
+    def end(self) -> None:
+        """After what is to be sent, the connection is closed."""
+        self._over = True
+        self._wake.set()
+
+    async def write(self) -> None:
+        """Sends as it comes."""
+        with suppress(WebSocketDisconnect, RuntimeError):
+            while True:
+                await self._wake.wait()
+                self._wake.clear()
+                if len(self._texts) > _WAITING:
+                    await self._socket.close(1013, "too slow")
+                    return
+                while self._texts:
+                    await self._socket.send_text(self._texts.popleft())
+                if self._over:
+                    await self._socket.close()
+                    return

@@ -1,0 +1,154 @@
+"""REST: traces of an instance, their samples, kept records, and the flight recorder. Everything changes for everybody."""
+
+import re
+from collections.abc import Iterator, Sequence
+from urllib.parse import quote
+
+from fastapi import APIRouter, Request
+from fastapi.responses import Response, StreamingResponse
+
+from scanbench.taps.trace import TraceSignal
+from scanbench.taps.trace_buffer import Samples
+from scanbench.taps.trace_csv import to_csv
+from scanbench.web import messages_trace as wire
+from scanbench.web import translate_trace
+from scanbench.web.auth import user_of
+from scanbench.web.messages_base import Id, Scan
+from scanbench.web.reach import Bench
+
+router = APIRouter(prefix="/api", tags=["traces"])
+BYTES = "application/octet-stream"
+
+
+@router.get("/instances/{instance}/traces")
+async def on_traces(bench: Bench, instance: Id) -> list[wire.TraceInfo]:
+    """The traces of an instance."""
+    return list(map(translate_trace.info, bench.session(instance).tracing.traces))
+
+
+@router.post("/instances/{instance}/traces", status_code=201)
+async def on_new_trace(bench: Bench, request: Request, instance: Id, new: wire.DefineTrace) -> wire.TraceInfo:
+    """A new trace."""
+    tracing, author = bench.session(instance).tracing, user_of(request).name
+    return translate_trace.info(await tracing.define(None, translate_trace.wanted(new), author, new.start))
+
+
+@router.put("/instances/{instance}/traces/{trace}")
+async def on_define_trace(
+    bench: Bench, request: Request, instance: Id, trace: Id, changed: wire.DefineTrace
+) -> wire.TraceInfo:
+    """Another definition for a trace; what was recorded is forgotten, unless only the name changed."""
+    tracing, author = bench.session(instance).tracing, user_of(request).name
+    return translate_trace.info(await tracing.define(trace, translate_trace.wanted(changed), author, changed.start))
+
+
+@router.post("/instances/{instance}/traces/{trace}/start")
+async def on_start_trace(bench: Bench, request: Request, instance: Id, trace: Id) -> wire.TraceInfo:
+    """Records anew; arms a trace with a trigger again."""
+    return translate_trace.info(await bench.session(instance).tracing.drive(trace, "start", user_of(request).name))
+
+
+@router.post("/instances/{instance}/traces/{trace}/stop")
+async def on_stop_trace(bench: Bench, request: Request, instance: Id, trace: Id) -> wire.TraceInfo:
+    """Records no more; what was recorded stays."""
+    return translate_trace.info(await bench.session(instance).tracing.drive(trace, "stop", user_of(request).name))
+
+
+@router.delete("/instances/{instance}/traces/{trace}", status_code=204)
+async def on_delete_trace(bench: Bench, request: Request, instance: Id, trace: Id) -> None:
+    """Forgets a trace and what it recorded."""
+    await bench.session(instance).tracing.delete(trace, user_of(request).name)
+
+
+@router.get("/instances/{instance}/traces/{trace}/samples", response_class=Response)
+async def on_samples(
+    bench: Bench, instance: Id, trace: Id, first: Scan = 0, last: Scan | None = None, points: Scan | None = None
+) -> Response:
+    """Samples of scans `first` to `last`, as bytes; where there are more than `points`, the least and greatest of stretches."""
+    return Response(await bench.session(instance).tracing.read(trace, first, last, points), media_type=BYTES)
+
+
+@router.get("/instances/{instance}/traces/{trace}/csv", response_class=Response)
+async def on_csv(bench: Bench, instance: Id, trace: Id, first: Scan = 0, last: Scan | None = None) -> StreamingResponse:
+    """Every sample of these scans, as CSV."""
+    tracing = bench.session(instance).tracing
+    status = tracing.trace(trace)
+    data = await tracing.read(trace, first, last, None)
+    return _csv(data, status.signals, status.interval_ns, status.definition.name)
+
+
+@router.post("/instances/{instance}/traces/{trace}/keep", status_code=201)
+async def on_keep(
+    bench: Bench, request: Request, instance: Id, trace: Id, keep: wire.KeepTrace
+) -> wire.TraceRecordInfo:
+    """Keeps what a trace has recorded until now, in the project."""
+    session, author = bench.session(instance), user_of(request).name
+    return translate_trace.record(await bench.trace_records.keep(session, trace, keep.name.strip(), author))
+
+
+# ---- kept records ----------------------------------------------------------------------------------------------------
+
+
+@router.get("/projects/{project}/trace-records")
+async def on_records(bench: Bench, project: Id) -> list[wire.TraceRecordInfo]:
+    """The kept records of a project, the newest first."""
+    return list(map(translate_trace.record, await bench.trace_records.of_project(project)))
+
+
+@router.get("/trace-records/{record}")
+async def on_record(bench: Bench, record: Id) -> wire.TraceRecordInfo:
+    """A kept record."""
+    return translate_trace.record(await bench.trace_records.one(record))
+
+
+@router.delete("/trace-records/{record}", status_code=204)
+async def on_delete_record(bench: Bench, record: Id) -> None:
+    """Forgets a kept record."""
+    await bench.trace_records.delete(record)
+
+
+@router.get("/trace-records/{record}/samples", response_class=Response)
+async def on_record_samples(
+    bench: Bench, record: Id, first: Scan = 0, last: Scan | None = None, points: Scan | None = None
+) -> Response:
+    """Samples of a kept record, as those of a trace."""
+    return Response(await bench.trace_records.samples(record, first, last, points), media_type=BYTES)
+
+
+@router.get("/trace-records/{record}/csv", response_class=Response)
+async def on_record_csv(bench: Bench, record: Id, first: Scan = 0, last: Scan | None = None) -> StreamingResponse:
+    """Every sample of these scans of a kept record, as CSV."""
+    about = await bench.trace_records.one(record)
+    data = await bench.trace_records.samples(record, first, last, None)
+    return _csv(data, about.signals, about.interval_ns, about.row.name)
+
+
+# ---- the flight recorder ---------------------------------------------------------------------------------------------
+
+
+@router.post("/instances/{instance}/flights", status_code=201)
+async def on_new_flight(bench: Bench, request: Request, instance: Id, new: wire.NewFlight) -> wire.Flight:
+    """Records scans that are over, by running them again beside the PLC; progress comes by the instance's WebSocket."""
+    signals = tuple(text.strip() for text in new.signals)
+    begun = bench.trace_records.fly(
+        bench.session(instance), signals, new.first, new.last, new.every, user_of(request).name
+    )
+    return translate_trace.flight(begun)
+
+
+@router.delete("/flights/{flight}", status_code=204)
+async def on_cancel_flight(bench: Bench, flight: Id) -> None:
+    """Gives a record up that is under way."""
+    await bench.trace_records.cancel(flight)
+
+
+def _csv(data: bytes, signals: Sequence[TraceSignal], interval_ns: int, name: str) -> StreamingResponse:
+    samples, _, _ = Samples.unpack(data)
+
+    def text() -> Iterator[bytes]:
+        for piece in to_csv(samples, signals, interval_ns):
+            yield piece.encode()
+
+    plain = re.sub(r"[^A-Za-z0-9._ -]", "_", name)
+    headers = {"Content-Disposition": f"attachment; filename=\"{plain}.csv\"; filename*=UTF-8''{quote(name)}.csv"}
+    return StreamingResponse(text(), media_type="text/csv; charset=utf-8", headers=headers)

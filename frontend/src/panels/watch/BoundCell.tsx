@@ -1,0 +1,45 @@
+import { t } from "../../logic/text";
+import { actualOf, type ValueRow } from "../../logic/watchrows";
+import { useBindings } from "../../store/bindings";
+import { useCatalogue } from "../../store/catalogue";
+import { useForcedAt } from "../../store/forces";
+import { useWatchList } from "../../store/watchlist";
+import { Icon } from "../../ui/Icon";
+import type { PlcSymbol } from "../../wire/types";
+import { siteShown } from "./sites";
+
+/** What stands behind the row: the actual of an in-out, what the program wants under a force, the error behind a flag. */
+export function BoundCell({ row, symbol }: { row: ValueRow; symbol: PlcSymbol | null }) {
+  const forced = useForcedAt(row.path);
+  const { errors } = useCatalogue();
+  if (row.inOut !== null) return <Actual path={row.path} inOut={row.inOut} />;
+  const wanted = forced?.after_program;
+  const flag = symbol?.address ? errors.find(({ flag }) => flag === symbol.address)?.name : undefined;
+  const says = wanted ? t("force.programwrites", { value: wanted }) : flag;
+  return (
+    <span className="bound" role="gridcell" title={says}>
+      {says && <span className="ui cut">{says}</span>}
+    </span>
+  );
+}
+
+function Actual({ path, inOut }: { path: string; inOut: string }) {
+  const binding = useBindings((bindings) => bindings.of.get(inOut));
+  const chosen = useWatchList((list) => list.sites.get(inOut));
+  const site = binding && siteShown(binding, chosen);
+  if (!binding || !site?.actual) {
+    return (
+      <span className="bound" role="gridcell" title={binding?.message}>
+        {binding && <span className="ui cut">{t("binding.none")}</span>}
+      </span>
+    );
+  }
+  const actual = actualOf(path, inOut, site.actual);
+  const shown = path === inOut && site.address ? `${actual} (${site.address})` : actual;
+  return (
+    <span className="bound" role="gridcell" title={shown}>
+      <Icon name="bound" />
+      <span className="cut">{shown}</span>
+    </span>
+  );
+}
