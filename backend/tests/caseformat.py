@@ -2,8 +2,9 @@
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from pathlib import Path
+from typing import Literal
 
 from scanbench.check.build import check_sources
 from scanbench.check.layout import Layout
@@ -17,7 +18,7 @@ from scanbench.plcmodel.model import Model
 from scanbench.syntax.literals import date_and_time, duration
 
 HEAD = re.compile(
-    r"^\[(case|source|scans|trap|model|interval|budget|feature|violations|file|clock|start)\b\s*(.*?)\]\s*$"
+    r"^\[(case|source|scans|trap|model|interval|budget|feature|violations|file|clock|start|both)\b\s*(.*?)\]\s*$"
 )
 LINE = re.compile(r"^\s*(\d+)\s*:(.*?)(?:\|(.*))?$")
 PAIR = re.compile(
@@ -54,12 +55,25 @@ class Case:
     """Beside `source`: what is in `plant/`."""
     epoch_ns: int = 0
     """What the PLC's clock shows at virtual time 0."""
+    in_out: Literal["reference", "value", ""] = ""
+    """How blocks take their in-outs, when it is not as the model has it."""
+    both: bool = False
+    """It holds for both conventions."""
     starts: list[int] = field(default_factory=list)
     """Scans before which the program starts once more, with everything kept."""
 
 
 def read_cases(path: Path) -> list[Case]:
-    """All cases of a file."""
+    """All cases of a file; one that holds for both conventions of in-outs is two."""
+    return [each for case in _read_cases(path) for each in (_both(case) if case.both else [case])]
+
+
+def _both(case: Case) -> list[Case]:
+    by_reference = replace(case, name=f"{case.name} by reference", in_out="reference")
+    return [by_reference, replace(case, name=f"{case.name} by value", in_out="value")]
+
+
+def _read_cases(path: Path) -> list[Case]:
     cases: list[Case] = []
     part = ""
     for number, line in enumerate(path.read_text("utf-8").splitlines(), 1):
@@ -108,11 +122,15 @@ def _head(case: Case, part: str, rest: str) -> None:
             case.files[rest] = ""
         case "violations":
             case.violations = []
+        case "both":
+            case.both = True
 
 
 def build(case: Case) -> Program:
     """The checked program; problems fail the test."""
-    checked = check_sources({"case.st": case.source, **case.files}, MODELS[case.model], case.interval_ns)
+    model = MODELS[case.model]
+    model = replace(model, in_out=case.in_out) if case.in_out else model
+    checked = check_sources({"case.st": case.source, **case.files}, model, case.interval_ns)
     assert checked.program is not None, "\n".join(map(str, checked.problems))
     return checked.program
 

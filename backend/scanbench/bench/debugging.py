@@ -9,20 +9,21 @@ import argparse
 import json
 import sys
 from collections import Counter
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Iterator
 from dataclasses import asdict, dataclass
 from pathlib import Path
 from statistics import median
 from tempfile import TemporaryDirectory
 from time import perf_counter_ns, thread_time_ns
+from typing import TypeVar
 
 from scanbench.bench.building import LARGE
-from scanbench.bench.run import INTERVAL_NS, MODEL, PROGRAMS, BenchError, checked_program
+from scanbench.bench.run import PROGRAMS, BenchError, checked_program
 from scanbench.check.build import check_sources
 from scanbench.check.local import Local, Locals
 from scanbench.check.program import Pou, Program
 from scanbench.check.sites import Sites
-from scanbench.check.types import Elementary, Kind
+from scanbench.check.types import Elementary, Kind, Record
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.debug import DebugEngine, Listen
 from scanbench.engines.engine import Engine, Reason
@@ -34,6 +35,8 @@ from scanbench.engines.native.probed import ProbedBuilds, probed_engine
 from scanbench.engines.probe import Probe
 from scanbench.plcmodel.load import model_named
 from scanbench.session.samples import samples
+
+T = TypeVar("T")
 
 SAMPLE = "Conveyor"
 SAMPLES = 7
@@ -54,7 +57,7 @@ class Costs:
     probed_hot: float
     """A breakpoint in the statement that runs most often, whose condition is never true."""
     probed_cold: float | None
-    """One in a statement that never runs; None where there is none."""
+    """One in a statement that does not run, or hardly ever; None where there is none."""
     debug_hot: float
     """The same in the debug flavour, where Python looks at the condition."""
     debug_cold: float | None
@@ -73,11 +76,12 @@ class Swaps:
 
 @dataclass(frozen=True, slots=True)
 class _Places:
-    """Where breakpoints stand, with what is never true there."""
+    """Where breakpoints stand, each with what is never true there."""
 
     hot: int
+    hot_condition: Local
     cold: int | None
-    never: Local
+    cold_condition: Local
 
 
 def measure_costs(program: Program) -> Costs:
@@ -86,22 +90,22 @@ def measure_costs(program: Program) -> Costs:
     memory = bytearray(program.initial_image)
     idle = debug_engine(program, memory, code)
 
-    def probed(probe: Probe) -> Engine:
-        return ProbedBuilds().engine(program, bytearray(program.initial_image), [probe])
+    def probed(site: int, condition: Local) -> Engine:
+        return ProbedBuilds().engine(program, bytearray(program.initial_image), [Probe(site, condition.expr)])
 
-    def debugged(site: int) -> Engine:
+    def debugged(site: int, condition: Local) -> Engine:
         memory = bytearray(program.initial_image)
         engine = debug_engine(program, memory, code)
-        engine.hook(_Condition(engine, Evaluator(program, memory).condition(places.never)))
+        engine.hook(_Condition(engine, Evaluator(program, memory).condition(condition)))
         engine.listen(Listen(sites=frozenset({site})))
         return engine
 
     engines = [
         NativeEngine(program, bytearray(program.initial_image)), NativeEngine(program, memory),
-        probed(Probe(places.hot, places.never.expr)), debugged(places.hot),
+        probed(places.hot, places.hot_condition), debugged(places.hot, places.hot_condition),
     ]  # fmt: skip
     if places.cold is not None:
-        engines += [probed(Probe(places.cold)), debugged(places.cold)]
+        engines += [probed(places.cold, places.cold_condition), debugged(places.cold, places.cold_condition)]
     ns = _in_turn(engines)
     del idle
     loaded, probed_hot, debug_hot, *cold = (round(each / ns[0], 3) for each in ns[1:])
@@ -112,7 +116,7 @@ def measure_costs(program: Program) -> Costs:
 def measure_swaps(program: Program) -> Swaps:
     """What it takes to put another flavour in place."""
     places = _places(program)
-    probes = [Probe(places.hot, places.never.expr)]
+    probes = [Probe(places.hot, places.hot_condition.expr)]
     memory = bytearray(program.initial_image)
     code, debug_build = _timed(lambda: DebugBuilds().objects(program))
     with TemporaryDirectory() as directory:
@@ -125,7 +129,7 @@ def measure_swaps(program: Program) -> Swaps:
     return Swaps(median(debug_pauses), debug_build, median(probed_pauses), probed_build)
 
 
-def _timed[T](make: Callable[[], T]) -> tuple[T, float]:
+def _timed(make: Callable[[], T]) -> tuple[T, float]:
     start = perf_counter_ns()
     made = make()
     return made, round((perf_counter_ns() - start) / 1e6, 1)
@@ -199,26 +203,37 @@ def _places(program: Program) -> _Places:
     reached = engine.observer.take().reached
     hot = counting.counts.most_common(1)[0][0]
     cold = next((site for site in range(len(engine.sites.statements)) if site not in reached), None)
-    return _Places(hot, cold, _never(program, engine.sites, hot))
+    hot_condition = _never(program, engine.sites, hot)
+    return _Places(hot, hot_condition, cold, hot_condition if cold is None else _never(program, engine.sites, cold))
 
 
 def _never(program: Program, sites: Sites, site: int) -> Local:
     """A condition on a variable of the statement's POU that is never true, which no compiler can know."""
     pou = next(pou for pou, inside in sites.bodies.items() if site in inside)
-    found = Locals(program).condition(pou, next(_texts(pou)))
-    if not isinstance(found, Local):
-        raise BenchError(f"{pou.name}: {found.message}")
+    conditions = (Locals(program).condition(pou, text) for text in _texts(pou, program))
+    found = next((each for each in conditions if isinstance(each, Local)), None)
+    if found is None:
+        raise BenchError(f"{pou.name} has no number that a condition could look at")
     return found
 
 
-def _texts(pou: Pou) -> Iterable[str]:
-    for member in (*pou.frame.members.values(), *pou.instance.members.values()):
-        if isinstance(member.type, Elementary) and not member.hidden:
-            if member.type.kind is Kind.INT and member.type.signed:
-                yield f"{member.name} = {-(1 << member.type.bits - 1)}"
-            elif member.type.kind is Kind.REAL:
-                yield f"{member.name} = 1.25E30"
-    raise BenchError(f"{pou.name} has no number that a condition could look at")
+def _texts(pou: Pou, program: Program) -> Iterator[str]:
+    for record in (pou.frame, pou.instance):
+        yield from _of_record(record, "")
+    for each in program.shown:
+        yield from _of_record(each.pou.instance, f"{each.name}.")
+
+
+def _of_record(record: Record, prefix: str) -> Iterator[str]:
+    for member in record.members.values():
+        name, type = f"{prefix}{member.name}", member.type
+        if isinstance(type, Record):
+            yield from _of_record(type, f"{name}.")
+        elif isinstance(type, Elementary) and not member.hidden:
+            if type.kind is Kind.INT and type.signed:
+                yield f"{name} = {-(1 << type.bits - 1)}"
+            elif type.kind is Kind.REAL:
+                yield f"{name} = 1.25E30"
 
 
 # ---- the whole ------------------------------------------------------------------------------------------------------
@@ -227,7 +242,7 @@ def _texts(pou: Pou) -> Iterable[str]:
 def conveyor() -> Program:
     """The sample."""
     sample = next(each for each in samples() if each.name == SAMPLE)
-    checked = check_sources(sample.files, model_named(sample.model), sample.base_interval_ns)
+    checked = check_sources(sample.files, model_named(sample.model))
     assert checked.program is not None
     return checked.program
 

@@ -4,6 +4,7 @@ from dataclasses import dataclass
 
 from scanbench.check.condition import BadCondition
 from scanbench.check.local import locals_of
+from scanbench.check.program import Const
 from scanbench.check.types import Subrange, Type
 from scanbench.check.values import parse_value
 from scanbench.debug.assign import Assign, patch, pou_of, refused
@@ -60,8 +61,8 @@ def set_value(scene: Scene, index: int | None, target: str, value: str, author: 
             parsed_value(type, value, target)
         except NoValue:
             computed = scene.locals.assignments(pou, f"{target} := {value}")
-            if isinstance(computed, BadCondition):
-                raise
+            if isinstance(computed, BadCondition) or isinstance(computed.assignments[0].value, Const):
+                raise  # what is wrong with the value as typed says more
             scene.evaluator.assigned(computed, instance)  # to refuse at once
             return Assign(author, name, instance, f"{target} := {value}")
     except (NoFrame, NoValue) as error:

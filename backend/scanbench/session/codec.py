@@ -24,7 +24,7 @@ from scanbench.problems import Span
 from scanbench.runtime.carry_over import Lost
 from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.command import Entry, Numbered, Patch, Plan, Restarted, Swapped
-from scanbench.runtime.forces import FORCED, Force, Release
+from scanbench.runtime.forces import FORCED, Force, ForcedValue, Release
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.recording import RecordingInfo
@@ -33,8 +33,8 @@ from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped
 from scanbench.runtime.write import Write
 from scanbench.session import debug_protocol, job_protocol, protocol, trace_protocol
-from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
 from scanbench.taps.covered import CoveredFile, CoveredSite
+from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
 
 LENGTH = struct.Struct("<I")
 LARGEST = 1 << 30
@@ -56,7 +56,7 @@ _CLASSES: dict[str, type] = {
         protocol.PreviewedErrors, Difference, Line, Reaction, Reader,
         job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.Reacted,
         job_protocol.RunSweep, job_protocol.StartPoint, job_protocol.Trying, Raised,
-        Breakpoint, Verdict, Halt, debug_protocol.SetBreakpoints, debug_protocol.Step, debug_protocol.WantStack,
+        ForcedValue, protocol.ForcesAre, Breakpoint, Verdict, Halt, debug_protocol.SetBreakpoints, debug_protocol.Step, debug_protocol.WantStack,
         debug_protocol.WantScopes, debug_protocol.WantVariables, debug_protocol.Evaluate, debug_protocol.SetExpression,
         debug_protocol.WantPlaces, debug_protocol.WantBinding, debug_protocol.SetCoverage, debug_protocol.WantCoverage,
         debug_protocol.BreakpointsAre, debug_protocol.LogpointSaid, debug_protocol.FrameInfo,

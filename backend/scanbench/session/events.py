@@ -10,13 +10,13 @@ from scanbench.debug.breakpoint import Verdict
 from scanbench.debug.halt import Halt
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.history import ErrorRow
-from scanbench.runtime.forces import Force
+from scanbench.runtime.forces import ForcedValue
 from scanbench.runtime.recording import RecordingInfo
 from scanbench.runtime.trap import TrapInfo
 from scanbench.session import debug_protocol
-from scanbench.session.trace_protocol import TraceStatus
 from scanbench.session.builds import BuildOutcome
 from scanbench.session.protocol import RunMark, WatchItem
+from scanbench.session.trace_protocol import TraceStatus
 from scanbench.store.records import AcceptedRow, CellRow, SweepRow
 
 
@@ -134,9 +134,9 @@ class ValueWritten:
 
 @dataclass(frozen=True, slots=True)
 class ForcesChanged:
-    """All forces that hold now."""
+    """All forces that hold now, and what they did."""
 
-    forces: tuple[Force, ...]
+    forces: tuple[ForcedValue, ...]
 
 
 @dataclass(frozen=True, slots=True)

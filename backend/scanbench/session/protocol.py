@@ -15,7 +15,7 @@ from scanbench.faults.preview import PreviewedWrite
 from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.carry_over import Lost
 from scanbench.runtime.command import Command, Entry
-from scanbench.runtime.forces import Force
+from scanbench.runtime.forces import ForcedValue
 from scanbench.runtime.recording import RecordingInfo
 from scanbench.runtime.trap import TrapInfo
 
@@ -243,11 +243,17 @@ class HostState:
 
 @dataclass(frozen=True, slots=True)
 class Standing:
-    """What holds at the scan that is shown: forces, the errors that are present, the faults that are armed."""
+    """What holds at the scan that is shown: the errors that are present, the faults that are armed."""
 
-    forces: tuple[Force, ...]
     errors: dict[str, Active]
     armed: tuple[ArmedInfo, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class ForcesAre:
+    """The forces that hold at the scan that is shown, and what they did in the scan before."""
+
+    forces: tuple[ForcedValue, ...]
 
 
 @dataclass(frozen=True, slots=True)

@@ -15,7 +15,7 @@ from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import model_for
 from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Command, Entry
-from scanbench.runtime.forces import Force
+from scanbench.runtime.forces import Force, ForcedValue
 from scanbench.runtime.write import Write
 from scanbench.session import debug_protocol, events, protocol
 from scanbench.session.builds import BuildOutcome
@@ -64,7 +64,7 @@ class Session:
         self._next_question = _EVERYBODY + 1
         self._unwatched = False  # what is watched must be told to the next host
         self._violations = Violations()
-        self._forces: tuple[Force, ...] = ()
+        self._forces: tuple[ForcedValue, ...] = ()
         self._past_rows: list[ErrorRow] = []
         self._armed: tuple[ArmedInfo, ...] = ()
         self._reacting = Reacting(reactions, lambda: self.run_file, self._on_reaction)
@@ -161,7 +161,7 @@ class Session:
         return list(self._lines)
 
     @property
-    def forces(self) -> tuple[Force, ...]:
+    def forces(self) -> tuple[ForcedValue, ...]:
         """The forces that hold, in the order in which they were made."""
         return self._forces
 
@@ -398,6 +398,9 @@ class Session:
                 self._on_entries(message.entries)
             case protocol.Standing():
                 self._on_standing(message)
+            case protocol.ForcesAre():
+                self._forces = message.forces
+                self._publish(events.ForcesChanged(self.forces))
             case protocol.RunMarks():
                 self._publish(self._timeline.take(message))
             case protocol.Diagnosed():
@@ -458,9 +461,6 @@ class Session:
 
     def _on_standing(self, standing: protocol.Standing) -> None:
         """What holds now: also after a start, when entries of an earlier life or of a lost one count."""
-        if standing.forces != self._forces:
-            self._forces = standing.forces
-            self._publish(events.ForcesChanged(self.forces))
         if standing.armed != self._armed:
             self._armed = standing.armed
             self._publish(events.ArmedChanged(self._armed))

@@ -20,6 +20,7 @@ from scanbench.web import messages as wire
 from scanbench.web import (
     routes_binding,
     routes_dap,
+    routes_debug,
     routes_errors,
     routes_instances,
     routes_models,
@@ -74,7 +75,7 @@ def bare_app() -> FastAPI:
     )  # fmt: skip
     for routes in (
         routes_instances, routes_dap, routes_errors, routes_sweeps, routes_records, routes_projects, routes_user_errors,
-        routes_models, routes_binding, routes_traces, routes_values, routes_watch,
+        routes_models, routes_binding, routes_debug, routes_traces, routes_values, routes_watch,
     ):  # fmt: skip
         app.include_router(routes.router)
     for error, status in _STATUS.items():

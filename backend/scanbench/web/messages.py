@@ -406,7 +406,9 @@ class Write(Wire):
     ref: int
     path: str
     value: str = Field(description="as typed: TRUE, 42, 16#FF, T#5s, 1.5, 'text'")
-    site: str = Field(default="", description="of an in-out: what this call (file:line) passes, instead of the last one")
+    site: str = Field(
+        default="", description="of an in-out: what this call (file:line) passes, instead of the last one"
+    )
 
 
 class Force(Wire):
@@ -499,11 +501,16 @@ ClientMessage = Annotated[
 
 
 class ForceInfo(Wire):
-    """A force that holds: who keeps which variable at what."""
+    """A force that holds: who keeps which variable at what, and what it did in the scan that ran last."""
 
     path: str
+    through: str = Field(description="the in-out that it was entered for; empty where it was entered for the variable")
     value: str
     author: str
+    scan: int = Field(description="in front of which it was entered")
+    before: str = Field(description="what the variable was when the program was about to begin")
+    after_program: str = Field(description="what the program made of it")
+    after: str
 
 
 class Diagnostics(Wire):

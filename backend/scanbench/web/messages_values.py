@@ -24,7 +24,9 @@ class WriteValue(Wire):
 
     path: str
     value: str = Field(description="as typed: TRUE, 42, 16#FF, T#5s, 1.5, 'text'")
-    site: str = Field(default="", description="of an in-out: what this call (file:line) passes, instead of the last one")
+    site: str = Field(
+        default="", description="of an in-out: what this call (file:line) passes, instead of the last one"
+    )
 
 
 class ReleaseForces(Wire):

@@ -7,7 +7,7 @@ from scanbench.faults.history import ErrorRow
 from scanbench.plcmodel import model as plc
 from scanbench.problems import Problem
 from scanbench.runtime.clock import iso
-from scanbench.runtime.forces import Force
+from scanbench.runtime.forces import ForcedValue
 from scanbench.session import events
 from scanbench.session.builds import BuildOutcome, Change, CheckOutcome
 from scanbench.session.events import LogEntry, PlcState, User
@@ -172,9 +172,12 @@ def log_line(line: LogEntry) -> wire.LogLine:
     )
 
 
-def force(held: Force) -> wire.ForceInfo:
+def force(held: ForcedValue) -> wire.ForceInfo:
     """A force that holds."""
-    return wire.ForceInfo(path=held.path, value=held.value, author=held.author)
+    return wire.ForceInfo(
+        path=held.path, through=held.through, value=held.value, author=held.author, scan=held.scan, before=held.before,
+        after_program=held.after_program, after=held.after,
+    )  # fmt: skip
 
 
 def diagnostics(found: Violations) -> wire.Diagnostics:
@@ -212,8 +215,13 @@ def _violation(found: Violation) -> wire.Violation:
 def event(happened: events.Told) -> wire.ServerMessage:
     """What a session tells, as a message."""
     match happened:
-        case events.ProgramBuilt() | events.FileSaved() | events.FileDeleted():
+        case (
+            events.ProgramBuilt() | events.FileSaved() | events.FileDeleted() | events.SweepChanged()
+            | events.WatchListChanged()
+        ):  # fmt: skip
             return _of_project(happened)
+        case events.BreakpointsChanged() | events.CoverageChanged() | events.TracesChanged() | events.FlightChanged():
+            return _of_tools(happened)
         case events.StateChanged():
             return wire.State(state=state(happened.state))
         case events.ErrorsChanged():
@@ -230,18 +238,6 @@ def event(happened: events.Told) -> wire.ServerMessage:
             return timeline(happened)
         case events.ArmedChanged():
             return simulator.Armed(faults=list(map(translate_errors.armed, happened.faults)))
-        case events.SweepChanged():
-            return translate_sweeps.progress(happened)
-        case events.BreakpointsChanged():
-            return debugger.Breakpoints(breakpoints=list(map(translate_debug.breakpoint, happened.verdicts)))
-        case events.CoverageChanged():
-            return translate_debug.coverage(happened.coverage)
-        case events.TracesChanged():
-            return translate_trace.traces(happened)
-        case events.FlightChanged():
-            return translate_trace.flight(happened)
-        case events.WatchListChanged():
-            return WatchListChanged(id=happened.id, version=happened.version, author=happened.author)
         case events.ValueWritten():
             return wire.Written(
                 path=happened.path, author=happened.author, scan=happened.scan, forced=happened.forced
@@ -250,7 +246,13 @@ def event(happened: events.Told) -> wire.ServerMessage:
             return wire.Watching(ref=happened.ref, items=list(map(watched, happened.items)))
 
 
-def _of_project(happened: events.ProgramBuilt | events.FileSaved | events.FileDeleted) -> wire.ServerMessage:
+def _of_project(
+    happened: events.ProgramBuilt
+    | events.FileSaved
+    | events.FileDeleted
+    | events.SweepChanged
+    | events.WatchListChanged,
+) -> wire.ServerMessage:
     match happened:
         case events.ProgramBuilt():
             return wire.Built(author=happened.author, result=build_result(happened.outcome))
@@ -259,6 +261,24 @@ def _of_project(happened: events.ProgramBuilt | events.FileSaved | events.FileDe
             return wire.Saved(author=happened.author, file=file)
         case events.FileDeleted():
             return wire.Deleted(path=happened.path, author=happened.author)
+        case events.SweepChanged():
+            return translate_sweeps.progress(happened)
+        case events.WatchListChanged():
+            return WatchListChanged(id=happened.id, version=happened.version, author=happened.author)
+
+
+def _of_tools(
+    happened: events.BreakpointsChanged | events.CoverageChanged | events.TracesChanged | events.FlightChanged,
+) -> wire.ServerMessage:
+    match happened:
+        case events.BreakpointsChanged():
+            return debugger.Breakpoints(breakpoints=list(map(translate_debug.breakpoint, happened.verdicts)))
+        case events.CoverageChanged():
+            return translate_debug.coverage(happened.coverage)
+        case events.TracesChanged():
+            return translate_trace.traces(happened)
+        case events.FlightChanged():
+            return translate_trace.flight(happened)
 
 
 # ---- models ------------------------------------------------------------------------------------------------------

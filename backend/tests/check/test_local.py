@@ -109,7 +109,7 @@ def test_worth(program: Program, ran: Evaluator, pou: str, text: str, wanted: st
         ("Main", "own", "`own`"),
         ("", "t", "`t`"),
         ("Counter", "bump(1, 2)", "Function blocks and methods are not run"),
-        ("Counter", "twise(1)", "Did you mean `twice`?"),
+        ("Counter", "twise(1)", "Did you mean `twice`"),
         ("Counter", "twice(TRUE)", "INT"),
         ("Counter", "list[9]", "outside of 1..3"),
         ("Counter", "", "There is no expression"),

@@ -70,7 +70,7 @@ def test_refusals_say_why_and_change_nothing() -> None:
         (Write("Ada", "Main.n", "40000"), ["Main.n", "INT", "32767"]),
         (Write("Ada", "Main.text", "'far too long'"), ["STRING[8]"]),
         (Write("Ada", "Main.pair", "1"), ["Main.pair", "members"]),
-        (Write("Ada", "Main.user.level", "1"), ["not connected"]),
+        (Write("Ada", "Main.user.level", "1"), ["Main.user.level", "not called yet"]),
         (Write("Ada", "D99999", "1"), ["D99999"]),
         (Force("Ada", "Main.text", "'x'"), ["8 bytes"]),
         (SetMode("Ada", "STOP"), ["STOP"]),

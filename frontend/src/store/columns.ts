@@ -2,7 +2,7 @@
 import { create } from "zustand";
 import { keep, recall } from "./keep";
 
-export const WATCH_COLUMNS = ["current", "change", "type", "address"] as const;
+export const WATCH_COLUMNS = ["current", "change", "type", "address", "bound"] as const;
 export type WatchColumn = (typeof WATCH_COLUMNS)[number];
 
 type Widths = Partial<Record<WatchColumn, number>>;

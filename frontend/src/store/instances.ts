@@ -5,6 +5,7 @@ import { importRun, readBody } from "../wire/transfer";
 import type { ChangeInstance, Instance } from "../wire/types";
 import { chooseInstance, chooseProject, refreshApp, useBench } from "./bench";
 import { messageOf } from "./documents";
+import { saveFile } from "./download";
 
 const PERIOD = 2000;
 
@@ -121,7 +122,7 @@ export function exportInstance(instance: Instance): Promise<void> {
     transferring(moving, async () => {
       const response = await rest.exportRun(instance.id, given.signal);
       const body = await readBody(response, progress);
-      save(body, nameIn(response) ?? `${instance.name}.scanrun`);
+      saveFile(body, nameIn(response) ?? `${instance.name}.scanrun`);
     }),
   );
 }
@@ -155,12 +156,4 @@ function progress(share: number | null): void {
 
 function nameIn(response: Response): string | undefined {
   return /filename="([^"]+)"/.exec(response.headers.get("Content-Disposition") ?? "")?.[1];
-}
-
-function save(body: Blob, name: string): void {
-  const link = document.createElement("a");
-  link.href = URL.createObjectURL(body);
-  link.download = name;
-  link.click();
-  setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
 }

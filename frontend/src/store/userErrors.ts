@@ -5,6 +5,7 @@ import { rest } from "../wire/rest";
 import type { FileInfo, FileText, UserError, UserErrors, UserErrorsDraft, UserProblem } from "../wire/types";
 import { useBench } from "./bench";
 import { messageOf, onSaved, refreshFiles } from "./documents";
+import { saveFile } from "./download";
 import { forget, keep, recall } from "./keep";
 import { openPage } from "./navigate";
 
@@ -218,11 +219,7 @@ export async function exportUserErrors(): Promise<void> {
   const { project } = get();
   if (project === null) return;
   try {
-    const link = document.createElement("a");
-    link.href = URL.createObjectURL(await rest.exportUserErrors(project));
-    link.download = USER_ERRORS;
-    link.click();
-    setTimeout(() => URL.revokeObjectURL(link.href), 10_000);
+    saveFile(await rest.exportUserErrors(project), USER_ERRORS);
   } catch (error) {
     set({ trouble: messageOf(error) });
   }

@@ -264,6 +264,8 @@ export const drawings = {
     </>
   ),
   export: <path d="M8 2.25v7.5M5 7l3 3 3-3M2.75 11.5v1.25a1 1 0 0 0 1 1h8.5a1 1 0 0 0 1-1V11.5" />,
+  filter: <path d="M2.5 4h11M4.75 8h6.5M6.75 12h2.5" />,
+  sort: <path d="M8 3v10M4.75 9.75 8 13l3.25-3.25" />,
   import: <path d="M8 9.75v-7.5M5 5l3-3 3 3M2.75 11.5v1.25a1 1 0 0 0 1 1h8.5a1 1 0 0 0 1-1V11.5" />,
   moved: <path d="M2.5 8h10.5M9.5 4.5 13 8l-3.5 3.5" />,
   init: (

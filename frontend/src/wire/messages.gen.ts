@@ -153,6 +153,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/coverage": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Coverage
+         * @description Statements and branches that were reached since coverage was switched on.
+         */
+        get: operations["on_coverage_api_instances__instance__coverage_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/coverage.lcov": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Lcov
+         * @description The same as LCOV, for genhtml and CI.
+         */
+        get: operations["on_lcov_api_instances__instance__coverage_lcov_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/errors": {
         parameters: {
             query?: never;
@@ -2478,13 +2518,35 @@ export interface components {
         };
         /**
          * ForceInfo
-         * @description A force that holds: who keeps which variable at what.
+         * @description A force that holds: who keeps which variable at what, and what it did in the scan that ran last.
          */
         ForceInfo: {
+            /** After */
+            after: string;
+            /**
+             * After Program
+             * @description what the program made of it
+             */
+            after_program: string;
             /** Author */
             author: string;
+            /**
+             * Before
+             * @description what the variable was when the program was about to begin
+             */
+            before: string;
             /** Path */
             path: string;
+            /**
+             * Scan
+             * @description in front of which it was entered
+             */
+            scan: number;
+            /**
+             * Through
+             * @description the in-out that it was entered for; empty where it was entered for the variable
+             */
+            through: string;
             /** Value */
             value: string;
         };
@@ -5082,6 +5144,68 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Symbol"][];
+                };
+            };
+        };
+    };
+    on_coverage_api_instances__instance__coverage_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Coverage"];
+                };
+            };
+        };
+    };
+    on_lcov_api_instances__instance__coverage_lcov_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/plain": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "text/plain": string;
                 };
             };
         };

@@ -18,8 +18,8 @@ from scanbench.session.host.limits import MemoryLimit, limit_files
 from scanbench.session.host.link import Link
 from scanbench.session.host.lookup import look_up
 from scanbench.session.host.loop import Loop
-from scanbench.session.trace_protocol import ReadTrace
 from scanbench.session.host.opening import open_loop
+from scanbench.session.trace_protocol import ReadTrace
 
 log = logging.getLogger("scanbench")
 _NO_TICK_NS = 1_000_000_000

@@ -9,7 +9,7 @@ from scanbench.faults.arm import ARMED, armed_faults
 from scanbench.faults.inject import ACTIVE
 from scanbench.faults.preview import preview
 from scanbench.runtime.clock import monotonic_ns
-from scanbench.runtime.forces import FORCED
+from scanbench.runtime.forces import ForcedValue, forced_values
 from scanbench.runtime.recording import RecordingInfo
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.timeline import PAST, Timeline
@@ -50,6 +50,7 @@ class Services:
         self._state_at = self._counted_at = self._info_at = 0
         self._diagnosed: Violations | None = None
         self._standing: protocol.Standing | None = None
+        self._forces: tuple[ForcedValue, ...] = ()
         self._info: RecordingInfo | None = None
         timeline.new_entries()  # those of earlier lives were told by their hosts
         link.post(protocol.RunMarks(timeline.recording.info, marks_of(timeline.live_journal), fresh=True))
@@ -152,12 +153,15 @@ class Services:
 
     def _tell_standing(self) -> None:
         journal = self._resource.journal
-        forces = tuple(journal.derived(FORCED).values())
         present = journal.derived(ACTIVE)
-        standing = protocol.Standing(forces, dict(present), armed_faults(journal.derived(ARMED)))
+        standing = protocol.Standing(dict(present), armed_faults(journal.derived(ARMED)))
         if standing != self._standing:
             self._standing = standing
             self._link.post(standing)
+        forces = forced_values(self._resource.view)
+        if forces != self._forces:
+            self._forces = forces
+            self._link.post(protocol.ForcesAre(forces))
 
     def _preview(self, asked: protocol.PreviewErrors) -> None:
         view = self._resource.view

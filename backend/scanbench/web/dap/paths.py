@@ -50,7 +50,7 @@ class FolderPaths(Paths):
     def __init__(self, files: Files, root: str, other: str = "") -> None:
         """`other` is a second name of the same folder."""
         super().__init__(files)
-        self._root = root.rstrip("/\\") if root.strip("/\\") else root
+        self._root = root.rstrip("/\\")
         self._roots = [_plain(each) for each in (root, other) if each]
 
     def source(self, file: str) -> Body:
@@ -85,7 +85,7 @@ class ServerPaths(Paths):
             return source.path
         # a file on the client's disk: the one that its path ends with
         path = _plain(source.path)
-        ends = [file for file in self._files() if path.endswith(_plain(f"/{file}"))]
+        ends = [file for file in self._files() if path.endswith((f"/{file}", f"/{file.casefold()}"))]
         return max(ends, key=len, default=source.path)
 
 

@@ -3,6 +3,7 @@
 import asyncio
 import os
 import queue
+import signal
 import sys
 import threading
 from collections.abc import Callable
@@ -44,6 +45,7 @@ async def _serve(incoming: int, outgoing: int, author: str) -> None:
     threading.Thread(target=_read, args=(incoming, loop, chunks), daemon=True).start()
     writer = Writer(outgoing)
     over = asyncio.Event()
+    loop.add_signal_handler(signal.SIGTERM, over.set)  # as at the end of the stream: nothing is left behind
     front = Front(writer.send, author, over.set)
     framing = Framing()
     ended = loop.create_task(over.wait())

@@ -1,42 +1,52 @@
 import type { CSSProperties } from "react";
 import { splitPath } from "../../logic/paths";
 import { t } from "../../logic/text";
-import type { ValueRow } from "../../logic/watchrows";
-import { forceOf, useForces } from "../../store/forces";
+import { memberName, type ValueRow } from "../../logic/watchrows";
+import { useForcedAt, useForces } from "../../store/forces";
 import { useForbidden } from "../../store/plc";
 import { useWatches } from "../../store/watches";
-import { releaseForce, removeFromWatch, select, toggleOpen, useWatchList } from "../../store/watchlist";
+import { formatOf, releaseForce, removeFromWatch, select, toggleOpen, useWatchList } from "../../store/watchlist";
+import { useWatchLists } from "../../store/watchlists";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
+import type { ForceInfo } from "../../wire/types";
+import { BoundCell } from "./BoundCell";
 import { ChangeCell } from "./ChangeCell";
 import { CurrentCell } from "./CurrentCell";
+import { ROW_DRAG } from "./useRowDrop";
 
 interface Props {
   row: ValueRow;
   style: CSSProperties;
   index: number;
   selected: boolean;
+  /** Something is dragged that would be put in front of it. */
+  target: boolean;
   onMenu: (at: { x: number; y: number }) => void;
 }
 
 /** One variable or address of the watch table. */
-export function ValueLine({ row, style, index, selected, onMenu }: Props) {
+export function ValueLine({ row, style, index, selected, target, onMenu }: Props) {
   const answered = useWatches((state) => state.symbols.get(row.path));
   const refusal = useWatches((state) => state.refusals.get(row.path));
-  const locked = useForbidden("force");
-  const forced = useForces((forces) => forceOf(forces, row.path) !== undefined);
+  const forced = useForcedAt(row.path);
   const by = useForces((forces) => forces.written.get(row.path));
-  const format = useWatchList((list) => list.formats.get(row.path)) ?? "default";
+  useWatchList((list) => list.formats.get(row.path));
+  useWatchLists((lists) => lists.content.entries);
   const symbol = row.symbol ?? answered ?? null;
   const { own, name } = row.level === 0 ? splitPath(row.path) : { own: "", name: memberName(row) };
-  const title = [row.path, by ? t("watch.writtenby", { author: by.author, scan: by.scan }) : ""]
+  const title = [
+    row.path,
+    by ? t("watch.writtenby", { author: by.author, scan: by.scan }) : "",
+    forced ? forcedBy(forced) : "",
+  ]
     .filter(Boolean)
     .join("\n");
 
   return (
     <div
       id={`watch-${index}`}
-      className={`gr${selected ? " on" : ""}`}
+      className={`gr${selected ? " on" : ""}${target ? " dropbefore" : ""}`}
       role="row"
       style={style}
       aria-rowindex={index + 2}
@@ -44,6 +54,7 @@ export function ValueLine({ row, style, index, selected, onMenu }: Props) {
       aria-expanded={symbol?.expandable ? row.open : undefined}
       aria-selected={selected}
       data-path={row.path}
+      data-index={index}
       onClick={() => select(row.path)}
       onContextMenu={(event) => {
         event.preventDefault();
@@ -52,21 +63,19 @@ export function ValueLine({ row, style, index, selected, onMenu }: Props) {
       }}
     >
       <span className="gut" role="gridcell">
-        {forced && (
-          <button
-            type="button"
-            className="lock st forced"
-            tabIndex={-1}
-            aria-label={t("force.release.path", { path: row.path })}
-            title={locked ?? t("force.release")}
-            disabled={locked !== null}
-            onClick={() => void releaseForce(row.path)}
-          >
-            <Icon name="forced" small />
-          </button>
-        )}
+        {forced && <Lock path={row.path} forced={forced} />}
       </span>
-      <span className="name" role="gridcell" title={title}>
+      <span
+        className="name"
+        role="gridcell"
+        title={title}
+        draggable={row.level === 0}
+        onDragStart={({ dataTransfer }) => {
+          dataTransfer.setData("text/plain", row.path);
+          dataTransfer.setData(ROW_DRAG, row.root);
+          dataTransfer.effectAllowed = "copyMove";
+        }}
+      >
         {symbol?.expandable ? (
           <button
             type="button"
@@ -85,14 +94,20 @@ export function ValueLine({ row, style, index, selected, onMenu }: Props) {
           {name}
         </span>
       </span>
-      <CurrentCell path={row.path} symbol={symbol} refusal={refusal ?? null} format={format} />
-      <ChangeCell row={row} symbol={symbol} forced={forced} />
+      <CurrentCell
+        path={row.path}
+        symbol={symbol}
+        refusal={refusal ?? null}
+        format={formatOf(row.path, row.root)}
+      />
+      <ChangeCell row={row} symbol={symbol} forced={forced !== undefined} />
       <span className="mono muted c-type" role="gridcell" title={symbol?.type}>
         {symbol?.type ?? ""}
       </span>
       <span className="mono muted" role="gridcell" title={symbol?.address ?? undefined}>
         {symbol ? (symbol.address ?? "–") : ""}
       </span>
+      <BoundCell row={row} symbol={symbol} />
       <span className="end" role="gridcell">
         {row.level === 0 && (
           <IconButton
@@ -107,7 +122,21 @@ export function ValueLine({ row, style, index, selected, onMenu }: Props) {
   );
 }
 
-// A member shows only what it adds to its owner: `[1]` or `run`.
-function memberName(row: ValueRow): string {
-  return row.symbol?.name || splitPath(row.path).name;
+const forcedBy = ({ value, author }: ForceInfo) => t("force.by", { value, author });
+
+function Lock({ path, forced }: { path: string; forced: ForceInfo }) {
+  const locked = useForbidden("force");
+  return (
+    <button
+      type="button"
+      className="lock st forced"
+      tabIndex={-1}
+      aria-label={t("force.release.path", { path })}
+      title={`${forcedBy(forced)}\n${locked ?? t("force.release")}`}
+      disabled={locked !== null}
+      onClick={() => void releaseForce(path)}
+    >
+      <Icon name="forced" small />
+    </button>
+  );
 }

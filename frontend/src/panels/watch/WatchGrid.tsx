@@ -1,24 +1,37 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { type CSSProperties, type KeyboardEvent, useRef, useState } from "react";
+import { type ClipboardEvent, type CSSProperties, type KeyboardEvent, useEffect, useRef, useState } from "react";
+import { pathsIn } from "../../logic/paths";
 import { t } from "../../logic/text";
-import type { ValueRow, WatchRow } from "../../logic/watchrows";
-import { setColumn, useColumns, WATCH_COLUMNS, type WatchColumn } from "../../store/columns";
-import { removeFromWatch, select, toggleOpen, useWatchList } from "../../store/watchlist";
-import { Grip } from "../../ui/Grip";
+import { fromCsv } from "../../logic/watchcsv";
+import { pathsToWatch, type WatchRow } from "../../logic/watchrows";
+import { useColumns } from "../../store/columns";
+import { addAll, addToWatch, select, useWatchList, watchInSight, watchNothing } from "../../store/watchlist";
 import { Menu, type MenuItem } from "../../ui/Menu";
+import { BindingLine } from "./BindingLine";
+import { GridHead } from "./GridHead";
+import { GroupLine } from "./GroupLine";
+import { gridKey } from "./gridKeys";
+import { MoreLine } from "./MoreLine";
 import { NoteLine } from "./NoteLine";
-import { rowMenu } from "./rowMenu";
+import { groupMenu, rowMenu } from "./rowMenu";
+import { useRowDrop } from "./useRowDrop";
 import { ValueLine } from "./ValueLine";
 
 const ROW = 24;
-const LOOK: Record<WatchColumn, string> = { current: "num", change: "num", type: "c-type", address: "" };
 
-/** The rows: only those in sight exist in the page. The grid holds the focus, the selected row is its active descendant. */
-export function WatchGrid({ rows }: { rows: readonly WatchRow[] }) {
+interface Props {
+  rows: readonly WatchRow[];
+  onNewGroup: (path: string) => void;
+  onRenameGroup: (name: string) => void;
+}
+
+/** The rows: only those in sight exist in the page, and are watched. The grid holds the focus, the selected row is its active descendant. */
+export function WatchGrid({ rows, onNewGroup, onRenameGroup }: Props) {
   const scroll = useRef<HTMLDivElement>(null);
   const [menu, setMenu] = useState<{ items: MenuItem[]; at: { x: number; y: number } } | null>(null);
   const selected = useWatchList((list) => list.selected);
   const columns = useColumnStyle();
+  const drop = useRowDrop(rows);
   const virtual = useVirtualizer({
     count: rows.length,
     getScrollElement: () => scroll.current,
@@ -27,15 +40,18 @@ export function WatchGrid({ rows }: { rows: readonly WatchRow[] }) {
     // The head sticks to the top of the same scroller.
     scrollMargin: ROW,
     scrollPaddingStart: ROW,
-    getItemKey: (index) => `${rows[index]?.kind}:${rows[index]?.root}:${rows[index]?.path}`,
+    getItemKey: (index) => rows[index]?.key ?? index,
   });
-  const now = rows.findIndex((row) => row.kind === "value" && row.path === selected);
+  const now = rows.findIndex((row) => selectsAs(row) === selected && selected !== null);
+  const items = virtual.getVirtualItems();
+  useInSight(rows, items[0]?.index ?? 0, (items.at(-1)?.index ?? -1) + 1);
+  useReveal(now, (index) => virtual.scrollToIndex(index));
 
-  function step(by: number): void {
-    for (let i = now + by; i >= 0 && i < rows.length; i += Math.sign(by)) {
-      const row = rows[i];
-      if (row?.kind !== "value") continue;
-      select(row.path);
+  function go(to: number, by: 1 | -1): void {
+    for (let i = Math.max(0, Math.min(rows.length - 1, to)); i >= 0 && i < rows.length; i += by) {
+      const name = rows[i] && selectsAs(rows[i] as WatchRow);
+      if (!name) continue;
+      select(name);
       virtual.scrollToIndex(i);
       return;
     }
@@ -43,38 +59,24 @@ export function WatchGrid({ rows }: { rows: readonly WatchRow[] }) {
 
   function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
     if ((event.target as HTMLElement).matches("input, .grip")) return;
-    const row = rows[now] as ValueRow | undefined;
-    switch (event.key) {
-      case "ArrowDown":
-        step(1);
-        break;
-      case "ArrowUp":
-        step(-1);
-        break;
-      case "ArrowRight":
-        if (row && !row.open && row.symbol?.expandable) void toggleOpen(row.path);
-        break;
-      case "ArrowLeft":
-        if (row?.open) void toggleOpen(row.path);
-        break;
-      case "Enter":
-        event.currentTarget.querySelector<HTMLElement>(".gr.on input")?.focus();
-        break;
-      case "Delete":
-        if (row) removeFromWatch(row.root);
-        break;
-      case "ContextMenu":
-        if (row) openMenu(row, event.currentTarget.querySelector(".gr.on") ?? event.currentTarget);
-        break;
-      default:
-        return;
-    }
+    const page = Math.max(1, Math.floor((scroll.current?.clientHeight ?? ROW) / ROW) - 2);
+    const to = { ArrowDown: now + 1, PageDown: now + page, Home: 0 }[event.key];
+    const back = { ArrowUp: now - 1, PageUp: now - page, End: rows.length - 1 }[event.key];
+    if (to !== undefined) go(to, 1);
+    else if (back !== undefined) go(back, -1);
+    else if (event.key === "ContextMenu") openMenu(rows[now], event.currentTarget);
+    else if (!gridKey(event, rows[now])) return;
     event.preventDefault();
   }
 
-  function openMenu(row: ValueRow, anchor: Element): void {
-    const { left, bottom } = anchor.getBoundingClientRect();
-    setMenu({ items: rowMenu(row), at: { x: left + 40, y: bottom } });
+  function openMenu(row: WatchRow | undefined, grid: Element): void {
+    const { left, bottom } = (grid.querySelector(".gr.on") ?? grid).getBoundingClientRect();
+    if (row) showMenu(row, { x: left + 40, y: bottom });
+  }
+
+  function showMenu(row: WatchRow, at: { x: number; y: number }): void {
+    if (row.kind === "group") setMenu({ items: groupMenu(row, onRenameGroup), at });
+    else if (row.kind === "value") setMenu({ items: rowMenu(row, onNewGroup), at });
   }
 
   return (
@@ -88,42 +90,31 @@ export function WatchGrid({ rows }: { rows: readonly WatchRow[] }) {
       aria-activedescendant={now >= 0 ? `watch-${now}` : undefined}
       tabIndex={0}
       onKeyDown={onKeyDown}
+      onPaste={paste}
+      onDragOver={drop.onDragOver}
+      onDragLeave={drop.onDragLeave}
+      onDragEnd={drop.onDragEnd}
+      onDrop={drop.onDrop}
       onFocus={(event) => {
         // A click brings the focus, too, and the rows must not move away below the pointer.
-        if (now < 0 && event.currentTarget.matches(":focus-visible")) step(1);
+        if (now < 0 && event.currentTarget.matches(":focus-visible")) go(0, 1);
       }}
     >
-      <div className="gr h" role="row" aria-rowindex={1}>
-        <span className="gut" role="columnheader" aria-label={t("force.column")} />
-        <span role="columnheader" className="first">
-          {t("watch.target")}
-        </span>
-        {WATCH_COLUMNS.map((column) => (
-          <span key={column} role="columnheader" className={LOOK[column]}>
-            {t(`watch.${column}`)}
-            <Grip
-              label={t("watch.width", { column: t(`watch.${column}`) })}
-              onWidth={(width) => setColumn(column, width)}
-            />
-          </span>
-        ))}
-        <span role="columnheader" aria-label={t("watch.remove")} />
-      </div>
+      <GridHead />
       <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
-        {virtual.getVirtualItems().map((item) => {
+        {items.map((item) => {
           const row = rows[item.index];
           if (!row) return null;
-          const place = { transform: `translateY(${item.start - ROW}px)`, "--lv": row.level };
-          return row.kind === "note" ? (
-            <NoteLine key={item.key} row={row} style={place} index={item.index} />
-          ) : (
-            <ValueLine
+          const level = row.kind === "group" ? 0 : row.level;
+          const line = { index: item.index, style: { transform: `translateY(${item.start - ROW}px)`, "--lv": level } };
+          return (
+            <Line
               key={item.key}
               row={row}
-              style={place}
-              index={item.index}
-              selected={row.path === selected}
-              onMenu={(at) => setMenu({ items: rowMenu(row), at })}
+              line={line}
+              selected={selected !== null && selectsAs(row) === selected}
+              target={row.kind === "value" && row.level === 0 && drop.before?.before === row.root}
+              onMenu={showMenu}
             />
           );
         })}
@@ -131,6 +122,61 @@ export function WatchGrid({ rows }: { rows: readonly WatchRow[] }) {
       {menu && <Menu label={t("menu.label")} items={menu.items} at={menu.at} onClose={() => setMenu(null)} />}
     </div>
   );
+}
+
+interface LineProps {
+  row: WatchRow;
+  line: { index: number; style: CSSProperties };
+  selected: boolean;
+  target: boolean;
+  onMenu: (row: WatchRow, at: { x: number; y: number }) => void;
+}
+
+function Line({ row, line, selected, target, onMenu }: LineProps) {
+  const menu = (at: { x: number; y: number }) => onMenu(row, at);
+  switch (row.kind) {
+    case "group":
+      return <GroupLine row={row} {...line} selected={selected} onSelect={() => select(row.key)} onMenu={menu} />;
+    case "note":
+      return <NoteLine row={row} {...line} />;
+    case "binding":
+      return <BindingLine row={row} {...line} />;
+    case "more":
+      return <MoreLine row={row} {...line} />;
+    case "value":
+      return <ValueLine row={row} {...line} selected={selected} target={target} onMenu={menu} />;
+  }
+}
+
+/** What a row is selected as; rows that only say something cannot be. */
+const selectsAs = (row: WatchRow) => (row.kind === "value" ? row.path : row.kind === "group" ? row.key : null);
+
+function useInSight(rows: readonly WatchRow[], from: number, to: number): void {
+  const sort = useWatchList((list) => list.sort);
+  const filter = useWatchList((list) => list.filter);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: with another sort or filter others are needed
+  useEffect(() => watchInSight(pathsToWatch(rows.slice(from, to))), [rows, from, to, sort, filter]);
+  useEffect(() => watchNothing, []);
+}
+
+/** What was added, or comes to stand elsewhere by what was done to it, is brought into sight once. */
+function useReveal(index: number, reveal: (index: number) => void): void {
+  const selected = useWatchList((list) => list.selected);
+  const last = useRef<string | null>(null);
+  useEffect(() => {
+    if (index < 0 || last.current === selected) return;
+    last.current = selected;
+    reveal(index);
+  }, [index, selected, reveal]);
+}
+
+/** Many lines are many entries; what was copied from a CSV file has formats and groups, too. */
+function paste(event: ClipboardEvent): void {
+  if ((event.target as HTMLElement).matches("input")) return;
+  const text = event.clipboardData.getData("text/plain");
+  event.preventDefault();
+  if (/^\uFEFF?"?path"?[;,\t]/i.test(text)) addAll(fromCsv(text).entries);
+  else addToWatch(pathsIn(text));
 }
 
 /** The dragged widths as custom properties; a column without one keeps what the style sheet says. */
@@ -142,5 +188,6 @@ function useColumnStyle(): CSSProperties {
     "--c-change": px(widths.change),
     "--c-type": px(widths.type),
     "--c-address": px(widths.address),
+    "--c-bound": px(widths.bound),
   };
 }

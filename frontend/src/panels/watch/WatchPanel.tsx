@@ -1,29 +1,37 @@
-import { type DragEvent, useMemo, useState } from "react";
+import { type DragEvent, useEffect, useState } from "react";
 import { pathsIn } from "../../logic/paths";
 import { t } from "../../logic/text";
-import { watchRows } from "../../logic/watchrows";
-import { useForces } from "../../store/forces";
-import { useMembers } from "../../store/members";
-import { useForbidden, usePlc } from "../../store/plc";
-import { useWatches } from "../../store/watches";
-import { addToWatch, releaseForce, useWatchList } from "../../store/watchlist";
+import { addGroup, moveEntry, renameGroup } from "../../logic/watchlist";
+import { showPanel } from "../../store/navigate";
+import { usePlc } from "../../store/plc";
+import { addToWatch, useWatchList } from "../../store/watchlist";
+import { editList, keepAsOwn, useWatchLists } from "../../store/watchlists";
+import { AskName } from "../../ui/AskName";
 import { Icon } from "../../ui/Icon";
-import { MenuButton, type MenuItem } from "../../ui/Menu";
+import { IconButton } from "../../ui/IconButton";
 import { AddBox } from "./AddBox";
+import { CsvMenu } from "./CsvMenu";
 import { EmptyWatch } from "./EmptyWatch";
+import { FilterBar } from "./FilterBar";
+import { ListPicker } from "./ListPicker";
+import { useRows } from "./useRows";
 import { WatchGrid } from "./WatchGrid";
+import "./watch.css";
+
+/** A group that is to get a name: a new one, with an entry to begin with, or one that has another. */
+type Naming = { of: "new"; path: string | null } | { of: "old"; name: string };
 
 /** The watch table: live values, and the place where values are changed and forced. */
 export function WatchPanel() {
-  const list = useWatchList();
-  const members = useMembers((state) => state.of);
-  const symbols = useWatches((state) => state.symbols);
-  const refusals = useWatches((state) => state.refusals);
+  const entries = useWatchLists((lists) => lists.content.entries);
+  const groups = useWatchLists((lists) => lists.content.groups);
+  const filter = useWatchList((list) => list.filter);
   const [over, setOver] = useState(false);
-  const rows = useMemo(
-    () => watchRows({ roots: list.roots, open: list.open, notes: list.notes, members, symbols, refusals }),
-    [list.roots, list.open, list.notes, members, symbols, refusals],
-  );
+  const [filtering, setFiltering] = useState(false);
+  const [naming, setNaming] = useState<Naming | null>(null);
+  const rows = useRows();
+  const shown = rows.filter((row) => row.kind === "value" && row.level === 0).length;
+  useUndoOffer();
 
   function onDrop(event: DragEvent): void {
     event.preventDefault();
@@ -46,47 +54,115 @@ export function WatchPanel() {
       onDrop={onDrop}
     >
       <div className="sub">
+        <ListPicker />
         <AddBox />
         <span className="grow" />
         <ForceCount />
+        <IconButton
+          icon="filter"
+          small
+          label={t("watch.filter")}
+          className={filter.text !== "" || filter.only !== "all" ? "is-on" : ""}
+          onClick={() => setFiltering(!filtering)}
+        />
+        <CsvMenu onNewGroup={() => setNaming({ of: "new", path: null })} />
       </div>
-      {list.roots.length === 0 ? <EmptyWatch /> : <WatchGrid rows={rows} />}
+      {filtering && <FilterBar shown={shown} total={entries.length} onClose={() => setFiltering(false)} />}
+      <Notices />
+      {entries.length === 0 && groups.length === 0 ? (
+        <EmptyWatch />
+      ) : (
+        <WatchGrid
+          rows={rows}
+          onNewGroup={(path) => setNaming({ of: "new", path })}
+          onRenameGroup={(name) => setNaming({ of: "old", name })}
+        />
+      )}
+      {naming && <NameGroup naming={naming} onClose={() => setNaming(null)} />}
     </div>
   );
 }
 
-/** Every force that holds, each to be released, or all at once. */
+function NameGroup({ naming, onClose }: { naming: Naming; onClose: () => void }) {
+  async function onName(name: string): Promise<void> {
+    if (naming.of === "old") editList((content) => renameGroup(content, naming.name, name));
+    else
+      editList((content) => {
+        const grouped = addGroup(content, name);
+        return naming.path === null ? grouped : moveEntry(grouped, naming.path, name, null);
+      });
+  }
+  return (
+    <AskName
+      title={t(naming.of === "old" ? "watch.group.rename" : "watch.group.new")}
+      label={t("watch.group.name")}
+      action={t(naming.of === "old" ? "watch.list.rename.do" : "watch.group.make")}
+      initial={naming.of === "old" ? naming.name : ""}
+      onName={onName}
+      onClose={onClose}
+    />
+  );
+}
+
+/** What happened to the list: not saved, deleted by somebody, or done and to be undone. */
+function Notices() {
+  const { trouble, deletedBy, done, content } = useWatchLists();
+  if (trouble) {
+    return (
+      <div className="trouble st warning" role="alert">
+        <Icon name="warning" small />
+        <span>
+          <b>{t("watch.list.notsaved")}</b> {trouble}
+        </span>
+        <button type="button" className="link" onClick={() => void keepAsOwn()}>
+          {t("tryagain")}
+        </button>
+      </div>
+    );
+  }
+  if (deletedBy !== null) {
+    return (
+      <div className="trouble" role="alert">
+        <span>{t("watch.list.gone", { name: content.name, author: deletedBy })}</span>
+        <button type="button" className="link" onClick={() => void keepAsOwn()}>
+          {t("watch.list.keep")}
+        </button>
+      </div>
+    );
+  }
+  if (!done) return null;
+  return (
+    <div className="trouble" role="status">
+      <span>{done.text}</span>
+      <button type="button" className="link" onClick={done.undo}>
+        {t("undo")}
+      </button>
+    </div>
+  );
+}
+
+const UNDO_FOR = 10_000;
+
+/** What can be undone is offered for a while. */
+function useUndoOffer(): void {
+  const done = useWatchLists((lists) => lists.done);
+  useEffect(() => {
+    if (!done) return;
+    const timer = setTimeout(() => useWatchLists.setState({ done: null }), UNDO_FOR);
+    return () => clearTimeout(timer);
+  }, [done]);
+}
+
+/** How many forces hold; they are all in the panel of the forces. */
 function ForceCount() {
   const count = usePlc((plc) => plc.state?.forces ?? 0);
-  const held = useForces((forces) => forces.held);
-  const locked = useForbidden("force");
   if (count === 0) return null;
   return (
-    <MenuButton
-      label={t("force.count", { count })}
-      items={() => [
-        ...[...held.values()].map(
-          ({ path, value, author }): MenuItem => ({
-            label: t("force.release.menu", { path, value }),
-            icon: "unforce",
-            hint: locked ?? author,
-            disabled: locked !== null,
-            onSelect: () => void releaseForce(path),
-          }),
-        ),
-        {
-          label: t("force.releaseall"),
-          icon: "unforce",
-          separated: true,
-          disabled: locked !== null,
-          onSelect: () => void releaseForce(null),
-        },
-      ]}
-    >
+    <button type="button" className="btn quiet sm" title={t("force.show")} onClick={() => showPanel("forces")}>
       <span className="st forced">
         <Icon name="forced" small />
         {t("force.count", { count })}
       </span>
-    </MenuButton>
+    </button>
   );
 }

@@ -1,64 +1,138 @@
+import { formatsFor } from "../../logic/formats";
 import { forbidden } from "../../logic/permits";
 import { t } from "../../logic/text";
-import type { Format } from "../../logic/values";
-import type { ValueRow } from "../../logic/watchrows";
-import { forceOf, useForces } from "../../store/forces";
+import { moveEntry, removeGroup } from "../../logic/watchlist";
+import { actualOf, type GroupRow, type ValueRow } from "../../logic/watchrows";
+import { useBindings } from "../../store/bindings";
+import { forcedAt } from "../../store/forces";
 import { usePlc } from "../../store/plc";
 import { currentText } from "../../store/values";
 import { useWatches } from "../../store/watches";
-import { force, releaseForce, removeFromWatch, setFormat, useWatchList } from "../../store/watchlist";
+import {
+  addToWatch,
+  force,
+  formatOf,
+  releaseForce,
+  removeFromWatch,
+  setFormat,
+  toggleGroup,
+  useWatchList,
+} from "../../store/watchlist";
+import { editList, told, undoEdit, useWatchLists } from "../../store/watchlists";
 import type { MenuItem } from "../../ui/Menu";
-
-const FORMATS: readonly Format[] = ["default", "decimal", "hex", "binary"];
+import type { PlcSymbol } from "../../wire/types";
+import { siteShown } from "./sites";
 
 /** What can be done with a row of the watch table. */
-export function rowMenu(row: ValueRow): MenuItem[] {
+export function rowMenu(row: ValueRow, onNewGroup: (path: string) => void): MenuItem[] {
   const symbol = row.symbol ?? useWatches.getState().symbols.get(row.path) ?? null;
-  const { drafts, formats } = useWatchList.getState();
-  const forced = forceOf(useForces.getState(), row.path) !== undefined;
-  const plc = usePlc.getState();
-  const locked = forbidden(plc.state, plc.link.state === "open", "force");
-  const single = symbol !== null && !symbol.expandable;
-  const value = drafts.get(row.path) || currentText(row.path);
-  const items: MenuItem[] = [];
-  if (single && symbol.writable) {
-    items.push(
-      {
-        label: t("force.to", { value }),
-        icon: "forced",
-        hint: locked ? t(locked) : undefined,
-        disabled: locked !== null || value === "",
-        onSelect: () => void force(row.path, value),
-      },
-      {
-        label: t("force.release"),
-        icon: "unforce",
-        disabled: locked !== null || !forced,
-        onSelect: () => void releaseForce(row.path),
-      },
-    );
-  }
-  if (single && ["int", "uint", "bits"].includes(symbol.kind)) {
-    const chosen = formats.get(row.path) ?? "default";
-    items.push(
-      ...FORMATS.map(
-        (format, index): MenuItem => ({
-          label: t(`format.${format}`),
-          checked: format === chosen,
-          separated: index === 0,
-          onSelect: () => setFormat(row.path, format),
-        }),
-      ),
-    );
-  }
-  items.push(
-    { label: t("copy.path"), separated: true, onSelect: () => copy(row.path) },
-    { label: t("copy.value"), disabled: !single, onSelect: () => copy(currentText(row.path)) },
+  return [
+    ...forceItems(row, symbol),
+    ...formatItems(row, symbol),
+    ...copyItems(row, symbol),
+    ...(row.level === 0 ? groupItems(row, onNewGroup) : []),
+    ...actualItems(row),
     { label: t("watch.remove"), hint: "Del", separated: true, onSelect: () => removeFromWatch(row.root) },
-  );
-  return items;
+  ];
 }
 
-function copy(text: string): void {
+function forceItems(row: ValueRow, symbol: PlcSymbol | null): MenuItem[] {
+  const { path, root } = row;
+  if (!symbol?.writable || symbol.expandable) return [];
+  const plc = usePlc.getState();
+  const locked = forbidden(plc.state, plc.link.state === "open", "force");
+  const typed = useWatchList.getState().drafts.get(path);
+  const shown = typed || currentText(path, formatOf(path, root));
+  return [
+    {
+      label: t("force.to", { value: shown }),
+      icon: "forced",
+      hint: locked ? t(locked) : "F7",
+      disabled: locked !== null || shown === "",
+      onSelect: () => void force(path, root, shown),
+    },
+    {
+      label: t("force.release"),
+      icon: "unforce",
+      hint: "Shift+F7",
+      disabled: locked !== null || forcedAt(path) === undefined,
+      onSelect: () => void releaseForce(path),
+    },
+  ];
+}
+
+function formatItems({ path, root }: ValueRow, symbol: PlcSymbol | null): MenuItem[] {
+  // Of a range or an array: those of its elements.
+  const shape = symbol?.expandable ? elementShape(symbol) : symbol;
+  if (!shape) return [];
+  const chosen = formatOf(path, root);
+  return formatsFor(shape).map((format, index) => ({
+    label: t(`format.${format}`),
+    checked: format === chosen,
+    separated: index === 0,
+    onSelect: () => setFormat(path, root, format),
+  }));
+}
+
+function elementShape(symbol: PlcSymbol): Pick<PlcSymbol, "kind" | "size"> | null {
+  const element = /^ARRAY\[.*\] OF (\w+)$/.exec(symbol.type)?.[1];
+  const size = { BYTE: 1, WORD: 2, DWORD: 4, LWORD: 8 }[element ?? ""];
+  return size ? { kind: "bits", size } : null;
+}
+
+function copyItems({ path, root }: ValueRow, symbol: PlcSymbol | null): MenuItem[] {
+  const value = symbol && !symbol.expandable ? currentText(path, formatOf(path, root)) : "";
+  const address = symbol?.address ?? "";
+  const row = [path, value, symbol?.type ?? "", address].join("\t");
+  return [
+    { label: t("copy.path"), hint: "Ctrl+C", separated: true, onSelect: () => copyText(path) },
+    { label: t("copy.address"), disabled: address === "", onSelect: () => copyText(address) },
+    { label: t("copy.value"), hint: "Ctrl+Shift+C", disabled: value === "", onSelect: () => copyText(value) },
+    { label: t("copy.row"), onSelect: () => copyText(row) },
+  ];
+}
+
+function groupItems({ path, group }: ValueRow, onNewGroup: (path: string) => void): MenuItem[] {
+  const { groups } = useWatchLists.getState().content;
+  const move = (to: string) => () => editList((content) => moveEntry(content, path, to, null));
+  return [
+    ...(group === "" ? [] : [{ label: t("watch.group.leave"), separated: true, onSelect: move("") }]),
+    ...groups
+      .filter((name) => name !== group)
+      .map((name, index) => ({
+        label: t("watch.group.to", { name }),
+        separated: index === 0 && group === "",
+        onSelect: move(name),
+      })),
+    { label: t("watch.group.new"), separated: groups.length === 0, onSelect: () => onNewGroup(path) },
+  ];
+}
+
+/** The variable behind an in-out can be watched itself. */
+function actualItems({ path, inOut }: ValueRow): MenuItem[] {
+  const binding = inOut === null ? undefined : useBindings.getState().of.get(inOut);
+  const site = binding && siteShown(binding, useWatchList.getState().sites.get(inOut ?? ""));
+  if (inOut === null || !site?.actual) return [];
+  const actual = actualOf(path, inOut, site.actual);
+  return [{ label: t("watch.add.path", { path: actual }), icon: "bound", onSelect: () => addToWatch([actual]) }];
+}
+
+/** What can be done with a group. */
+export function groupMenu({ name, open }: GroupRow, onRename: (name: string) => void): MenuItem[] {
+  return [
+    { label: t(open ? "watch.fold" : "watch.unfold", { path: name }), onSelect: () => toggleGroup(name) },
+    { label: t("watch.group.rename"), onSelect: () => onRename(name) },
+    {
+      label: t("watch.group.remove"),
+      separated: true,
+      onSelect: () => {
+        editList((content) => removeGroup(content, name));
+        told(t("watch.removed", { name }), undoEdit);
+      },
+    },
+  ];
+}
+
+export function copyText(text: string): void {
   void navigator.clipboard?.writeText(text);
 }

@@ -1,0 +1,52 @@
+/** The keys of the watch table, with the selected row. */
+import type { KeyboardEvent } from "react";
+import type { WatchRow } from "../../logic/watchrows";
+import { currentText } from "../../store/values";
+import { useWatches } from "../../store/watches";
+import { force, formatOf, releaseForce, removeFromWatch, toggleGroup, toggleOpen, useWatchList } from "../../store/watchlist";
+import { undoEdit } from "../../store/watchlists";
+import { copyText } from "./rowMenu";
+
+/** False when the key means nothing here. */
+export function gridKey(event: KeyboardEvent<HTMLDivElement>, row: WatchRow | undefined): boolean {
+  const grid = event.currentTarget;
+  if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "z") {
+    undoEdit();
+    return true;
+  }
+  if (row?.kind === "group") {
+    if (!["Enter", " "].includes(event.key) && event.key !== (row.open ? "ArrowLeft" : "ArrowRight")) return false;
+    toggleGroup(row.name);
+    return true;
+  }
+  if (row?.kind !== "value") return false;
+  const symbol = row.symbol ?? useWatches.getState().symbols.get(row.path);
+  if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "c" && getSelection()?.isCollapsed !== false) {
+    copyText(event.shiftKey ? currentText(row.path, formatOf(row.path, row.root)) : row.path);
+    return true;
+  }
+  switch (event.key) {
+    case "ArrowRight":
+      if (!row.open && symbol?.expandable) void toggleOpen(row.path);
+      return true;
+    case "ArrowLeft":
+      if (row.open) void toggleOpen(row.path);
+      return true;
+    case "Enter":
+    case "F2":
+      grid.querySelector<HTMLElement>(".gr.on input")?.focus();
+      return true;
+    case "F7":
+      if (event.shiftKey) void releaseForce(row.path);
+      else if (symbol && !symbol.expandable) {
+        const typed = useWatchList.getState().drafts.get(row.path);
+        void force(row.path, row.root, typed || currentText(row.path, formatOf(row.path, row.root)));
+      }
+      return true;
+    case "Delete":
+      removeFromWatch(row.root);
+      return true;
+    default:
+      return false;
+  }
+}
