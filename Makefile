@@ -18,11 +18,11 @@ NPM := npm --loglevel=error --no-fund --no-audit --no-update-notifier
 ARGS ?=
 
 SOURCES = $(shell find frontend/src frontend/public frontend/index.html frontend/vite.config.ts -type f 2>/dev/null)
-NODE_ROOTS := $(patsubst %/package-lock.json,%,$(wildcard frontend/package-lock.json frontend/tools/package-lock.json e2e/package-lock.json))
+NODE_ROOTS := $(patsubst %/package-lock.json,%,$(wildcard frontend/package-lock.json frontend/tools/package-lock.json e2e/package-lock.json vscode/package-lock.json))
 
 .PHONY: help setup setup-test run test check bench shots lock clean
 .PHONY: fuzz features
-.PHONY: lint types layers unit wire wire-check frontend-check frontend-unit frontend-build e2e
+.PHONY: lint types layers unit adapter wire wire-check frontend-check frontend-unit frontend-build e2e
 .PHONY: tools-python tools-node system-chromium system-postgresql
 
 help:
@@ -46,7 +46,7 @@ run: setup
 	@exec $(BIN)/scanbench serve $(ARGS)
 
 test: setup-test
-	@.ci/steps lint types layers unit wire-check frontend-check frontend-unit frontend-build e2e
+	@.ci/steps lint types layers unit adapter wire-check frontend-check frontend-unit frontend-build e2e
 
 check: $(VENV)/.stamp-runtime $(VENV)/.stamp-dev $(NODE_ROOTS:%=%/node_modules/.stamp)
 	@.ci/steps lint types layers wire-check frontend-check
@@ -81,6 +81,10 @@ layers:
 
 unit:
 	@cd backend && $(BIN)/python -m pytest --quiet
+
+# The debug adapter, with a client that is not ours.
+adapter:
+	@cd vscode && $(NPM) run --silent check && $(NPM) run --silent test
 
 # The browser's types come from the backend's messages; `wire` writes them, `wire-check` finds them out of date.
 wire: $(VENV)/.stamp-runtime frontend/tools/node_modules/.stamp

@@ -1,4 +1,5 @@
 import { expect, type Locator, type Page } from '@playwright/test';
+import { Debug } from './debug';
 import { Diagnostics } from './diagnostics';
 import { Editor } from './editor';
 import { Explorer } from './explorer';
@@ -21,6 +22,7 @@ export class Ide {
   readonly diagnostics: Diagnostics;
   readonly timeline: Timeline;
   readonly instances: InstanceList;
+  readonly debug: Debug;
 
   constructor(readonly page: Page) {
     this.top = new TopBar(page);
@@ -32,6 +34,7 @@ export class Ide {
     this.diagnostics = new Diagnostics(page);
     this.timeline = new Timeline(page);
     this.instances = new InstanceList(page);
+    this.debug = new Debug(page);
   }
 
   editor(file: string): Editor {

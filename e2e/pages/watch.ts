@@ -51,9 +51,104 @@ export class Watch {
     await expect(this.entry(path)).toHaveValue('');
   }
 
-  async fromMenu(path: string, item: string): Promise<void> {
-    await this.row(path).click({ button: 'right' });
+  async fromMenu(path: string, item: string, role: 'menuitem' | 'menuitemradio' = 'menuitem'): Promise<void> {
+    await this.name(path).click({ button: 'right' });
+    // A key stands behind some names.
+    await this.page
+      .getByRole(role, { name: new RegExp(`^${item.replace(/[^\w ]/g, '\\$&')}( (Shift\\+)?F7)?$`) })
+      .click();
+  }
+
+  get pane(): Locator {
+    return this.page.locator('[data-pane="watch"]');
+  }
+
+  /** Which list is shown, and whether it is shared. */
+  get picker(): Locator {
+    return this.page.getByRole('button', { name: /^Watch list / });
+  }
+
+  async list(item: string): Promise<void> {
+    await this.picker.click();
     await this.page.getByRole('menuitem', { name: item, exact: true }).click();
+  }
+
+  /** Shows another list, `Belt 3 shared`. */
+  async choose(list: string): Promise<void> {
+    await this.picker.click();
+    await this.page.getByRole('menuitemradio', { name: list, exact: true }).click();
+  }
+
+  async renameList(name: string): Promise<void> {
+    await this.list('Rename list');
+    await this.page.getByRole('textbox', { name: 'Name of the list' }).fill(name);
+    await this.page.keyboard.press('Enter');
+    await expect(this.picker).toContainText(name);
+  }
+
+  /** The menu of groups and files. */
+  async more(item: string): Promise<void> {
+    await this.page.getByRole('button', { name: 'Groups, import, export' }).click();
+    await this.page.getByRole('menuitem', { name: item, exact: true }).click();
+  }
+
+  async newGroup(name: string): Promise<void> {
+    await this.more('New group...');
+    await this.page.getByRole('textbox', { name: 'Name of the group' }).fill(name);
+    await this.page.keyboard.press('Enter');
+    await expect(this.group(name)).toBeVisible();
+  }
+
+  group(name: string): Locator {
+    return this.table
+      .getByRole('row')
+      .filter({ has: this.page.getByRole('button', { name: new RegExp(`old ${name}$`) }) });
+  }
+
+  /** Where a row is taken hold of. */
+  name(path: string): Locator {
+    return this.row(path).locator('.name');
+  }
+
+  async remove(path: string): Promise<void> {
+    await this.name(path).click();
+    await this.page.keyboard.press('Delete');
+    await expect(this.row(path)).toBeHidden();
+  }
+
+  /** The paths of the rows, from top to bottom. */
+  async paths(): Promise<string[]> {
+    return this.table.locator('[data-path]').evaluateAll((rows) =>
+      rows
+        .map((row) => ({ path: (row as HTMLElement).dataset.path ?? '', at: row.getBoundingClientRect().top }))
+        .sort((a, b) => a.at - b.at)
+        .map(({ path }) => path),
+    );
+  }
+
+  /** What a clipboard with this text does to the table, or to the box above it while it is empty. */
+  async paste(text: string): Promise<void> {
+    const target = this.page.getByRole('combobox', { name: 'Add to watch' });
+    await target.evaluate((element, pasted) => {
+      const clipboardData = new DataTransfer();
+      clipboardData.setData('text/plain', pasted);
+      element.dispatchEvent(new ClipboardEvent('paste', { clipboardData, bubbles: true, cancelable: true }));
+    }, text);
+  }
+
+  /** From a selection of the editor over to the table, with the mouse. */
+  async dragSelection(from: Locator): Promise<void> {
+    const [start, end] = [await from.boundingBox(), await this.table.boundingBox()];
+    if (!start || !end) throw new Error('nothing to drag, or nowhere to');
+    await this.page.mouse.move(start.x + 30, start.y + 8);
+    await this.page.mouse.down();
+    await this.page.mouse.move(start.x + 60, start.y + 30);
+    await this.page.mouse.move(end.x + 80, end.y + end.height - 20, { steps: 4 });
+    await this.page.mouse.up();
+  }
+
+  async importCsv(path: string): Promise<void> {
+    await this.page.getByTestId('watch-csv').setInputFiles(path);
   }
 
   /** The lock in front of a forced row. */

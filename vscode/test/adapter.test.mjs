@@ -39,7 +39,7 @@ async function haltAfter(request, reason, place) {
   return stack.body.stackFrames;
 }
 
-async function valueOf(expression, frameId) {
+async function value(expression, frameId) {
   return (await client.evaluateRequest({ expression, frameId, context: 'watch' })).body.result;
 }
 
@@ -111,7 +111,7 @@ test('stack, scopes and variables of a halt; a value is set and counts', async (
   });
   assert.equal(set.body.value, '41');
   await haltAfter(() => client.stepOutRequest({ threadId: 1 }), 'step', { path: PROGRAM, line: 20 });
-  assert.equal(await valueOf('Main.a.total'), '42');
+  assert.equal(await value('Main.a.total'), '42');
   await assert.rejects(client.scopesRequest({ frameId: outer.id }), /earlier halt/);
 });
 
@@ -136,21 +136,21 @@ test('steps: in, over, out, and back again', async () => {
   await haltAfter(() => client.nextRequest({ threadId: 1 }), 'step', { path: PROGRAM, line: 19 });
   await haltAfter(() => client.stepInRequest({ threadId: 1 }), 'step', COUNTS);
   await haltAfter(() => client.stepOutRequest({ threadId: 1 }), 'step', { path: PROGRAM, line: 20 });
-  assert.equal(await valueOf('Main.n'), '1');
+  assert.equal(await value('Main.n'), '1');
   await haltAfter(() => client.stepBackRequest({ threadId: 1 }), 'step', COUNTS);
   await haltAfter(() => client.stepBackRequest({ threadId: 1 }), 'step', { path: PROGRAM, line: 19 });
   await haltAfter(() => client.stepBackRequest({ threadId: 1 }), 'step', FIRST);
-  assert.equal(await valueOf('Main.n'), '0');
+  assert.equal(await value('Main.n'), '0');
 });
 
 test('a conditional breakpoint halts when its condition holds; reverse continue comes back to it', async () => {
   await entered();
   await breakAt(LAST, { condition: 'n = 5' });
   const frames = await haltAfter(() => client.continueRequest({ threadId: 1 }), 'breakpoint', LAST);
-  assert.equal(await valueOf('n', frames[0].id), '5');
+  assert.equal(await value('n', frames[0].id), '5');
   await haltAfter(() => client.nextRequest({ threadId: 1 }), 'step', FIRST);
   const back = await haltAfter(() => client.reverseContinueRequest({ threadId: 1 }), 'breakpoint', LAST);
-  assert.equal(await valueOf('n', back[0].id), '5');
+  assert.equal(await value('n', back[0].id), '5');
 });
 
 test('a condition that is wrong is not verified, and says why', async () => {
@@ -167,7 +167,7 @@ test('a hit count', async () => {
   await entered();
   await breakAt(LAST, { hitCondition: '>= 4' });
   const frames = await haltAfter(() => client.continueRequest({ threadId: 1 }), 'breakpoint', LAST);
-  assert.equal(await valueOf('n', frames[0].id), '4');
+  assert.equal(await value('n', frames[0].id), '4');
 });
 
 test('a logpoint speaks and does not halt', async () => {
@@ -198,7 +198,7 @@ test('a data breakpoint halts behind the write', async () => {
   assert.equal(info.body.dataId, 'Main.b.total');
   await client.setDataBreakpointsRequest({ breakpoints: [{ dataId: info.body.dataId, accessType: 'write' }] });
   await haltAfter(() => client.continueRequest({ threadId: 1 }), 'data breakpoint', LAST);
-  assert.equal(await valueOf('Main.b.total'), '2');
+  assert.equal(await value('Main.b.total'), '2');
 });
 
 test('pause halts a program that runs', async () => {
@@ -213,9 +213,9 @@ test('restart begins at scan 0, with its breakpoints', async () => {
   await breakAt(LAST, { condition: 'n = 2' });
   await haltAfter(() => client.continueRequest({ threadId: 1 }), 'breakpoint', LAST);
   await haltAfter(() => client.restartRequest({}), 'entry', FIRST);
-  assert.equal(await valueOf('Main.n'), '0');
+  assert.equal(await value('Main.n'), '0');
   await haltAfter(() => client.continueRequest({ threadId: 1 }), 'breakpoint', LAST);
-  assert.equal(await valueOf('Main.n'), '2');
+  assert.equal(await value('Main.n'), '2');
 });
 
 test('our own requests: force, single scan, run to a line', async () => {
@@ -224,7 +224,7 @@ test('our own requests: force, single scan, run to a line', async () => {
   await haltAfter(() => client.customRequest('scanbench/singleScan', {}), 'step', FIRST);
   const place = { source: { path: PROGRAM }, line: 21 };
   await haltAfter(() => client.customRequest('scanbench/runTo', place), 'goto', LAST);
-  assert.equal(await valueOf('Main.n'), '101'); // forced in front of the program, which counts on
+  assert.equal(await value('Main.n'), '101'); // forced in front of the program, which counts on
   await client.customRequest('scanbench/release', {});
 });
 

@@ -250,7 +250,9 @@ def conveyor() -> Program:
 def main() -> None:
     """Prints the figures."""
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("programs", nargs="*", metavar="PROGRAM", help=f"{SAMPLE}, {', '.join(PROGRAMS)}; all by default")
+    parser.add_argument(
+        "programs", nargs="*", metavar="PROGRAM", help=f"{SAMPLE}, {', '.join(PROGRAMS)}; all by default"
+    )
     parser.add_argument("--json", action="store_true")
     given = parser.parse_args()
     figures: dict[str, dict[str, float | None]] = {}

@@ -1,7 +1,8 @@
-"""1,000 watched values at 20 Hz to 5 browsers: what share of a core the server and its host take.
+"""10,000 watched values at 20 Hz: what share of a core the server and its host take, and how long a write of one browser
+takes until another one shows it.
 
-`python -m scanbench.bench.watch [--values N] [--browsers N] [--seconds N]`. The browsers run in a process of their own
-and are not counted: in the field they are other machines.
+`python -m scanbench.bench.watch [--values N] [--browsers N] [--seconds N] [--writes N]`. The browsers run in a process of
+their own and are not counted: in the field they are other machines.
 """
 
 import argparse
@@ -16,11 +17,12 @@ import time
 import urllib.request
 from collections.abc import Iterator
 from concurrent.futures import ThreadPoolExecutor
-from contextlib import contextmanager
+from contextlib import contextmanager, suppress
 from dataclasses import asdict, dataclass
 from pathlib import Path
 
-from websockets.sync.client import connect
+from websockets.exceptions import ConnectionClosed
+from websockets.sync.client import ClientConnection, connect
 
 _SERVER = """
 import sys
@@ -42,6 +44,9 @@ class WatchFigures:
     bytes_per_second: float
     web_share: float
     host_share: float
+    seen_p50_ms: float
+    """From the moment at which one browser sends a write to the one at which another has the frame with its value."""
+    seen_p99_ms: float
 
     @property
     def share(self) -> float:
@@ -49,23 +54,26 @@ class WatchFigures:
         return self.web_share + self.host_share
 
 
-def run_watch_bench(values: int = 1000, browsers: int = 5, seconds: float = 8) -> WatchFigures:
+def run_watch_bench(
+    values: int = 10_000, browsers: int = 1, seconds: float = 8, writes: int = 300
+) -> WatchFigures:
     """Starts a server, an instance whose values all change in every scan, and browsers that watch them."""
     with tempfile.TemporaryDirectory() as data, _server(Path(data)) as (address, pid):
         base, _, token = address.partition("/?token=")
         instance, host_pid = _instance(base, token, values)
         client = [sys.executable, "-m", "scanbench.bench.watch", "--client", base, token, str(instance)]
-        numbers = [str(values), str(browsers), str(seconds)]
+        numbers = [str(values), str(browsers), str(seconds), str(writes)]
         with subprocess.Popen([*client, *numbers], stdout=subprocess.PIPE, text=True) as watchers:
             assert watchers.stdout is not None
             watchers.stdout.readline()  # all watch, and the first snapshot has come
             start, web, host = time.monotonic(), _cpu(pid), _cpu(host_pid)
             received = json.loads(watchers.stdout.readline())
             span, web, host = time.monotonic() - start, _cpu(pid) - web, _cpu(host_pid) - host
+            seen = json.loads(watchers.stdout.readline())
         frames = received["frames"] / browsers
         return WatchFigures(
             values, browsers, frames / span, received["values"] / max(1, received["frames"]),
-            received["bytes"] / span, web / span, host / span,
+            received["bytes"] / span, web / span, host / span, seen["p50"], seen["p99"],
         )  # fmt: skip
 
 
@@ -89,7 +97,7 @@ def _indented(text: str) -> str:
 def _instance(base: str, token: str, values: int) -> tuple[int, int]:
     """An instance of a program that changes an array of DINT in every scan."""
     source = (
-        f"PROGRAM Main\nVAR\n  v : ARRAY[1..{values}] OF DINT; i : DINT;\nEND_VAR\n"
+        f"PROGRAM Main\nVAR\n  v : ARRAY[1..{values}] OF DINT; i, written : DINT;\nEND_VAR\n"
         f"  FOR i := 1 TO {values} DO v[i] := v[i] + i; END_FOR;\nEND_PROGRAM\n"
     )
 
@@ -122,8 +130,8 @@ def _cpu(pid: int) -> float:
     return (int(fields[11]) + int(fields[12])) / _TICKS
 
 
-def _client(base: str, token: str, instance: int, values: int, browsers: int, seconds: float) -> None:
-    """The browsers: watch everything, count what comes."""
+def _client(base: str, token: str, instance: int, values: int, browsers: int, seconds: float, writes: int) -> None:
+    """The browsers: watch everything, count what comes; then one writes and another waits to see it."""
     ready = threading.Barrier(browsers + 1)
     address = f"{base.replace('http', 'ws')}/api/instances/{instance}/socket?token={token}"
     with ThreadPoolExecutor(browsers) as pool:
@@ -134,6 +142,10 @@ def _client(base: str, token: str, instance: int, values: int, browsers: int, se
         results = [each.result() for each in browsing]
     frames, count, size = (sum(column) for column in zip(*results, strict=True))
     sys.stdout.write(json.dumps({"frames": frames, "values": count, "bytes": size}) + "\n")
+    sys.stdout.flush()
+    waits = sorted(_writes(address, writes))
+    figures = {"p50": waits[len(waits) // 2] * 1e3, "p99": waits[len(waits) * 99 // 100] * 1e3}
+    sys.stdout.write(json.dumps(figures) + "\n")
 
 
 def _browse(address: str, values: int, seconds: float, ready: threading.Barrier) -> tuple[int, int, int]:
@@ -154,18 +166,49 @@ def _browse(address: str, values: int, seconds: float, ready: threading.Barrier)
         return frames, count, size
 
 
+def _writes(address: str, count: int) -> Iterator[float]:
+    """Seconds from each write to the frame with its value, at moments that have nothing to do with the frames' own."""
+    with connect(address, compression=None) as writer, connect(address, compression=None) as reader:
+        reader.send(json.dumps({"type": "watch", "ref": 1, "paths": ["Main.written"]}))
+        while not isinstance(reader.recv(), bytes):
+            pass
+        draining = threading.Thread(target=_drain, args=(writer,), daemon=True)
+        draining.start()
+        for number in range(1, count + 1):
+            time.sleep(0.037 + number % 7 * 0.011)
+            start = time.monotonic()
+            writer.send(json.dumps({"type": "write", "ref": number, "path": "Main.written", "value": str(number)}))
+            while _value(reader.recv()) != number:
+                pass
+            yield time.monotonic() - start
+
+
+def _drain(socket: ClientConnection) -> None:
+    with suppress(ConnectionClosed):
+        while True:
+            socket.recv()
+
+
+def _value(data: str | bytes) -> int | None:
+    """The one value that a frame is about."""
+    if not isinstance(data, bytes) or struct.unpack_from("<I", data, 4)[0] != 1:
+        return None
+    return int(struct.unpack_from("<Q", data, 24 + 8)[0])
+
+
 def main(arguments: list[str]) -> int:
     """Measures, and prints one object."""
     if arguments[:1] == ["--client"]:
-        base, token, instance, values, browsers, seconds = arguments[1:]
-        _client(base, token, int(instance), int(values), int(browsers), float(seconds))
+        base, token, instance, values, browsers, seconds, writes = arguments[1:]
+        _client(base, token, int(instance), int(values), int(browsers), float(seconds), int(writes))
         return 0
     parser = argparse.ArgumentParser(description=__doc__)
-    parser.add_argument("--values", type=int, default=1000)
-    parser.add_argument("--browsers", type=int, default=5)
+    parser.add_argument("--values", type=int, default=10_000)
+    parser.add_argument("--browsers", type=int, default=1)
     parser.add_argument("--seconds", type=float, default=8)
+    parser.add_argument("--writes", type=int, default=300)
     given = parser.parse_args(arguments)
-    figures = run_watch_bench(given.values, given.browsers, given.seconds)
+    figures = run_watch_bench(given.values, given.browsers, given.seconds, given.writes)
     sys.stdout.write(json.dumps({**asdict(figures), "share": figures.share}, indent=1) + "\n")
     return 0
 

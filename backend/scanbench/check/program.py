@@ -447,6 +447,11 @@ class Pou:
     """The same for `Program.checks`."""
 
     @property
+    def copies(self) -> bool:
+        """Whether its body copies in-outs by value, in and back."""
+        return any(each.copied for each in self.instance.members.values())
+
+    @property
     def returned(self) -> Member | None:
         """The member of the frame that holds a function's result: the one of Section.RESULT."""
         if self.result is None:

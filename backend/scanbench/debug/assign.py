@@ -12,6 +12,7 @@ from scanbench.engines.interpreter.evaluate import Evaluator, NoValue, Spot
 from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import read_table
 from scanbench.runtime.rights import Right, may
+from scanbench.runtime.target import everywhere
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,7 +42,7 @@ class Assign(Command):
             refusal = refused(view, spot, type, each.shown)
             if refusal is not None:
                 return refusal
-        patches = tuple(patch(spot, data) for spot, _, data in stored)
+        patches = tuple(each for spot, _, data in stored for each in everywhere(view, patch(spot, data)))
         return Plan(patches, "; ".join(_said(program, *each) for each in stored) or f"{self.text}: nothing to do")
 
 

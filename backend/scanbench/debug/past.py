@@ -50,7 +50,7 @@ class Past:
         hook, resource.hook = resource.hook, listener
         try:
             listener.begin()
-            stop = timeline.go_on(timeline.live_scan)
+            stop = timeline.go_on(timeline.live_scan + 1)
         finally:
             resource.hook = hook
         if stop.reason is Reason.KNOCKED:
@@ -109,4 +109,11 @@ class Past:
 
     def reverse(self, author: str, path: str) -> Found | Refusal:
         """To where a breakpoint would have halted last, or to the last write of a variable."""
-        return search(self._timeline, self._breakpoints, self.position, author, path)
+        timeline, here = self._timeline, self.position if self._timeline.past else None
+        found = search(timeline, self._breakpoints, self.position, author, path)
+        if isinstance(found, Refusal):
+            if here is not None:
+                timeline.goto(*here)
+            else:
+                timeline.return_live()
+        return found

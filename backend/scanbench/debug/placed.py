@@ -161,8 +161,8 @@ class Placing:
         placed.instance = symbol.offset
         pous = {self.pou_of[each] for each in placed.sites if each in self.pou_of}
         if pous and not any(_runs_in(pou, symbol.type) for pou in pous):
-            names = " or ".join(sorted(pou.name for pou in pous))
-            raise BadText(f"{symbol.path} is a {symbol.type.name}, and the statement is of {names}")
+            owners = " or ".join(sorted(pou.name for pou in pous))
+            raise BadText(f"{symbol.path} is a {symbol.type.name}, and the statement is of {owners}")
 
     def _symbol(self, path: str) -> Symbol:
         try:

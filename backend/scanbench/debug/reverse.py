@@ -81,7 +81,7 @@ def _last(
             if live is not None:
                 noting.passed.end = timeline.live_scan, live.count
             noting.begin()
-            stop = timeline.go_on(min(scans.stop, timeline.live_scan))
+            stop = timeline.go_on(scans.stop)
             noted = noting.noted or noted
             if stop.reason is not Reason.KNOCKED:
                 return noted

@@ -3,7 +3,17 @@
 from dataclasses import dataclass, replace
 
 from scanbench.check.symbols import Symbol, referred
-from scanbench.check.types import SLOT_BYTES, ArrayType, Elementary, OpenArray, Record, Reference, Section, StringType, Type
+from scanbench.check.types import (
+    SLOT_BYTES,
+    ArrayType,
+    Elementary,
+    OpenArray,
+    Record,
+    Reference,
+    Section,
+    StringType,
+    Type,
+)
 from scanbench.check.values import format_value
 from scanbench.debug.called import address_at, called, variable_at
 from scanbench.debug.scene import Scene

@@ -24,7 +24,8 @@ class Probe:
     is FALSE. Of a line of a CONFIGURATION, one on the whole program. Only where it holds, the statement counts as
     reached."""
     halt: bool = True
-    """Whether reaching the statement leaves the scan, with `Reason.HALTED`; else it is noted, no more."""
+    """Whether `run` ends with `Reason.HALTED` when the statement is reached, in that scan; else it is noted, no more. A
+    scan that traps after that has halted."""
 
 
 class BadProbe(ValueError):
@@ -43,7 +44,8 @@ class ProbedEngine(Engine):
     @property
     @abstractmethod
     def halted(self) -> int | None:
-        """Index of the probe that ended the last run with `Reason.HALTED`; None after any other."""
+        """Index of a probe that ended the last run with `Reason.HALTED`; None after any other. Others may have been reached
+        in that scan too, before or after it."""
 
     @property
     @abstractmethod

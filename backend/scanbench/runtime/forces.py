@@ -15,7 +15,7 @@ from scanbench.check.values import format_value
 from scanbench.runtime.command import Command, Entry, Patch, Plan, Refusal, Restarted, Swapped, View
 from scanbench.runtime.journal import Fold
 from scanbench.runtime.rights import Right, may
-from scanbench.runtime.target import Meant, find, meant, writable_target
+from scanbench.runtime.target import Meant, everywhere, find, meant, writable_target
 
 _ENTRY = struct.Struct("<IBBBB")
 _COUNT = struct.Struct("<I")
@@ -56,7 +56,7 @@ class Force(Command):
             return Refusal(f"no room for more forces: at most {Layout.FORCE_LIMIT} bytes. Release some first")
         target = writable_target(view, self.path, Right.FORCE, self.through)
         shown = self.path if isinstance(target, Refusal) else target.shown
-        return Plan((*table_patches(view, table), patch), f"{shown} forced to {self.value.strip()}")
+        return Plan((*table_patches(view, table), *everywhere(view, patch)), f"{shown} forced to {self.value.strip()}")
 
     def bits(self, view: View) -> Patch | Refusal:
         """Which bits of this image it holds, at which values."""

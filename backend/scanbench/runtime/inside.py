@@ -59,14 +59,16 @@ class Passage:
         self._waiting: list[Entry] = []
         self._apply: Callable[[Entry], None] = lambda entry: None
         self._sent: Listen | None = None
+        self._count = 0
 
     def begin(
         self, hook: Hook | None, listen: Listen, waiting: Sequence[Entry], apply: Callable[[Entry], None]
     ) -> None:  # fmt: skip
         """Before `engine.run`: who halts, and what is entered in the one scan that is run then."""
         self._inner, self._listen, self._waiting, self._apply = hook, listen, list(waiting), apply
+        self._count = 0
         self.engine.hook(self)
-        self._tell()
+        self._tell(0)
 
     def end(self, ended: bool) -> None:
         """Behind `engine.run`; `ended`: the scan went to its end. What could not be entered is an error then."""
@@ -82,14 +84,14 @@ class Passage:
     def listen(self, listen: Listen) -> None:
         """What the hook is called for, from now on."""
         self._listen = listen
-        self._tell()
+        self._tell(self._count)
 
-    def _tell(self) -> None:
+    def _tell(self, passed: int) -> None:
+        """`passed`: statements that have begun in the scan."""
         listen = self._listen
         if self._waiting:
-            step = self._waiting[0].step
-            if not listen.count or step < listen.count:
-                listen = replace(listen, count=step)
+            counts = [each for each in (listen.count, self._waiting[0].step) if each > passed]
+            listen = replace(listen, count=min(counts, default=listen.count))
         if listen is not self._sent:
             self._sent = listen
             self.engine.listen(listen)
@@ -98,10 +100,11 @@ class Passage:
 
     def statement(self, site: int, count: int, depth: int) -> bool:
         """See `Hook`."""
-        if self._waiting and count >= self._waiting[0].step:
+        self._count = count
+        if self._waiting:
             while self._waiting and count >= self._waiting[0].step:
                 self._apply(self._waiting.pop(0))
-            self._tell()
+            self._tell(count)
         listen, hook = self._listen, self._inner
         if hook is None or not (listen.every or site in listen.sites or count == listen.count):
             return False

@@ -261,7 +261,7 @@ class Timeline:
             resource.hook = HaltAt(0)
             resource.listen(NOT_LISTENING)
             try:
-                while self.go_on(min(scan + 1, self.live_scan)).reason is Reason.KNOCKED:
+                while self.go_on(scan + 1).reason is Reason.KNOCKED:
                     pass
                 found = resource.loaded.debugged().count
             finally:
@@ -311,9 +311,10 @@ class Timeline:
             done(error)
 
     def go_on(self, until: int) -> Stop:
-        """Runs what is shown of the past on, with the resource's hook, to the seam in front of scan `until`; in the scan in
-        which the PLC stands as far as that was run. HALTED: the hook halted it; KNOCKED: it stands somewhere on the way,
-        perhaps because another program runs from here on.
+        """Runs what is shown of the past on, with the resource's hook, to the seam in front of scan `until`, at most to that
+        in front of the PLC's next scan. With `until` behind that and the PLC in the middle of it, the hook has to halt there.
+
+        HALTED: the hook halted it; KNOCKED: it stands somewhere on the way, perhaps as another program runs from here on.
         """
         live, resource, loaded = self._live, self.resource, self.resource.loaded
         if live is None or not self._whole:
@@ -321,11 +322,12 @@ class Timeline:
         while True:
             following = self._enter_front(live.journal)
             unfinished = live.inside is not None or (following is not None and isinstance(following.command, Trapped))
-            if resource.header.scan >= until and not (until == live.scan and unfinished):
+            now = resource.header.scan
+            if now >= until or (now >= live.scan and not unfinished):
                 return Stop(Reason.DONE)
             if resource.loaded is not loaded:
                 return Stop(Reason.KNOCKED)
-            stop = self._one_stretch(live.journal, until)
+            stop = self._one_stretch(live.journal, min(until, max(live.scan, now + 1)))
             if stop.reason is Reason.HALTED:
                 assert resource.inside is not None
                 inside = resource.journal[front(resource.journal, resource.header.scan) :]
@@ -440,7 +442,7 @@ class Timeline:
         resource.hook = HaltAt(count)
         resource.listen(Listen(count=count))
         try:
-            while (stop := self.go_on(min(scan + 1, self.live_scan))).reason is Reason.KNOCKED:
+            while (stop := self.go_on(scan + 1)).reason is Reason.KNOCKED:
                 pass
         finally:
             resource.hook = hook

@@ -437,7 +437,8 @@ class Session:
             command = entry.command
             if isinstance(command, Write | Force):
                 forced = isinstance(command, Force)
-                self._publish(events.ValueWritten(command.path, command.author, entry.scan, forced))
+                for path in filter(None, (command.path, command.through)):
+                    self._publish(events.ValueWritten(path, command.author, entry.scan, forced))
         self._publish_rows(list(rows.values()), fresh=self._history.version != version)
         self._publish(self._timeline.add(entries))
         for entry in entries[:LISTED]:

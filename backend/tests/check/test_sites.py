@@ -147,3 +147,24 @@ def test_a_program_that_was_edited_has_the_sites_of_the_new_text() -> None:
         found = checks.check({"main.st": text}, MODEL, 10_000_000).program
         assert found is not None
         assert lines(found) == lines(program_of(text))
+
+
+def test_outcomes_are_the_ways_that_people_wrote() -> None:
+    source = """PROGRAM Main VAR a, b : BOOL; n : INT; END_VAR
+IF a THEN n := 1; ELSIF b THEN n := 2; ELSIF n > 3 THEN n := 3; END_IF;
+CASE n OF 1: n := 2; 2, 3: n := 1; ELSE n := 0; END_CASE;
+FOR n := 1 TO 3 DO ; END_FOR; WHILE a DO a := FALSE; END_WHILE; REPEAT a := TRUE; UNTIL a END_REPEAT;
+a S= b;
+END_PROGRAM
+"""
+    program = check_sources({"case.st": source}, MODEL, 10_000_000).program
+    assert program is not None
+    sites = sites_of(program)
+    found = [(sites.statements[each.site].span.line, each.name) for each in sites.outcomes]
+    assert found == [
+        (2, "THEN"), (2, "ELSIF 1"), (2, "ELSIF 2"), (2, "ELSE"), (3, "CASE 1"), (3, "CASE 2"), (3, "ELSE"),
+        (4, "BODY"), (4, "NO ROUND"), (4, "BODY"), (4, "NO ROUND"),
+    ]  # fmt: skip
+    body = program.tasked[0].body
+    numbered = [stmt for stmt in body if sites.outcome(stmt, 0) is not None]
+    assert [sites.outcome(stmt, 1) for stmt in numbered] == [1, 5, 8, 10]

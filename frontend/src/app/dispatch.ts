@@ -11,6 +11,7 @@ import { onErrors, onHello, onLog, onState, usePlc } from "../store/plc";
 import { forgetRefusals } from "../store/run";
 import { onSweep, onSweepHello } from "../store/sweeps";
 import { onTimeline } from "../store/timeline";
+import { onFlight, onTraces, refreshTraces } from "../store/traces";
 import { onFileSaved } from "../store/userErrors";
 import { apply } from "../store/values";
 import { onWatching, watchAgain } from "../store/watches";
@@ -50,6 +51,7 @@ function dispatch(message: ServerMessage): void {
       watchAgain();
       void catchUpLists();
       onSweepHello();
+      void refreshTraces();
       void catchUp();
       return;
     case "state":
@@ -111,6 +113,12 @@ function dispatch(message: ServerMessage): void {
       return;
     case "coverage":
       onCoverage(message);
+      return;
+    case "traces":
+      onTraces(message.traces);
+      return;
+    case "flight":
+      onFlight(message);
       return;
     case "alive":
       return;

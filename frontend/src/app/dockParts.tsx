@@ -7,9 +7,11 @@ import { DiagnosticsPanel } from "../panels/diagnostics/DiagnosticsPanel";
 import { EditorPanel } from "../panels/editor/EditorPanel";
 import { ErrorsPanel } from "../panels/errors/ErrorsPanel";
 import { PanelEnd } from "../panels/errors/PanelEnd";
+import { ForcesPanel } from "../panels/forces/ForcesPanel";
 import { HistoryPanel } from "../panels/history/HistoryPanel";
 import { LogPanel } from "../panels/log/LogPanel";
 import { ProblemsPanel } from "../panels/problems/ProblemsPanel";
+import { TracePanel } from "../panels/trace/TracePanel";
 import { WatchPanel } from "../panels/watch/WatchPanel";
 import { isDirty, useDocuments } from "../store/documents";
 import { type PageName, pageOf } from "../store/navigate";
@@ -25,6 +27,8 @@ export const components = {
   start: Start,
   editor: ({ params }: IDockviewPanelProps<{ path: string }>) => <EditorPanel path={params.path} />,
   watch: WatchPanel,
+  trace: TracePanel,
+  forces: ForcesPanel,
   problems: ProblemsPanel,
   diagnostics: DiagnosticsPanel,
   log: LogPanel,

@@ -74,8 +74,9 @@ function take(line: string, at: number): { path: string; column: number; end: nu
     end = STEP.lastIndex;
   }
   const behind = line.slice(end);
-  // A call, and the name of what is passed to one, are no variables of this place.
-  const call = /^\s*\(/.test(behind);
+  // A call, the name of what is passed to one, and a member of what no fixed path leads to are no variables of this place.
+  const call = /^\s*\((?!\*)/.test(behind);
+  const member = /\.\s*$/.test(line.slice(0, at));
   const parameter = /^\s*(:=|=>)/.test(behind) && /[(,]\s*(NOT\s+)?$/i.test(line.slice(0, at));
-  return { path, column: at + 1, end, named: !call && !parameter };
+  return { path, column: at + 1, end, named: !call && !parameter && !member };
 }

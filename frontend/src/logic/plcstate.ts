@@ -1,6 +1,6 @@
 /** How a state of the PLC is shown: tone, icon and words. One table, so that bar, rail and status bar agree. */
 import type { InstanceState, RunState } from "../wire/types";
-import { haltDetail } from "./halted";
+import { haltDetail, haltShort } from "./halted";
 import { grouped, interval } from "./numbers";
 import { t } from "./text";
 
@@ -24,6 +24,8 @@ export interface ShownState {
   icon: StateIcon;
   word: string;
   detail: string;
+  /** The detail where room is short, when it is another. */
+  short?: string;
 }
 
 const LOOKS: Record<RunState, { tone: Tone; icon: StateIcon }> = {
@@ -49,6 +51,7 @@ export function showState(state: InstanceState | null, connected: boolean): Show
     ...LOOKS[state.state],
     word: t(`state.${state.state}`),
     detail: detailOf(state) || state.message || fallback,
+    ...(state.state === "halted" && state.halt ? { short: haltShort(state.halt) } : {}),
   };
 }
 

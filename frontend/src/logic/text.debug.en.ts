@@ -103,6 +103,7 @@ export const debugEnglish = {
   "debug.kind.bp-off": "Breakpoint, off",
   "debug.kind.bp-unbound": "Breakpoint, not in the program",
   "debug.lastwrite": "Back to the last write",
+  "debug.line": "line {line}",
   "debug.menu": "Breakpoints in this line",
   "debug.more": "{count} more",
   "debug.new.data": "Break at a variable…",

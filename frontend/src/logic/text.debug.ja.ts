@@ -105,6 +105,7 @@ export const debugJapanese: Record<keyof typeof debugEnglish, string> = {
   "debug.kind.bp-off": "ブレークポイント (無効)",
   "debug.kind.bp-unbound": "ブレークポイント (プログラムにありません)",
   "debug.lastwrite": "最後の書き込みまで戻る",
+  "debug.line": "{line} 行",
   "debug.menu": "この行のブレークポイント",
   "debug.more": "残り {count}",
   "debug.new.data": "変数で停止…",

@@ -63,6 +63,8 @@ export interface MoreRow extends OfEntry {
   total: number;
 }
 
+export const groupKey = (name: string) => `group:${name}`;
+
 export type WatchRow = GroupRow | ValueRow | NoteRow | BindingRow | MoreRow;
 
 export interface WatchListView {
@@ -96,7 +98,7 @@ export function watchRows(view: WatchListView): WatchRow[] {
     if (group !== "") {
       if (filtered && entries.length === 0) continue;
       const open = !view.collapsed.has(group);
-      rows.push({ kind: "group", key: `group:${group}`, name: group, open, count: entries.length });
+      rows.push({ kind: "group", key: groupKey(group), name: group, open, count: entries.length });
       if (!open) continue;
     }
     for (const { path } of entries) {

@@ -15,6 +15,7 @@ import { resetSeenAs } from "./seenAs";
 import { resetSimulator } from "./simulator";
 import { resetStack } from "./stack";
 import { resetTimeline } from "./timeline";
+import { resetTraces } from "./traces";
 import { loadWatchList } from "./watchlist";
 
 interface Bench {
@@ -71,6 +72,7 @@ async function look(project: Project, instance: Instance | null): Promise<void> 
   resetForces();
   resetSimulator();
   resetTimeline();
+  resetTraces();
   resetDebug();
   resetStack();
   resetSeenAs();

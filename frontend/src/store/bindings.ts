@@ -15,14 +15,17 @@ interface Bindings {
 export const useBindings = create<Bindings>(() => ({ of: new Map() }));
 
 const looking = new Map<string, number>();
+/** Asked one after the other: the browser has few connections, and others need them more. */
+const waiting = new Set<string>();
+let asking = false;
 let timer: ReturnType<typeof setInterval> | undefined;
 
 /** Looks at a binding until the returned function is called. */
 export function lookAtBinding(path: string): () => void {
   looking.set(path, (looking.get(path) ?? 0) + 1);
-  void ask(path);
+  want([path]);
   timer ??= setInterval(() => {
-    if (document.visibilityState === "visible") for (const each of looking.keys()) void ask(each);
+    if (document.visibilityState === "visible") want(looking.keys());
   }, AGAIN);
   return () => {
     const count = (looking.get(path) ?? 1) - 1;
@@ -32,6 +35,20 @@ export function lookAtBinding(path: string): () => void {
     clearInterval(timer);
     timer = undefined;
   };
+}
+
+function want(paths: Iterable<string>): void {
+  for (const path of paths) waiting.add(path);
+  if (!asking) void askAll();
+}
+
+async function askAll(): Promise<void> {
+  asking = true;
+  for (const path of waiting) {
+    waiting.delete(path);
+    if (looking.has(path)) await ask(path);
+  }
+  asking = false;
 }
 
 async function ask(path: string): Promise<void> {
@@ -54,5 +71,5 @@ useBench.subscribe((now, before) => {
 });
 
 useForces.subscribe((now, before) => {
-  if (now.written !== before.written) for (const path of looking.keys()) void ask(path);
+  if (now.written !== before.written) want(looking.keys());
 });

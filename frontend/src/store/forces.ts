@@ -25,7 +25,12 @@ export const useForcedAt = (path: string): ForceInfo | undefined => useForces((f
 
 /** All forces that hold now, as the PLC tells them. */
 export function onForces(forces: readonly ForceInfo[]): void {
-  useForces.setState({ held: new Map(forces.map((force) => [force.path.toUpperCase(), force])) });
+  const held = new Map<string, ForceInfo>();
+  for (const force of forces) {
+    // A force on an in-out holds what was passed: both rows are marked.
+    for (const path of [force.through, force.path]) if (path) held.set(path.toUpperCase(), force);
+  }
+  useForces.setState({ held });
 }
 
 export function onWritten(path: string, author: string, scan: number): void {

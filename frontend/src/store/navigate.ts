@@ -1,7 +1,7 @@
 /** Going to places: panels ask, the shell (which knows the docking) does it. */
 import { create } from "zustand";
 
-export type PanelName = "console" | "watch" | "problems" | "log" | "errors" | "history";
+export type PanelName = "console" | "watch" | "trace" | "forces" | "problems" | "log" | "errors" | "history";
 /** What stands among the files in the centre without being one: opened when asked for, closed like a file. */
 const PAGES = ["sweep", "usererrors", "record"] as const;
 export type PageName = (typeof PAGES)[number];

@@ -11,7 +11,7 @@ import { type Answer, send } from "../wire/send";
 import type { WatchEntry } from "../wire/types";
 import { keep, recall } from "./keep";
 import { loadMembers, useMembers } from "./members";
-import { changeMark } from "./values";
+import { changeMark, currentText } from "./values";
 import { useWatches, watch } from "./watches";
 import { editList, loadWatchLists, told, undoEdit, useWatchLists } from "./watchlists";
 
@@ -179,6 +179,9 @@ export function formatOf(path: string, root: string): Format {
   return useWatchLists.getState().content.entries.find((entry) => entry.path === root)?.format ?? "default";
 }
 
+/** What a row shows, in its format. */
+export const shownText = ({ path, root }: { path: string; root: string }) => currentText(path, formatOf(path, root));
+
 export function setFormat(path: string, root: string, format: Format): void {
   if (path === root) {
     editList((content) => withFormat(content, path, format));
@@ -214,20 +217,20 @@ export function chooseSite(path: string, site: string | null): void {
 }
 
 /** Where a write of this row goes when somebody picked a call: the row's own choice, or that of the in-out that it is in. */
-function siteOf(path: string): { site?: string } {
+function siteOf(path: string): string {
   for (const [inOut, site] of get().sites) {
-    if (path === inOut || path.startsWith(`${inOut}.`) || path.startsWith(`${inOut}[`)) return { site };
+    if (path === inOut || path.startsWith(`${inOut}.`) || path.startsWith(`${inOut}[`)) return site;
   }
-  return {};
+  return "";
 }
 
 export async function write(path: string, root: string, value: string): Promise<void> {
-  const answer = await send({ type: "write", path, value: meant(path, root, value), ...siteOf(path) });
+  const answer = await send({ type: "write", path, value: meant(path, root, value), site: siteOf(path) });
   landed("write", path, value, answer);
 }
 
 export async function force(path: string, root: string, value: string): Promise<void> {
-  const answer = await send({ type: "force", path, value: meant(path, root, value), ...siteOf(path) });
+  const answer = await send({ type: "force", path, value: meant(path, root, value), site: siteOf(path) });
   landed("force", path, value, answer);
 }
 

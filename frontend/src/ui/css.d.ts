@@ -11,5 +11,6 @@ declare module "react" {
     "--c-change"?: string;
     "--c-type"?: string;
     "--c-address"?: string;
+    "--c-bound"?: string;
   }
 }

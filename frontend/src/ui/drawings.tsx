@@ -263,7 +263,9 @@ export const drawings = {
       <circle cx="8" cy="8" r="2.25" className="f" />
     </>
   ),
+  trigger: <path d="M2 12h4.5V4H14" />,
   export: <path d="M8 2.25v7.5M5 7l3 3 3-3M2.75 11.5v1.25a1 1 0 0 0 1 1h8.5a1 1 0 0 0 1-1V11.5" />,
+  differs: <path d="M3 6h10M3 10h10M10.75 3l-5.5 10" />,
   filter: <path d="M2.5 4h11M4.75 8h6.5M6.75 12h2.5" />,
   sort: <path d="M8 3v10M4.75 9.75 8 13l3.25-3.25" />,
   import: <path d="M8 9.75v-7.5M5 5l3-3 3 3M2.75 11.5v1.25a1 1 0 0 0 1 1h8.5a1 1 0 0 0 1-1V11.5" />,

@@ -46,7 +46,7 @@ export class Refused extends Error {
   }
 }
 
-async function request(
+export async function request(
   method: string,
   path: string,
   body?: unknown,
@@ -78,7 +78,7 @@ async function readRefusal(response: Response): Promise<Refusal> {
   }
 }
 
-async function json<T>(method: string, path: string, body?: unknown): Promise<T> {
+export async function json<T>(method: string, path: string, body?: unknown): Promise<T> {
   return (await (await request(method, path, body)).json()) as T;
 }
 

@@ -3,6 +3,14 @@ import type { components } from "./messages.gen";
 
 type Shapes = components["schemas"];
 
+export type DefineTrace = Shapes["DefineTrace"];
+export type Flight = Shapes["Flight"];
+export type TraceDefinition = Shapes["TraceDefinition"];
+export type TraceInfo = Shapes["TraceInfo"];
+export type TraceRecordInfo = Shapes["TraceRecordInfo"];
+export type TraceSignal = Shapes["TraceSignal"];
+export type TraceTrigger = Shapes["TraceTrigger"];
+export type TraceWhen = TraceTrigger["when"];
 export type AppInfo = Shapes["AppInfo"];
 export type Area = Shapes["Area"];
 export type ArmedFault = Shapes["ArmedFault"];
@@ -26,7 +34,14 @@ export type FaultShape = Shapes["FaultShape"];
 export type FaultStart = Shapes["FaultStart"];
 export type FileInfo = Shapes["FileInfo"];
 export type FileText = Shapes["FileText"];
-export type ForceInfo = Shapes["ForceInfo"];
+/** The values of the last scan come as soon as one ran with the force. */
+export type ForceInfo = Shapes["ForceInfo"] & {
+  through?: string;
+  scan?: number | null;
+  before?: string;
+  after_program?: string;
+  after?: string;
+};
 export type GenerateOne = Shapes["GenerateOne"];
 export type HaltInfo = Shapes["HaltInfo"];
 export type HistoryOfVersion = Shapes["HistoryOfVersion"];

@@ -77,12 +77,13 @@ class DebugObserver(ReferenceObserver):
         """The body of a POU of the user's, which has a frame."""
         if pou not in self.sites.bodies:
             return run
-        frames = self._frames
+        frames, copies = self._frames, pou.copies
 
         def body(instance: int) -> int:
             caller = self._site
             frames.append((pou, instance, caller))
-            self._site = None  # start values are no part of the statement that calls
+            if not copies:
+                self._site = None  # start values are no part of the statement that calls
             end = run(instance)
             frames.pop()
             self._site = caller

@@ -1,8 +1,5 @@
 """The text of one LLVM module: functions, constants, declarations, alias tags."""
 
-from collections.abc import Iterator
-from contextlib import contextmanager
-
 ATTRIBUTES = "attributes #0 = { nounwind willreturn mustprogress }"
 
 
@@ -19,7 +16,6 @@ class ModuleText:
             '!{!"scanbench"}',
         ]
         self._tags: dict[str, str] = {"": ""}
-        self._any_variable = False
         self._globals: dict[str, str] = {}
 
     def tag(self, variable: str) -> str:
@@ -30,8 +26,6 @@ class ModuleText:
         """
         if variable.startswith("@"):
             variable = "@"
-        if self._any_variable:
-            return ""
         tag = self._tags.get(variable)
         if tag is None:
             leaf = self._node(f'!{{!"{_escape(variable.encode())}", !1, i64 0}}')
@@ -41,13 +35,6 @@ class ModuleText:
     def _node(self, text: str) -> str:
         self._metadata.append(text)
         return f"!{len(self._metadata) - 1}"
-
-    @contextmanager
-    def any_variable(self) -> Iterator[None]:
-        """Accesses meanwhile may be to any variable."""
-        self._any_variable = True
-        yield
-        self._any_variable = False
 
     def define(self, name: str, text: str) -> None:
         """A variable that other modules may refer to."""

@@ -176,15 +176,16 @@ class Observing(Flavour):
 
     def calls(self, body: Body, callee: Pou) -> None:
         # what has no statements of its own is told on whose behalf it runs
-        if body.site is not None and not self.has_sites(callee):
+        if body.site is not None and (not self.has_sites(callee) or callee.copies):
             body.text.do(f"store i32 {body.site}, ptr {field(SITE)}, align 8")
 
     # ---- accesses ---------------------------------------------------------------------------------------------
 
     def unheard(self, body: Body) -> bool:
         """What is read or written here is not the user's program's: what looks whether a task is due, the start of a
-        body, what was made from the model."""
-        nobody = body.site is None and (self.has_sites(body.pou) or not body.unit.has(body.pou))
+        body, what was made from the model. In-outs by value are copied by the statement that calls."""
+        started = self.has_sites(body.pou) and not body.pou.copies
+        nobody = body.site is None and (started or not body.unit.has(body.pou))
         return nobody or is_system(body.pou.span)
 
     def read(self, body: Body, place: Place, where: Address) -> None:

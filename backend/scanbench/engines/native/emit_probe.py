@@ -1,15 +1,15 @@
 """Probed code: a test where chosen statements begin; see `engines.probe`. All other statements are as in the run flavour."""
 
 from collections.abc import Iterator, Sequence
-from contextlib import contextmanager
+from contextlib import AbstractContextManager, nullcontext
 
 from scanbench.check.layout import Layout
 from scanbench.check.program import Expr, If, Pou, Program, Stmt
 from scanbench.check.sites import Sites, sites_of
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body, Unit
-from scanbench.engines.native.emit_function import UNLIKELY
 from scanbench.engines.native.flavour import Flavour
+from scanbench.engines.native.speculate import harmless
 from scanbench.engines.probe import BadProbe, Probe
 
 SLOTS = "@probes"
@@ -21,9 +21,9 @@ TAG = "#probes"
 """Of accesses to these: no variable lies there."""
 
 
-def status(number: int) -> int:
-    """What code that this probe halts is left with; the numbers of traps are positive."""
-    return -1 - number
+HALTED = -1
+"""The status of a scan in which a probe that halts was reached; the numbers of traps are positive. The scan is run to its end
+before: nobody can tell, as the image is of no use, and leaving at once would keep loops from being optimised."""
 
 
 class Probing(Flavour):
@@ -78,52 +78,81 @@ class Probing(Flavour):
             self._refer(body.unit)
             body.text.do(f"store i8 {int(silent)}, ptr {SILENT}, align 1{body.module.tag(TAG)}")
 
+    def done(self, body: Body) -> None:
+        halting = [number for number, probe in enumerate(self._probes) if probe.halt]
+        for number in halting:
+            self._refer(body.unit)
+            reached = body.text.op(f"icmp eq i64 {_last(body, number)}, {_now(body)}")
+            body.text.trap_status(reached, str(HALTED))
+
     def may_select(self, body: Body, statement: If) -> bool:
-        return not self._inside(statement)
+        return all(harmless(body, each) for each in self._conditions(statement))
 
-    def _inside(self, statement: Stmt) -> bool:
-        inner = [each for each_body in walk.bodies(statement) for each in each_body]
-        return any(self.sites.number(each) in self._at or self._inside(each) for each in inner)
+    def _conditions(self, statement: Stmt) -> Iterator[Expr]:
+        """Of the probes inside of a statement."""
+        for inner in (each for each_body in walk.bodies(statement) for each in each_body):
+            probes = (self._probes[number] for number in self._numbers(inner))
+            yield from (probe.condition for probe in probes if probe.condition is not None)
+            yield from self._conditions(inner)
 
-    @contextmanager
-    def statement(self, body: Body, statement: Stmt) -> Iterator[None]:
+    def _numbers(self, statement: Stmt) -> Sequence[int]:
         site = self.sites.number(statement)
-        for number in self._at.get(site, ()) if site is not None else ():
-            self._probe(body, number)
-        yield
+        return () if site is None else self._at.get(site, ())
 
-    def _probe(self, body: Body, number: int) -> None:
-        self._refer(body.unit)
-        text, probe = body.text, self._probes[number]
-        on = text.name("on")
+    def statement(self, body: Body, statement: Stmt) -> AbstractContextManager[None]:
+        self.selected(body, statement, "true")
+        return nullcontext()
+
+    def selected(self, body: Body, statement: Stmt, guard: str) -> None:
+        for number in self._numbers(statement):
+            self._refer(body.unit)
+            self._look(body, number, guard)
+
+    def _look(self, body: Body, number: int, guard: str) -> None:
+        """Without a branch if that can be: then a loop around may still be turned into one for vectors."""
+        text, condition = body.text, self._probes[number].condition
         if body.pou in self._doubtful:
             silent = text.op(f"load i8, ptr {SILENT}, align 1{body.module.tag(TAG)}")
-            heard = text.name("heard")
-            text.choose(text.op(f"icmp ne i8 {silent}, 0"), on, heard)
-            text.begin(heard)
-        if probe.condition is not None:
-            holds, reached = _value(body, probe.condition, on), text.name("reached")
-            text.choose(holds, reached, on, UNLIKELY)
-            text.begin(reached)
-        scan = text.address(body.image, Layout.SCAN)
-        now = text.op(f"load i64, ptr {scan}, align 8{body.module.tag('#scan')}")
-        slot = f"getelementptr (i8, ptr {SLOTS}, i64 {8 * number})"
-        text.do(f"store i64 {now}, ptr {slot}, align 8{body.module.tag(TAG)}")
-        text.go(text.fail(str(status(number))) if probe.halt else on)
-        text.begin(on)
+            guard = text.op(f"and i1 {guard}, {text.op(f'icmp eq i8 {silent}, 0')}")
+        if condition is None:
+            _note(body, number, guard)
+        elif harmless(body, condition):
+            _note(body, number, text.op(f"and i1 {guard}, {body.scalar(condition).ssa}"))
+        else:
+            evaluate, on = text.name("evaluate"), text.name("on")
+            text.choose(guard, evaluate, on)
+            text.begin(evaluate)
+            with text.trapping_to(on):
+                holds = body.scalar(condition).ssa
+            _note(body, number, holds)
+            text.go(on)
+            text.begin(on)
+        text.end_statement()
 
     def _refer(self, unit: Unit) -> None:
         unit.module.refer(SLOTS, "external global [0 x i64], align 8")
         unit.module.refer(SILENT, "external global i8, align 1")
 
 
-def _value(body: Body, condition: Expr, trapped: str) -> str:
-    """The condition's value; where it traps the code goes on at a block."""
-    # its places may name the same bytes otherwise than the program does
-    with body.text.trapping_to(trapped), body.module.any_variable():
-        value = body.scalar(condition).ssa
-    body.text.end_statement()
-    return value
+def _note(body: Body, number: int, holds: str) -> None:
+    scan = _now(body)
+    if holds != "true":
+        scan = body.text.op(f"select i1 {holds}, i64 {scan}, i64 {_last(body, number)}")
+    body.text.do(f"store i64 {scan}, ptr {_slot(number)}, align 8{body.module.tag(TAG)}")
+
+
+def _slot(number: int) -> str:
+    return f"getelementptr (i8, ptr {SLOTS}, i64 {8 * number})"
+
+
+def _last(body: Body, number: int) -> str:
+    """The scan that last reached it."""
+    return body.text.op(f"load i64, ptr {_slot(number)}, align 8{body.module.tag(TAG)}")
+
+
+def _now(body: Body) -> str:
+    where = body.text.address(body.image, Layout.SCAN)
+    return body.text.op(f"load i64, ptr {where}, align 8{body.module.tag('#scan')}")
 
 
 def _runs(pous: Iterator[Pou]) -> set[Pou]:

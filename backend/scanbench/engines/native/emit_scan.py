@@ -95,6 +95,7 @@ def _scan(unit: Unit, program: Program) -> str:
     for task in program.tasks:
         _task(body, task, number)
     _forces(unit, text, FORCE_AFTER_PROGRAM)
+    unit.flavour.done(body)
     following = text.op(f"add i64 {number}, 1")
     text.do(f"store i64 {following}, ptr {scan}, align 8{unit.module.tag('#scan')}")
     text.do("ret i32 0")

@@ -148,6 +148,7 @@ def selects(body: Body, statement: If) -> None:
 def _guarded(body: Body, guard: str, statements: tuple[Stmt, ...]) -> None:
     for statement in statements:
         assert isinstance(statement, Assign)
+        body.unit.flavour.selected(body, statement, guard)
         _store_if(body, guard, statement.target, statement)
 
 

@@ -43,6 +43,9 @@ class Flavour:
     def silence(self, body: "Body", silent: bool) -> None:
         """From here on what runs is not the user's program, or is again."""
 
+    def done(self, body: "Body") -> None:
+        """All of a scan has run; it does not count yet."""
+
     def joined(self, body: "Body", instance: ProgramInstance) -> AbstractContextManager[None]:
         """Around what a CONFIGURATION connects to the program."""
         return nullcontext()
@@ -58,6 +61,9 @@ class Flavour:
     def statement(self, body: "Body", statement: Stmt) -> AbstractContextManager[None]:
         """Around a statement; what is emitted meanwhile belongs to it."""
         return nullcontext()
+
+    def selected(self, body: "Body", statement: Stmt, guard: str) -> None:
+        """The statement begins where the guard, an i1, is true: instead of `statement`, where `may_select`."""
 
     def calls(self, body: "Body", callee: Pou) -> None:
         """The statement is about to call."""

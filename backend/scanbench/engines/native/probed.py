@@ -7,6 +7,7 @@ from where the run flavour keeps them.
 import ctypes
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
+from scanbench.check.layout import Layout
 from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.engine import Pace, Reason, Stop
@@ -65,6 +66,7 @@ class NativeProbedEngine(NativeEngine, ProbedEngine):
     def __init__(self, program: Program, memory: bytearray, probes: Sequence[Probe], objects: Sequence[bytes]) -> None:
         super().__init__(program, memory, objects=objects)
         self.probes = tuple(probes)
+        self._memory = memory
         self._halted: int | None = None
         self._slots = (ctypes.c_int64 * len(self.probes)).from_address(
             self._code.variable(emit_probe.SLOTS.removeprefix("@"))
@@ -72,13 +74,14 @@ class NativeProbedEngine(NativeEngine, ProbedEngine):
 
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
         """See `ProbedEngine`."""
-        stop = super().run(scans, pace)
-        self._halted = None
-        left = ctypes.c_int32(stop.trap).value
-        if left >= 0:
+        stop, self._halted = super().run(scans, pace), None
+        if stop.reason is not Reason.TRAP:
             return stop
-        self._halted = emit_probe.status(left)
-        return Stop(Reason.HALTED)
+        # what trapped may have reached a probe before
+        scan = int.from_bytes(self._memory[Layout.SCAN : Layout.SCAN + 8], "little")
+        reached = (number for number, probe in enumerate(self.probes) if probe.halt and self._slots[number] == scan)
+        self._halted = next(reached, None)
+        return stop if self._halted is None else Stop(Reason.HALTED)
 
     @property
     def halted(self) -> int | None:

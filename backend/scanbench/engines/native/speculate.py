@@ -45,11 +45,12 @@ CHEAP = ("ABS", "MIN", "MAX", "SEL", "SHL", "SHR", "ROL", "ROR", "BITCAST", "CLO
 class _Checked:
     """Places whose checks have passed on every way to this point."""
 
-    def __init__(self, body: Body, condition: Expr) -> None:
+    def __init__(self, body: Body, condition: Expr, known: bool = True) -> None:
+        """With `known`, the condition has been evaluated."""
         self.body = body
         self.nodes = 0
         self.places: dict[object, Place] = {}
-        if not walk.disturbs(condition):
+        if known and not walk.disturbs(condition):
             for seen in walk.of_expression(condition):
                 if isinstance(seen, tuple):
                     self.places[_key(seen[0])] = seen[0]
@@ -150,6 +151,12 @@ def to_selects(body: Body, statement: If) -> bool:
                 return False
             checked.forget(assign.target)
     return checked.nodes <= MOST_NODES
+
+
+def harmless(body: Body, expr: Expr) -> bool:
+    """Whether the expression can be evaluated at any time, and that is cheap."""
+    checked = _Checked(body, expr, known=False)
+    return checked.allows(expr) and checked.nodes <= MOST_NODES
 
 
 def _plain(statements: Iterable[Stmt]) -> bool:

@@ -155,14 +155,16 @@ async def on_set_exception_breakpoints(plc: Debuggee, args: shapes.SetExceptionB
 async def on_set_breakpoint(plc: Debuggee, args: shapes.SetBreakpoint) -> Body:
     """Adds one to the list, or changes it whole."""
     wanted = args.breakpoint
+    file, line = "", 0
+    if wanted.kind == "line":
+        if wanted.source is None:
+            raise Refused("a line breakpoint wants a source and a line")
+        file, line = plc.paths.file(wanted.source), plc.line_in(wanted.line)
     made = Breakpoint(
-        wanted.id or 0, wanted.kind, plc.author, plc.group, wanted.enabled,
-        plc.paths.file(wanted.source) if wanted.source is not None else "", plc.line_in(wanted.line) if wanted.line else 0,
-        plc.column_in(wanted.column), wanted.path, wanted.access, wanted.error, wanted.scan, wanted.condition,
-        wanted.hits, wanted.log, wanted.assign, wanted.instance, wanted.task,
+        wanted.id or 0, wanted.kind, plc.author, plc.group, wanted.enabled, file, line, plc.column_in(wanted.column),
+        wanted.path, wanted.access, wanted.error, wanted.scan, wanted.condition, wanted.hits, wanted.log,
+        wanted.assign, wanted.instance, wanted.task,
     )  # fmt: skip
-    if made.kind == "line" and not made.file:
-        raise Refused("a line breakpoint wants a source and a line")
     if wanted.id:
         before = _of_group(plc, [wanted.id])[0]
         if (before.kind, before.file) != (made.kind, made.file):  # the lists that are replaced are others

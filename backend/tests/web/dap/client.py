@@ -108,13 +108,14 @@ class SocketClient(Client):
     def __init__(self, server: Server, instance: int, user: str = "Tool", **attach: object) -> None:
         super().__init__()
         address = f"ws://127.0.0.1:{server.port}/api/instances/{instance}/dap?scanbench_user={user}"
-        self.socket = connect(address, additional_headers={"Authorization": f"Bearer {server.token}"})
+        self._connection = connect(address, additional_headers={"Authorization": f"Bearer {server.token}"})
+        self.socket = self._connection.__enter__()
         self.ask("initialize", adapterID="scanbench", clientID="test")
         self.ask("attach", **attach)
         self.event("initialized")
 
     def close(self) -> None:
-        self.socket.close()
+        self._connection.__exit__(None, None, None)
 
     def put(self, message: Message) -> None:
         self.socket.send(json.dumps(message))

@@ -43,7 +43,7 @@ def test_a_folder_may_have_two_names() -> None:
 
 
 def test_a_file_elsewhere_is_none_of_the_program() -> None:
-    with pytest.raises(Refused, match="/home/bob/Main.st is no file of the program"):
+    with pytest.raises(Refused, match=r"/home/bob/Main\.st is no file of the program"):
         FolderPaths(files, "/home/ann").file(Source(path="/home/bob/Main.st"))
     with pytest.raises(Refused):
         FolderPaths(files, "/home/ann").file(Source(path="/home/annex/Main.st"))

@@ -5,7 +5,6 @@ import { t } from "../../logic/text";
 import { editBreakpoint, useDebug } from "../../store/debug";
 import { build, save, useDocuments } from "../../store/documents";
 import { useNavigation } from "../../store/navigate";
-import { addToWatch } from "../../store/watchlist";
 import { Menu, type MenuItem } from "../../ui/Menu";
 import { BreakpointForm } from "./BreakpointForm";
 import "./checks";
@@ -22,6 +21,7 @@ import { modelOf } from "./models";
 import { editor, KeyCode, KeyMod, monospaceFont, options } from "./monaco";
 import { markReaction } from "./reaction";
 import { markTrap } from "./trap";
+import { addWatchAction, dragToWatch } from "./watchAction";
 import { openZone, type Zone } from "./zone";
 
 /** The text of one file in Monaco. */
@@ -41,6 +41,8 @@ export default function CodeView({ path }: { path: string }) {
     });
     view.current = code;
     addActions(code, path);
+    addWatchAction(code, path);
+    const noDrag = dragToWatch(code, host.current, path);
     let gutter: Gutter | null = null;
     const openMenu = (line: number, at: { x: number; y: number }) => {
       if (!gutter) return;
@@ -71,6 +73,7 @@ export default function CodeView({ path }: { path: string }) {
       unmarkHalt();
       unmarkCoverage();
       hideValues();
+      noDrag();
       breakpoints.dispose();
       code.dispose();
       view.current = null;
@@ -137,35 +140,4 @@ function addActions(code: editor.IStandaloneCodeEditor, path: string): void {
     keybindings: [KeyMod.CtrlCmd | KeyMod.Shift | KeyCode.KeyB],
     run: () => void build(),
   });
-  code.addAction({
-    id: "scanbench.watch",
-    label: t("watch.addone"),
-    contextMenuGroupId: "navigation",
-    run: () => {
-      const expression = expressionAt(code);
-      if (expression) addToWatch([instancePath(path, code.getPosition()?.lineNumber ?? 1, expression)]);
-    },
-  });
-}
-
-/** The selected text, or the path of names around the caret: `belt[1].run`. */
-function expressionAt(code: editor.IStandaloneCodeEditor): string | null {
-  const model = code.getModel();
-  const position = code.getPosition();
-  const selection = code.getSelection();
-  if (!model || !position) return null;
-  if (selection && !selection.isEmpty()) return model.getValueInRange(selection).trim();
-  const line = model.getLineContent(position.lineNumber);
-  for (const match of line.matchAll(/%?[\p{L}_][\p{L}\d_]*(?:\[[\d, ]+\]|\.[\p{L}\d_]+)*/gu)) {
-    const from = match.index + 1;
-    if (from <= position.column && position.column <= from + match[0].length) return match[0];
-  }
-  return null;
-}
-
-// In a program the name is the program's; elsewhere it is taken as it stands, and the row says when it is not known.
-function instancePath(path: string, line: number, expression: string): string {
-  const { pous, open } = useDocuments.getState();
-  const pou = pouAt(pous, path, line, open[path]?.text);
-  return pou?.kind === "program" && !expression.startsWith("%") ? `${pou.name}.${expression}` : expression;
 }

@@ -21,6 +21,8 @@ export interface Gutter {
   dispose: () => void;
 }
 
+const GUTTER = [editor.MouseTargetType.GUTTER_GLYPH_MARGIN, editor.MouseTargetType.GUTTER_LINE_NUMBERS];
+
 type Menu = (line: number, at: { x: number; y: number }) => void;
 
 export function showBreakpoints(code: editor.IStandaloneCodeEditor, path: string, openMenu: Menu): Gutter {
@@ -73,8 +75,14 @@ export function showBreakpoints(code: editor.IStandaloneCodeEditor, path: string
       const line = target.position?.lineNumber;
       if (line === undefined || target.type !== editor.MouseTargetType.GUTTER_GLYPH_MARGIN) return;
       event.preventDefault();
-      if (event.rightButton) openMenu(line, { x: event.browserEvent.clientX, y: event.browserEvent.clientY });
-      else if (event.leftButton) toggle(line);
+      if (event.leftButton) toggle(line);
+    }),
+    code.onContextMenu(({ target, event }) => {
+      const line = target.position?.lineNumber;
+      if (line === undefined || !GUTTER.includes(target.type)) return;
+      event.preventDefault();
+      event.stopPropagation();
+      openMenu(line, { x: event.browserEvent.clientX, y: event.browserEvent.clientY });
     }),
     code.onMouseMove(({ target }) => {
       const over = target.type === editor.MouseTargetType.GUTTER_GLYPH_MARGIN;

@@ -4,7 +4,7 @@
  */
 import { lineIn } from "../../logic/breakpoints";
 import { pouAt } from "../../logic/explorer";
-import { variablesIn } from "../../logic/inline";
+import { type NamedVariable, variablesIn } from "../../logic/inline";
 import { t } from "../../logic/text";
 import { useDocuments } from "../../store/documents";
 import { forceOf, useForces } from "../../store/forces";
@@ -122,6 +122,7 @@ function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, R
   for (const { startLineNumber, endLineNumber } of code.getVisibleRanges()) {
     let pou = pouAt(pous, path, startLineNumber, document?.text);
     if (pou && on) void loadNames(pou.name);
+    let comment = false;
     for (let line = startLineNumber; line <= endLineNumber; line += 1) {
       const begins = pous.find((known) => known.file === path && known.line === line);
       if (begins && begins !== pou) {
@@ -129,7 +130,9 @@ function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, R
         if (on) void loadNames(pou.name);
       }
       const inFrame = pou !== undefined && pou.name.toUpperCase() === here;
-      const values = pou && on ? valuesIn(model.getLineContent(line), pou.name, inFrame) : [];
+      const found = variablesIn(model.getLineContent(line), comment);
+      comment = found.comment;
+      const values = pou && on ? valuesOf(found.variables, pou.name, inFrame) : [];
       const next = stands === line ? saidOf(standing?.look) : "";
       const old = inFrame && stands !== null && line > stands;
       if (values.length > 0 || next !== "") wanted.set(line, { values, old, next });
@@ -141,9 +144,9 @@ function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, R
 const saidOf = (look: "halt" | "past" | "frame" | undefined) =>
   look === "frame" ? "calls" : look === "past" ? "past" : "next";
 
-function valuesIn(line: string, pou: string, inFrame: boolean): Shown[] {
+function valuesOf(named: readonly NamedVariable[], pou: string, inFrame: boolean): Shown[] {
   const shown: Shown[] = [];
-  for (const { path: name } of variablesIn(line).variables) {
+  for (const { path: name } of named) {
     const path = pathOf(pou, name);
     const text = path === undefined && inFrame ? frameText(name) : "";
     if (path !== undefined || text) shown.push({ name, path: path ?? null, text: text ?? "" });

@@ -6,6 +6,9 @@ export interface Zone {
   dispose: () => void;
 }
 
+/** As `lineHeight` in the editor's options. */
+const LINE = 20;
+
 let next = 0;
 
 /**
@@ -45,7 +48,9 @@ export function openZone(code: editor.IStandaloneCodeEditor, line: number): Zone
     if (zone.heightInPx === element.offsetHeight) return;
     zone.heightInPx = element.offsetHeight;
     code.changeViewZones((zones) => zones.layoutZone(id));
-    code.revealLineInCenterIfOutsideViewport(line);
+    const bottom = code.getTopForLineNumber(line) + LINE + element.offsetHeight;
+    const { height } = code.getLayoutInfo();
+    if (bottom > code.getScrollTop() + height) code.setScrollTop(bottom - height);
   });
   sized.observe(element);
   return {

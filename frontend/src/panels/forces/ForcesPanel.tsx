@@ -5,8 +5,8 @@ import { splitPath } from "../../logic/paths";
 import { t } from "../../logic/text";
 import { useForces } from "../../store/forces";
 import { useForbidden } from "../../store/plc";
-import { addToWatch, releaseForce, useWatchList } from "../../store/watchlist";
 import { watch } from "../../store/watches";
+import { addToWatch, releaseForce, useWatchList } from "../../store/watchlist";
 import { Empty } from "../../ui/Empty";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
@@ -88,7 +88,9 @@ function ForceGrid({ forces }: { forces: readonly ForceInfo[] }) {
     if (to !== undefined) go(to);
     else if (event.key === "Delete" || (event.key === "F7" && event.shiftKey)) void releaseForce(force?.path ?? null);
     else if (event.key === "ContextMenu" && force) {
-      const { left, bottom } = (event.currentTarget.querySelector(".gr.on") ?? event.currentTarget).getBoundingClientRect();
+      const { left, bottom } = (
+        event.currentTarget.querySelector(".gr.on") ?? event.currentTarget
+      ).getBoundingClientRect();
       setMenu({ items: forceMenu(force), at: { x: left + 40, y: bottom } });
     } else return;
     event.preventDefault();
@@ -179,7 +181,11 @@ function ForceLine({ force, index, style, selected, onSelect, onMenu }: LineProp
         onMenu({ x: event.clientX, y: event.clientY });
       }}
     >
-      <span className="name" role="gridcell" title={[path, through && t("forces.through", { through }), refused].filter(Boolean).join("\n")}>
+      <span
+        className="name"
+        role="gridcell"
+        title={[path, through && t("forces.through", { through }), refused].filter(Boolean).join("\n")}
+      >
         <span className="st forced">
           <Icon name="forced" small />
         </span>
@@ -191,7 +197,10 @@ function ForceLine({ force, index, style, selected, onSelect, onMenu }: LineProp
       </span>
       <Text text={value} strong />
       <Text text={force.before} />
-      <Text text={force.after_program} differs={force.after_program !== undefined && force.after_program !== force.after} />
+      <Text
+        text={force.after_program}
+        differs={force.after_program !== undefined && force.after_program !== force.after}
+      />
       <Text text={force.after} />
       <NowCell path={path} />
       <span role="gridcell" title={author}>

@@ -18,7 +18,8 @@ export function PlcState() {
       <Icon name={shown.icon} />
       <span className="two">
         <span className="cut">{shown.word}</span>
-        <span className="cut">{shown.detail}</span>
+        <span className={`cut${shown.short === undefined ? "" : " ifwide"}`}>{shown.detail}</span>
+        {shown.short !== undefined && <span className="cut ifnarrow">{shown.short}</span>}
       </span>
     </div>
   );

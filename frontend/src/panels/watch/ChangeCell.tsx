@@ -2,7 +2,7 @@ import type { KeyboardEvent } from "react";
 import { t } from "../../logic/text";
 import type { ValueRow } from "../../logic/watchrows";
 import { useForbidden, useOnline } from "../../store/plc";
-import { force, releaseForce, select, setDraft, useWatchList, write } from "../../store/watchlist";
+import { force, releaseForce, select, setDraft, shownText, useWatchList, write } from "../../store/watchlist";
 import { Icon } from "../../ui/Icon";
 import type { PlcSymbol } from "../../wire/types";
 
@@ -20,7 +20,7 @@ export function ChangeCell({ row, symbol, forced }: { row: ValueRow; symbol: Plc
   function onKeyDown(event: KeyboardEvent<HTMLInputElement>): void {
     if (event.key === "Enter" && draft !== "" && locked === null) void write(row.path, row.root, draft);
     else if (event.key === "F7" && event.shiftKey) void releaseForce(row.path);
-    else if (event.key === "F7" && draft !== "") void force(row.path, row.root, draft);
+    else if (event.key === "F7") void force(row.path, row.root, draft || shownText(row));
     else if (event.key === "Escape") {
       setDraft(row.path, "");
       event.currentTarget.closest<HTMLElement>("[role=treegrid]")?.focus();

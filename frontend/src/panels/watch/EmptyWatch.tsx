@@ -3,8 +3,10 @@ import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { topVariables } from "../../store/completion";
 import { addToWatch } from "../../store/watchlist";
+import { chooseList, useWatchLists } from "../../store/watchlists";
 import { Empty } from "../../ui/Empty";
 import { Icon } from "../../ui/Icon";
+import { MenuButton } from "../../ui/Menu";
 
 /** A list without entries says how to get some, and offers the ones most people want. */
 export function EmptyWatch() {
@@ -43,10 +45,30 @@ export function EmptyWatch() {
       <button type="button" className="btn sm" onClick={() => void addProgram()}>
         <Icon name="plus" small />
         {t("watch.addprogram")}
-      </button>
+      </button>{" "}
+      <SharedLists />
       <p className="none" role="status">
         {none}
       </p>
     </Empty>
+  );
+}
+
+/** What others watch is often the best begin. */
+function SharedLists() {
+  const { lists, id } = useWatchLists();
+  const shared = lists.filter((list) => list.shared && list.id !== id && list.count > 0);
+  if (shared.length === 0) return null;
+  return (
+    <MenuButton
+      label={t("watch.empty.shared")}
+      className="btn sm"
+      items={() =>
+        shared.map((list) => ({ label: list.name, hint: String(list.count), onSelect: () => void chooseList(list.id) }))
+      }
+    >
+      <Icon name="users" small />
+      {t("watch.empty.shared")}
+    </MenuButton>
   );
 }

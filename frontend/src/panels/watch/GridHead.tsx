@@ -19,7 +19,10 @@ export function GridHead() {
       {WATCH_COLUMNS.map((column) => (
         <span key={column} role="columnheader" className={LOOK[column]} aria-sort={direction(sort, column)}>
           <SortButton column={column} sort={sort} />
-          <Grip label={t("watch.width", { column: t(`watch.${column}`) })} onWidth={(width) => setColumn(column, width)} />
+          <Grip
+            label={t("watch.width", { column: t(`watch.${column}`) })}
+            onWidth={(width) => setColumn(column, width)}
+          />
         </span>
       ))}
       <span role="columnheader" aria-label={t("watch.remove")} />

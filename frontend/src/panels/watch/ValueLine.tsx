@@ -94,12 +94,7 @@ export function ValueLine({ row, style, index, selected, target, onMenu }: Props
           {name}
         </span>
       </span>
-      <CurrentCell
-        path={row.path}
-        symbol={symbol}
-        refusal={refusal ?? null}
-        format={formatOf(row.path, row.root)}
-      />
+      <CurrentCell path={row.path} symbol={symbol} refusal={refusal ?? null} format={formatOf(row.path, row.root)} />
       <ChangeCell row={row} symbol={symbol} forced={forced !== undefined} />
       <span className="mono muted c-type" role="gridcell" title={symbol?.type}>
         {symbol?.type ?? ""}
@@ -134,7 +129,7 @@ function Lock({ path, forced }: { path: string; forced: ForceInfo }) {
       aria-label={t("force.release.path", { path })}
       title={`${forcedBy(forced)}\n${locked ?? t("force.release")}`}
       disabled={locked !== null}
-      onClick={() => void releaseForce(path)}
+      onClick={() => void releaseForce(forced.path)}
     >
       <Icon name="forced" small />
     </button>

@@ -2,9 +2,10 @@ import { type DragEvent, useEffect, useState } from "react";
 import { pathsIn } from "../../logic/paths";
 import { t } from "../../logic/text";
 import { addGroup, moveEntry, renameGroup } from "../../logic/watchlist";
+import { groupKey } from "../../logic/watchrows";
 import { showPanel } from "../../store/navigate";
 import { usePlc } from "../../store/plc";
-import { addToWatch, useWatchList } from "../../store/watchlist";
+import { addToWatch, select, useWatchList } from "../../store/watchlist";
 import { editList, keepAsOwn, useWatchLists } from "../../store/watchlists";
 import { AskName } from "../../ui/AskName";
 import { Icon } from "../../ui/Icon";
@@ -91,6 +92,7 @@ function NameGroup({ naming, onClose }: { naming: Naming; onClose: () => void })
         const grouped = addGroup(content, name);
         return naming.path === null ? grouped : moveEntry(grouped, naming.path, name, null);
       });
+    select(groupKey(name));
   }
   return (
     <AskName

@@ -1,9 +1,16 @@
 /** The keys of the watch table, with the selected row. */
 import type { KeyboardEvent } from "react";
 import type { WatchRow } from "../../logic/watchrows";
-import { currentText } from "../../store/values";
 import { useWatches } from "../../store/watches";
-import { force, formatOf, releaseForce, removeFromWatch, toggleGroup, toggleOpen, useWatchList } from "../../store/watchlist";
+import {
+  force,
+  releaseForce,
+  removeFromWatch,
+  shownText,
+  toggleGroup,
+  toggleOpen,
+  useWatchList,
+} from "../../store/watchlist";
 import { undoEdit } from "../../store/watchlists";
 import { copyText } from "./rowMenu";
 
@@ -22,7 +29,7 @@ export function gridKey(event: KeyboardEvent<HTMLDivElement>, row: WatchRow | un
   if (row?.kind !== "value") return false;
   const symbol = row.symbol ?? useWatches.getState().symbols.get(row.path);
   if ((event.ctrlKey || event.metaKey) && event.key.toLowerCase() === "c" && getSelection()?.isCollapsed !== false) {
-    copyText(event.shiftKey ? currentText(row.path, formatOf(row.path, row.root)) : row.path);
+    copyText(event.shiftKey ? shownText(row) : row.path);
     return true;
   }
   switch (event.key) {
@@ -40,7 +47,7 @@ export function gridKey(event: KeyboardEvent<HTMLDivElement>, row: WatchRow | un
       if (event.shiftKey) void releaseForce(row.path);
       else if (symbol && !symbol.expandable) {
         const typed = useWatchList.getState().drafts.get(row.path);
-        void force(row.path, row.root, typed || currentText(row.path, formatOf(row.path, row.root)));
+        void force(row.path, row.root, typed || shownText(row));
       }
       return true;
     case "Delete":

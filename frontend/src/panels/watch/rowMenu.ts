@@ -6,7 +6,6 @@ import { actualOf, type GroupRow, type ValueRow } from "../../logic/watchrows";
 import { useBindings } from "../../store/bindings";
 import { forcedAt } from "../../store/forces";
 import { usePlc } from "../../store/plc";
-import { currentText } from "../../store/values";
 import { useWatches } from "../../store/watches";
 import {
   addToWatch,
@@ -15,6 +14,7 @@ import {
   releaseForce,
   removeFromWatch,
   setFormat,
+  shownText,
   toggleGroup,
   useWatchList,
 } from "../../store/watchlist";
@@ -42,7 +42,7 @@ function forceItems(row: ValueRow, symbol: PlcSymbol | null): MenuItem[] {
   const plc = usePlc.getState();
   const locked = forbidden(plc.state, plc.link.state === "open", "force");
   const typed = useWatchList.getState().drafts.get(path);
-  const shown = typed || currentText(path, formatOf(path, root));
+  const shown = typed || shownText(row);
   return [
     {
       label: t("force.to", { value: shown }),
@@ -81,7 +81,7 @@ function elementShape(symbol: PlcSymbol): Pick<PlcSymbol, "kind" | "size"> | nul
 }
 
 function copyItems({ path, root }: ValueRow, symbol: PlcSymbol | null): MenuItem[] {
-  const value = symbol && !symbol.expandable ? currentText(path, formatOf(path, root)) : "";
+  const value = symbol && !symbol.expandable ? shownText({ path, root }) : "";
   const address = symbol?.address ?? "";
   const row = [path, value, symbol?.type ?? "", address].join("\t");
   return [

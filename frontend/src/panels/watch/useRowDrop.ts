@@ -1,7 +1,7 @@
 import { type DragEvent, useState } from "react";
-import type { WatchRow } from "../../logic/watchrows";
-import { moveEntry } from "../../logic/watchlist";
 import { pathsIn } from "../../logic/paths";
+import { moveEntry } from "../../logic/watchlist";
+import type { WatchRow } from "../../logic/watchrows";
 import { addToWatch } from "../../store/watchlist";
 import { editList } from "../../store/watchlists";
 

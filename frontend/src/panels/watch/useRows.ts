@@ -44,7 +44,23 @@ export function useRows(): readonly WatchRow[] {
         isForced: (path) => forceOf({ held: forces, written: new Map() }, path) !== undefined,
         hasChanged: (path) => hasChangedSince(path, since),
       }),
-    [entries, groups, collapsed, open, shown, notes, sort, filter, members, symbols, refusals, forces, since, drafts, turn],
+    [
+      entries,
+      groups,
+      collapsed,
+      open,
+      shown,
+      notes,
+      sort,
+      filter,
+      members,
+      symbols,
+      refusals,
+      forces,
+      since,
+      drafts,
+      turn,
+    ],
   );
 }
 

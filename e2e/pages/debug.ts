@@ -1,0 +1,95 @@
+import { expect, type Locator, type Page } from '@playwright/test';
+import { Editor } from './editor';
+
+/** The debugger: the gutter of an editor, call stack, variables, breakpoints, console. */
+export class Debug {
+  constructor(private readonly page: Page) {}
+
+  section(name: 'Call stack' | 'Variables' | 'Breakpoints'): Locator {
+    return this.page.getByRole('region', { name, exact: true });
+  }
+
+  get frames(): Locator {
+    return this.section('Call stack').getByRole('treeitem');
+  }
+
+  get breakpoints(): Locator {
+    return this.section('Breakpoints').getByRole('treeitem');
+  }
+
+  variable(name: string): Locator {
+    return this.page.getByTestId(`variable:${name}`);
+  }
+
+  /** The line that is next, in full width. */
+  haltedLine(file: string): Locator {
+    return new Editor(this.page, file).region.locator('.haltline');
+  }
+
+  /** What stands in the gutter of a file: `gl-bp`, `gl-bp-cond`, `gl-here` ... */
+  glyph(file: string, shape: string): Locator {
+    return new Editor(this.page, file).region.locator(`.glyph-margin-widgets .${shape}`);
+  }
+
+  /** The gutter beside the line that contains a text. */
+  private async gutterAt(file: string, part: string): Promise<{ x: number; y: number }> {
+    const editor = new Editor(this.page, file);
+    await editor.reveal(part);
+    const line = await editor.line(part).first().boundingBox();
+    const margin = await editor.region.locator('.glyph-margin').first().boundingBox();
+    if (!line || !margin) throw new Error(`the line of ${part} is not to be seen`);
+    return { x: margin.x + 9, y: line.y + 10 };
+  }
+
+  async clickGutter(file: string, part: string): Promise<void> {
+    const { x, y } = await this.gutterAt(file, part);
+    await this.page.mouse.click(x, y);
+  }
+
+  /** From the menu of the gutter. */
+  async fromGutter(file: string, part: string, item: string): Promise<void> {
+    const { x, y } = await this.gutterAt(file, part);
+    await this.page.mouse.click(x, y, { button: 'right' });
+    await this.page.getByRole('menuitem', { name: item, exact: true }).click();
+  }
+
+  /** The form below a line. */
+  get form(): Locator {
+    return this.page.getByRole('form', { name: /^Breakpoint in line/ });
+  }
+
+  async fillForm(entries: Record<string, string>, choices: Record<string, string> = {}): Promise<void> {
+    for (const [name, text] of Object.entries(entries)) await this.form.getByRole('textbox', { name }).fill(text);
+    for (const [name, choice] of Object.entries(choices))
+      await this.form.getByRole('combobox', { name }).selectOption(choice);
+    await this.form.getByRole('button', { name: /^(Set|Change)$/ }).click();
+  }
+
+  async step(name: 'Step over' | 'Step into' | 'Step out' | 'Step back' | 'Continue' | 'Single scan'): Promise<void> {
+    await this.page.getByRole('toolbar', { name: 'Run controls' }).getByRole('button', { name, exact: true }).click();
+  }
+
+  /** Another value for a variable of the frame, typed in its row. */
+  async setVariable(name: string, value: string): Promise<void> {
+    await this.variable(name).click();
+    const entry = this.page.getByRole('textbox', { name: `Value of ${name}`, exact: true });
+    await entry.fill(value);
+    await entry.press('Enter');
+  }
+
+  async removeAll(): Promise<void> {
+    await this.section('Breakpoints').getByRole('button', { name: 'Remove all breakpoints' }).click();
+    await expect(this.breakpoints).toHaveCount(0);
+  }
+
+  async showConsole(): Promise<Locator> {
+    await this.page.getByRole('tab', { name: 'Console', exact: true }).click();
+    return this.page.getByRole('log', { name: 'Console' });
+  }
+
+  async evaluate(expression: string): Promise<void> {
+    const entry = this.page.getByRole('textbox', { name: 'Evaluate an expression' });
+    await entry.fill(expression);
+    await entry.press('Enter');
+  }
+}

@@ -1,0 +1,213 @@
+import { readFile, writeFile } from 'node:fs/promises';
+import { expect, test } from '../fixtures/test';
+
+test('a watch list is shared, and two people change it at once', async ({ openAs }) => {
+  const mika = await openAs('Mika');
+  await mika.runs();
+
+  await test.step('what Mika adds is kept in a list of his own', async () => {
+    await mika.watch.add('Main.heartbeat');
+    await mika.watch.list('Share with everybody');
+    await expect(mika.watch.picker).toContainText('shared');
+    await mika.watch.renameList('Belt 3');
+  });
+
+  const jo = await openAs('Jo');
+  await test.step('Jo, who has none yet, sees the shared one', async () => {
+    await expect(jo.watch.picker).toContainText('Belt 3');
+    await expect(jo.watch.row('Main.heartbeat')).toBeVisible();
+  });
+
+  await test.step('each sees what the other adds, in a moment', async () => {
+    await jo.watch.add('D100');
+    await expect(mika.watch.row('D100')).toBeVisible();
+    await mika.watch.remove('Main.uptime');
+    await expect(jo.watch.row('Main.uptime')).toBeHidden();
+    await Promise.all([mika.watch.add('W1'), jo.watch.add('W2')]);
+    for (const ide of [mika, jo]) {
+      await expect(ide.watch.row('W1')).toBeVisible();
+      await expect(ide.watch.row('W2')).toBeVisible();
+    }
+  });
+
+  await test.step('a list of her own is nobody else’s business; deleting the shared one can be taken back', async () => {
+    await jo.watch.list('Duplicate as my own');
+    await expect(jo.watch.picker).toContainText('private');
+    await mika.watch.picker.click();
+    await expect(mika.page.getByRole('menuitemradio')).toHaveText([/Belt 3/]);
+    await mika.page.keyboard.press('Escape');
+    await jo.watch.choose('Belt 3 shared');
+    await mika.watch.list('Delete list');
+    await expect(jo.watch.pane.getByRole('alert')).toContainText('Mika deleted the list Belt 3');
+    await mika.page.getByRole('button', { name: 'Undo' }).click();
+    await expect(mika.watch.picker).toContainText('Belt 3');
+    await expect(mika.watch.row('W2')).toBeVisible();
+    await jo.watch.choose('Belt 3 shared');
+    await expect(jo.watch.row('W1')).toBeVisible();
+  });
+
+  await test.step('a reload shows the same list', async () => {
+    await mika.page.reload();
+    await expect(mika.watch.picker).toContainText('Belt 3');
+    await expect(mika.watch.row('W1')).toBeVisible();
+  });
+});
+
+test('addresses, ranges, parts, formats and what is refused', async ({ openAs }) => {
+  const mika = await openAs('Mika');
+  await mika.runs();
+  const { watch } = mika;
+  await watch.list('New list');
+  await expect(mika.page.getByText('Nothing watched yet')).toBeVisible();
+
+  await test.step('a range shows its words, which are written one by one', async () => {
+    await watch.add('W10:3');
+    for (const word of ['W10', 'W11', 'W12']) await watch.shows(word, '16#0000');
+    await watch.set('W11', '4660');
+    await watch.shows('W11', '16#1234');
+  });
+
+  await test.step('a bit of a word is a row of its own', async () => {
+    await watch.add('W11.3');
+    await watch.shows('W11.3', 'FALSE');
+    await watch.set('W11.3', 'TRUE');
+    await watch.shows('W11', '16#123C');
+    await watch.add('Main.parts.total.%B1');
+    await watch.shows('Main.parts.total.%B1', '16#00');
+  });
+
+  await test.step('the format of a range is that of its words, and of what is typed there', async () => {
+    await watch.fromMenu('W10:3', 'BCD', 'menuitemradio');
+    await watch.shows('W10', '0000');
+    await watch.set('W10', '1234');
+    await watch.shows('W10', '1234');
+    await watch.fromMenu('W10', 'Decimal', 'menuitemradio');
+    await watch.shows('W10', String(0x1234));
+    await watch.fromMenu('W10', 'ASCII', 'menuitemradio');
+    await watch.set('W10', 'AB');
+    await watch.shows('W10', "'AB'");
+  });
+
+  await test.step('what is out of range stays, says why, and is corrected with one click', async () => {
+    await watch.add('Main.belt.position');
+    await watch.write('Main.belt.position', '99999');
+    await expect(watch.refusal).toContainText('99999 is outside of INT');
+    await expect(watch.entry('Main.belt.position')).toHaveValue('99999');
+    await mika.page.getByRole('button', { name: 'Write 32767' }).click();
+    await watch.shows('Main.belt.position', '32767');
+    await expect(watch.refusal).toBeHidden();
+  });
+
+  await test.step('a name that is not known says which it may have been', async () => {
+    await watch.add('Main.belt.positoin');
+    await mika.page.getByRole('button', { name: 'Main.belt.position', exact: true }).click();
+    await expect(watch.row('Main.belt.positoin')).toBeHidden();
+  });
+});
+
+test('groups, order, filter, CSV and dragging', async ({ openAs }, { outputPath }) => {
+  const mika = await openAs('Mika');
+  await mika.runs();
+  const { watch, page } = mika;
+  await watch.list('New list');
+
+  await test.step('many lines are pasted as many entries', async () => {
+    await watch.paste('Main.parts.total\nbufferLevel\nMain.heartbeat\nmotor');
+    expect(await watch.paths()).toEqual(['Main.parts.total', 'bufferLevel', 'Main.heartbeat', 'motor']);
+  });
+
+  await test.step('rows are dragged into a group and out of it', async () => {
+    await watch.newGroup('Belt');
+    await watch.name('motor').dragTo(watch.group('Belt'));
+    await expect(watch.group('Belt')).toContainText('1');
+    await watch.name('Main.parts.total').dragTo(watch.name('motor'));
+    expect(await watch.paths()).toEqual(['bufferLevel', 'Main.heartbeat', 'Main.parts.total', 'motor']);
+    await watch.group('Belt').getByRole('button', { name: 'Fold Belt' }).click();
+    await expect(watch.row('motor')).toBeHidden();
+    await watch.group('Belt').getByRole('button', { name: 'Unfold Belt' }).click();
+    await watch.name('motor').dragTo(watch.name('bufferLevel'));
+    expect(await watch.paths()).toEqual(['motor', 'bufferLevel', 'Main.heartbeat', 'Main.parts.total']);
+  });
+
+  await test.step('a column sorts inside of the groups, and gives the order back', async () => {
+    const head = watch.table.getByRole('columnheader', { name: 'Target variable' });
+    await head.getByRole('button').click();
+    await expect(head).toHaveAttribute('aria-sort', 'ascending');
+    expect(await watch.paths()).toEqual(['bufferLevel', 'Main.heartbeat', 'motor', 'Main.parts.total']);
+    await head.getByRole('button').click();
+    await head.getByRole('button').click();
+    expect(await watch.paths()).toEqual(['motor', 'bufferLevel', 'Main.heartbeat', 'Main.parts.total']);
+  });
+
+  await test.step('a filter leaves what is meant', async () => {
+    await page.getByRole('button', { name: 'Filter', exact: true }).click();
+    await page.getByRole('textbox', { name: 'Filter by name, type or address' }).fill('bool');
+    await expect.poll(() => watch.paths()).toEqual(['motor', 'Main.heartbeat']);
+    await page.getByRole('textbox', { name: 'Filter by name, type or address' }).fill('');
+    await page.getByRole('button', { name: 'Show: All rows' }).click();
+    await page.getByRole('menuitemradio', { name: 'Changed since now' }).click();
+    await expect.poll(() => watch.paths()).toContain('Main.heartbeat');
+    expect(await watch.paths()).not.toContain('motor');
+    await page.getByRole('button', { name: 'Close the filter' }).click();
+  });
+
+  await test.step('a name is dragged from the explorer, and a selection from the editor', async () => {
+    const lamp = page.getByRole('tree').getByRole('treeitem', { name: 'lamp', exact: true });
+    await lamp.dragTo(watch.table);
+    await expect(watch.row('lamp')).toBeVisible();
+    const word = mika.editor('Main.st').line('consume   : TON').getByText('consume', { exact: false }).first();
+    await word.dblclick({ position: { x: 30, y: 8 } });
+    await watch.dragSelection(word);
+    await expect(watch.row('Main.consume')).toBeVisible();
+  });
+
+  await test.step('the list goes out as CSV and comes in again; lines that are wrong are named', async () => {
+    const file = outputPath('list.csv');
+    const download = page.waitForEvent('download');
+    await watch.more('Export CSV');
+    await (await download).saveAs(file);
+    const text = await readFile(file, 'utf8');
+    expect(text).toContain('Main.parts.total;default;Belt');
+    await writeFile(file, `${text}D7;octal;\nD8;hex;New\n`);
+    await watch.list('New list');
+    await watch.importCsv(file);
+    await expect(page.getByRole('dialog')).toContainText('there is no format octal');
+    await page.getByRole('dialog').getByRole('button', { name: 'Close', exact: true }).last().click();
+    await watch.shows('D8', '16#0000');
+    await expect(watch.group('Belt')).toBeVisible();
+    await expect(watch.row('Main.consume')).toBeVisible();
+  });
+});
+
+test('the watch table by keyboard alone', async ({ openAs }) => {
+  const mika = await openAs('Mika');
+  await mika.runs();
+  const { watch, page } = mika;
+  await mika.goToPane('watch');
+  await page.keyboard.press('Home');
+  await page.keyboard.press('ArrowDown');
+  await expect(watch.row('start')).toHaveAttribute('aria-selected', 'true');
+
+  await test.step('F2 or Enter to type, Enter to write, Escape back to the table', async () => {
+    await page.keyboard.press('F2');
+    await page.keyboard.type('TRUE');
+    await page.keyboard.press('Enter');
+    await watch.shows('start', 'TRUE');
+    await page.keyboard.press('Escape');
+    await expect(watch.table).toBeFocused();
+  });
+
+  await test.step('F7 forces, Shift+F7 releases', async () => {
+    await page.keyboard.press('F7');
+    await expect(watch.releaseOf('start')).toBeVisible();
+    await page.keyboard.press('Shift+F7');
+    await expect(watch.releaseOf('start')).toBeHidden();
+  });
+
+  await test.step('Delete removes, Ctrl+Z takes it back', async () => {
+    await page.keyboard.press('Delete');
+    await expect(watch.row('start')).toBeHidden();
+    await page.keyboard.press('Control+z');
+    await expect(watch.row('start')).toBeVisible();
+  });
+});

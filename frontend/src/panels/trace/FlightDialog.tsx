@@ -1,0 +1,74 @@
+import { useState } from "react";
+import { grouped, interval } from "../../logic/numbers";
+import { spanText } from "../../logic/plots";
+import { t } from "../../logic/text";
+import { messageOf } from "../../store/documents";
+import { usePlc } from "../../store/plc";
+import { fly, shownOf, useTraces } from "../../store/traces";
+import { liveScan, useTimeline } from "../../store/timeline";
+import { Dialog } from "../../ui/Dialog";
+import { Field } from "../../ui/Field";
+
+/** The flight recorder: the last scans of any variables, found out from the journal. */
+export function FlightDialog({ onClose }: { onClose: () => void }) {
+  const shown = useTraces(shownOf);
+  const kept = useTimeline((run) => run.info?.first_scan ?? 0);
+  const period = usePlc((plc) => plc.state?.interval_ns ?? 0);
+  const [signals, setSignals] = useState(shown?.signals.map(({ text }) => text).join("\n") ?? "");
+  const [scans, setScans] = useState("1000");
+  const [every, setEvery] = useState("1");
+  const [refused, setRefused] = useState<string | null>(null);
+  const there = liveScan() - kept;
+  const count = Number(scans.replace(/\D/g, ""));
+
+  async function submit(): Promise<void> {
+    const wanted = signals
+      .split("\n")
+      .map((line) => line.trim())
+      .filter(Boolean);
+    if (wanted.length === 0) return setRefused(t("trace.flight.nosignals"));
+    if (!(count > 0)) return setRefused(t("trace.flight.noscans"));
+    try {
+      await fly(wanted, Math.min(count, there), Math.max(1, Number(every) || 1));
+      onClose();
+    } catch (error) {
+      setRefused(messageOf(error));
+    }
+  }
+
+  return (
+    <Dialog
+      title={t("trace.flight.title")}
+      about={t("trace.flight.about")}
+      onClose={onClose}
+      onSubmit={() => void submit()}
+      footer={
+        <>
+          <span className="grow" />
+          <button type="button" className="btn quiet" onClick={onClose}>
+            {t("cancel")}
+          </button>
+          <button type="submit" className="btn primary">
+            {t("trace.flight.record")}
+          </button>
+        </>
+      }
+    >
+      <label className="field">
+        <span>{t("trace.flight.signals")}</span>
+        <textarea
+          className="inp mono trsignals"
+          rows={6}
+          value={signals}
+          spellCheck={false}
+          onChange={(event) => setSignals(event.target.value)}
+        />
+      </label>
+      <Field label={t("trace.flight.scans", { there: grouped(there) })} value={scans} onChange={setScans} mono />
+      <Field label={t("trace.flight.every")} value={every} onChange={setEvery} mono refused={refused} />
+      <p className="hint">
+        {t("trace.flight.span", { span: spanText(Math.min(count, there) * period), interval: interval(period) })}
+      </p>
+    </Dialog>
+  );
+}

@@ -1,0 +1,19 @@
+import { grouped } from "../../logic/numbers";
+import { t } from "../../logic/text";
+import { cancelFlight, useTraces } from "../../store/traces";
+import { Icon } from "../../ui/Icon";
+
+/** Earlier scans on their way into a record: how far, and a way out. */
+export function Flights() {
+  const flights = useTraces((traces) => traces.flights);
+  return flights.map(({ id, done, of, by }) => (
+    <div key={id} className="trflight" role="status">
+      <Icon name="past" small />
+      <span className="nowrap">{t("trace.flight.progress", { done: grouped(done), of: grouped(of), by })}</span>
+      <progress value={done} max={of} aria-label={t("trace.flight")} />
+      <button type="button" className="btn quiet sm" onClick={() => void cancelFlight(id)}>
+        {t("cancel")}
+      </button>
+    </div>
+  ));
+}

@@ -1,0 +1,87 @@
+import { type DragEvent, useEffect, useRef } from "react";
+import { layoutOf } from "../../logic/plots";
+import { pathsIn } from "../../logic/paths";
+import { t } from "../../logic/text";
+import { addAllToTrace, putAwayTrouble, refreshTraces, shownOf, useTraces } from "../../store/traces";
+import { useBench } from "../../store/bench";
+import { Icon } from "../../ui/Icon";
+import { CursorTable } from "./CursorTable";
+import { EmptyTrace } from "./EmptyTrace";
+import { Flights } from "./Flights";
+import { Graph } from "./Graph";
+import { Settings } from "./Settings";
+import { Toolbar } from "./Toolbar";
+import "./trace.css";
+import { useSamples } from "./useSamples";
+
+/** Signals over scans, recorded where the PLC runs: whoever looks, and whether somebody looks. */
+export function TracePanel() {
+  const instance = useBench((bench) => bench.instance?.id ?? null);
+  const state = useTraces();
+  const shown = shownOf(state);
+  const graph = useRef<HTMLDivElement>(null);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: another PLC has other traces
+  useEffect(() => void refreshTraces(), [instance]);
+  const { samples, whole } = useSamples(shown);
+
+  function onDrop(event: DragEvent): void {
+    const paths = pathsIn(event.dataTransfer.getData("text/plain"));
+    if (paths.length === 0) return;
+    event.preventDefault();
+    void addAllToTrace(paths);
+  }
+
+  return (
+    <div
+      className="pane flexcol trace"
+      data-pane="trace"
+      data-live
+      onDragOver={(event) => event.dataTransfer.types.includes("text/plain") && event.preventDefault()}
+      onDrop={onDrop}
+    >
+      <Toolbar shown={shown} graph={graph} />
+      <Flights />
+      <Trouble />
+      {shown ? (
+        <div className="trbody">
+          <Graph
+            ref={graph}
+            shown={shown}
+            samples={samples}
+            whole={whole}
+            layout={layoutOf(shown.signals, state.moved)}
+            compared={state.compared}
+          />
+          <aside className="trside">
+            <CursorTable shown={shown} samples={samples} />
+            {shown.trace && <Settings trace={shown.trace} key={shown.trace.id} />}
+          </aside>
+        </div>
+      ) : (
+        <EmptyTrace />
+      )}
+    </div>
+  );
+}
+
+function Trouble() {
+  const trouble = useTraces((traces) => traces.trouble);
+  if (!trouble) return null;
+  return (
+    <p className="trouble st fatal" role="alert">
+      <Icon name="error" small />
+      <span>
+        {trouble.message}{" "}
+        {trouble.near.map((path) => (
+          <button key={path} type="button" className="link mono" onClick={() => void addAllToTrace([path])}>
+            {path}
+          </button>
+        ))}
+      </span>
+      <span className="grow" />
+      <button type="button" className="ib sm" aria-label={t("close")} title={t("close")} onClick={putAwayTrouble}>
+        <Icon name="x" />
+      </button>
+    </p>
+  );
+}

@@ -1,0 +1,115 @@
+import { useEffect, useRef, useState } from "react";
+import { appended, decode, type Samples } from "../../logic/samples";
+import { isRecording, readSamples, type Shown, shownOf, useTraces, viewOf, wholeOf } from "../../store/traces";
+
+const PERIOD = 100;
+const WHOLE_PERIOD = 1000;
+/** Rows that a browser holds in full; of more it holds the least and greatest of stretches. */
+const FULL = 24_000;
+const POINTS = 4_000;
+const OVERVIEW = 1_200;
+
+const keyOf = (shown: Shown) => `${shown.source.kind} ${shown.source.id} ${shown.generation} ${shown.signals.length}`;
+
+interface Held {
+  key: string;
+  samples: Samples;
+  /** The scans that it holds all samples of. */
+  from: number;
+  to: number;
+}
+
+/** Whether what is held is enough for what is shown: as fine as it can be, and not much more than a screen's width otherwise. */
+function enough({ samples, from, to }: Held, wanted: { from: number; to: number }, grown: boolean): boolean {
+  if (grown || wanted.from < from || wanted.to > to) return false;
+  return !samples.decimated || to - from <= 4 * (wanted.to - wanted.from);
+}
+
+/** The samples of what is shown, fetched as the view moves and the record grows; and the whole record in outline. */
+export function useSamples(shown: Shown | null): { samples: Samples | null; whole: Samples | null } {
+  const [held, setHeld] = useState<Held | null>(null);
+  const [outline, setOutline] = useState<{ key: string; samples: Samples } | null>(null);
+  const now = useRef<Held | null>(null);
+  const key = shown ? keyOf(shown) : "";
+
+  useEffect(() => {
+    let stopped = false;
+    let timer: ReturnType<typeof setTimeout>;
+    const turn = async () => {
+      if (document.visibilityState === "visible") {
+        const next = await fetched(key, now.current);
+        if (!stopped && next && next !== now.current) {
+          now.current = next;
+          setHeld(next);
+        }
+      }
+      if (!stopped) timer = setTimeout(() => void turn(), PERIOD);
+    };
+    void turn();
+    return () => {
+      stopped = true;
+      clearTimeout(timer);
+    };
+  }, [key]);
+
+  useEffect(() => {
+    let stopped = false;
+    let timer: ReturnType<typeof setTimeout>;
+    let end = -1;
+    const turn = async () => {
+      const about = shownOf(useTraces.getState());
+      if (about && keyOf(about) === key && about.end !== end && document.visibilityState === "visible") {
+        const data = await readSamples(about.source, 0, null, OVERVIEW);
+        if (!stopped && data) {
+          end = about.end;
+          setOutline({ key, samples: decode(data, about.signals) });
+        }
+      }
+      if (!stopped) timer = setTimeout(() => void turn(), WHOLE_PERIOD);
+    };
+    void turn();
+    return () => {
+      stopped = true;
+      clearTimeout(timer);
+    };
+  }, [key]);
+
+  return {
+    samples: held?.key === key ? held.samples : null,
+    whole: outline?.key === key ? outline.samples : null,
+  };
+}
+
+/** What is to be held now; the same where nothing has changed. */
+async function fetched(key: string, held: Held | null): Promise<Held | null> {
+  const state = useTraces.getState();
+  const shown = shownOf(state);
+  if (!shown || keyOf(shown) !== key) return held;
+  const mine = held?.key === key ? held : null;
+  const end = Math.max(shown.end, mine?.samples.end ?? 0);
+  const view = viewOf(state, shown, end);
+  const grows = isRecording(shown.trace);
+  const atEnd = grows && view.to >= end - 1 - (view.to - view.from);
+  const rows = (view.to - view.from) / shown.every;
+  if (mine && atEnd && !mine.samples.decimated && mine.from <= view.from && rows <= FULL) {
+    const data = await readSamples(shown.source, mine.to + 1, null, null);
+    if (!data) return held;
+    const more = decode(data, shown.signals);
+    if (more.generation !== mine.samples.generation) return null;
+    if (more.scans.length === 0) return held;
+    const samples = appended(mine.samples, more, Math.max(2 * Math.ceil(rows) + 100, 4000));
+    return { key, samples, from: samples.scans[0] ?? 0, to: samples.scans.at(-1) ?? 0 };
+  }
+  const grown = grows && atEnd && mine !== null && mine.samples.decimated;
+  const whole = wholeOf({ ...shown, end });
+  const wanted = { from: Math.max(whole.from, view.from), to: Math.min(whole.to, view.to) };
+  if (mine && enough(mine, wanted, grown)) return held;
+  const width = wanted.to - wanted.from;
+  const from = Math.max(whole.from, Math.floor(wanted.from - width / 2));
+  const to = Math.ceil(wanted.to + width / 2);
+  const points = (to - from) / shown.every <= FULL ? null : POINTS;
+  const data = await readSamples(shown.source, from, atEnd ? null : to, points);
+  if (!data) return held;
+  const samples = decode(data, shown.signals);
+  return { key, samples, from, to: atEnd ? (samples.scans.at(-1) ?? from) : to };
+}

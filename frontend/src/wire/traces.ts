@@ -1,0 +1,41 @@
+/** Traces of an instance, their samples, and records of them: the routes of `web/routes_traces.py`. */
+import { json, request } from "./rest";
+import type { DefineTrace, Flight, TraceInfo, TraceRecordInfo } from "./types";
+
+/** Where samples come from. */
+export type Source = { kind: "trace" | "record"; id: number };
+
+const at = (instance: number, trace: number) => `/instances/${instance}/traces/${trace}`;
+const base = (instance: number, { kind, id }: Source) => (kind === "trace" ? at(instance, id) : `/trace-records/${id}`);
+
+export const traces = {
+  all: (instance: number) => json<TraceInfo[]>("GET", `/instances/${instance}/traces`),
+  define: (instance: number, trace: number | null, wanted: DefineTrace) =>
+    trace === null
+      ? json<TraceInfo>("POST", `/instances/${instance}/traces`, wanted)
+      : json<TraceInfo>("PUT", at(instance, trace), wanted),
+  drive: (instance: number, trace: number, action: "start" | "stop") =>
+    json<TraceInfo>("POST", `${at(instance, trace)}/${action}`),
+  delete: async (instance: number, trace: number): Promise<void> => {
+    await request("DELETE", at(instance, trace));
+  },
+  /** Scans `first` to `last` (null: all there are); with more rows than `points` the least and greatest of stretches. */
+  samples: async (instance: number, source: Source, first: number, last: number | null, points: number | null) => {
+    const query = new URLSearchParams({ first: String(first) });
+    if (last !== null) query.set("last", String(last));
+    if (points !== null) query.set("points", String(points));
+    return (await request("GET", `${base(instance, source)}/samples?${query}`)).arrayBuffer();
+  },
+  csv: async (instance: number, source: Source) => (await request("GET", `${base(instance, source)}/csv`)).blob(),
+  keep: (instance: number, trace: number, name: string) =>
+    json<TraceRecordInfo>("POST", `${at(instance, trace)}/keep`, { name }),
+  records: (project: number) => json<TraceRecordInfo[]>("GET", `/projects/${project}/trace-records`),
+  deleteRecord: async (record: number): Promise<void> => {
+    await request("DELETE", `/trace-records/${record}`);
+  },
+  fly: (instance: number, signals: readonly string[], first: number, last: number, every: number) =>
+    json<Flight>("POST", `/instances/${instance}/flights`, { signals, first, last, every }),
+  cancelFlight: async (flight: number): Promise<void> => {
+    await request("DELETE", `/flights/${flight}`);
+  },
+};
