@@ -38,12 +38,13 @@ class Assign(Command):
             stored = Evaluator(program, bytearray(view.memory)).assigned(local, self.instance)
         except NoValue as error:
             return Refusal(str(error))
-        for (spot, type, _), each in zip(stored, local.assignments, strict=False):
-            refusal = refused(view, spot, type, each.shown)
+        for each, spot, _ in stored:
+            refusal = refused(view, spot, each.target.type, each.shown)
             if refusal is not None:
                 return refusal
-        patches = tuple(each for spot, _, data in stored for each in everywhere(view, patch(spot, data)))
-        return Plan(patches, "; ".join(_said(program, *each) for each in stored) or f"{self.text}: nothing to do")
+        patches = tuple(each for _, spot, data in stored for each in everywhere(view, patch(spot, data)))
+        said = "; ".join(_said(program, spot, each.target.type, data) for each, spot, data in stored)
+        return Plan(patches, said or f"{self.text}: nothing to do")
 
 
 def pou_of(program: Program, name: str) -> Pou | Refusal | None:

@@ -12,6 +12,7 @@ from scanbench.debug.scene import NoFrame, Scene, at
 from scanbench.debug.scopes import named
 from scanbench.engines.interpreter.evaluate import Evaluator, NoValue
 from scanbench.runtime.command import Command, Plan, Refusal, View
+from scanbench.runtime.target import everywhere
 from scanbench.runtime.write import Write
 
 
@@ -40,9 +41,9 @@ class SetLocal(Command):
         except NoValue as error:
             return Refusal(str(error))
         name = f"{self.pou}.{self.expression}" if self.pou else self.expression
-        return refused(view, spot, local.place.type, name) or Plan(
-            (patch(spot, data),), f"{name} := {self.value.strip()}"
-        )
+        said = f"{name} := {self.value.strip()}"
+        refusal = refused(view, spot, local.place.type, name)
+        return refusal or Plan(everywhere(view, patch(spot, data)), said)
 
 
 def set_value(scene: Scene, index: int | None, target: str, value: str, author: str) -> Command | BadCondition:

@@ -2,6 +2,7 @@
 
 from dataclasses import dataclass, replace
 
+from scanbench.check.named import variable_at
 from scanbench.check.symbols import Symbol, referred
 from scanbench.check.types import (
     SLOT_BYTES,
@@ -15,7 +16,7 @@ from scanbench.check.types import (
     Type,
 )
 from scanbench.check.values import format_value
-from scanbench.debug.called import address_at, called, variable_at
+from scanbench.debug.called import address_at, called
 from scanbench.debug.scene import Scene
 from scanbench.debug.shown import VariableInfo
 
@@ -153,5 +154,5 @@ def tool_path(scene: Scene, symbol: Symbol, given: str) -> str:
     spot = symbol.locate(scene.memory)
     if spot is None:
         return ""
-    found = variable_at(scene.program, *spot, symbol.type)
+    found = variable_at(scene.program, spot, symbol.type)
     return "" if found is None else found.path

@@ -23,7 +23,7 @@ class Loaded:
     fresh: Program | None = None
     """The same program checked anew, where later checks may have changed the statements of `program`."""
     renew: Callable[[], Program] | None = None
-    """Makes `fresh`, where that may be needed."""
+    """Makes `fresh`, always the same, where that may be needed; in any thread."""
     debug: DebugEngine | None = None
     """The debug flavour on the same memory, once there is any."""
 
@@ -31,10 +31,15 @@ class Loaded:
         """The debug flavour: the reference engine's, if nobody has put another one in place. So a run can be replayed that
         was debugged, wherever it is."""
         if self.debug is None:
-            if self.fresh is None and self.renew is not None:
-                self.fresh = self.renew()
-            self.debug = debug_engine(self.statements, self.memory)
+            self.fresh = self.renewed()
+            self.debug = debug_engine(self.fresh, self.memory)
         return self.debug
+
+    def renewed(self) -> Program:
+        """The program with statements that no later check changes. Any thread."""
+        if self.fresh is not None:
+            return self.fresh
+        return self.program if self.renew is None else self.renew()
 
     @property
     def statements(self) -> Program:

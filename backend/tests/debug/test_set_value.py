@@ -190,7 +190,7 @@ def test_a_latch_only_where_it_holds(scene: Scene) -> None:
     plan = planned(scene, assign(scene, "flag S= FALSE; flag R= FALSE", 1))
     assert isinstance(plan, Plan)
     assert plan.patches == ()
-    apply(scene, assign(scene, "flag S= mw > 0", 1))
+    apply(scene, assign(scene, "flag R= FALSE; flag S= mw > 0", 1))
     assert worth(scene, 1, "flag") == "TRUE"
 
 

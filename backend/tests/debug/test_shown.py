@@ -133,7 +133,7 @@ def test_variables_of_a_block(method: Scene) -> None:
     assert (inner["span"].value, inner["span"].type) == ("T#1s500ms", "TIME")
     assert (inner["r"].value, inner["r"].children) == ("-> Main.c[1].pts[2].x", 1)
     assert (inner["none"].value, inner["none"].children) == ("NULL", 0)
-    assert (inner["q"].value, inner["q"].alias) == ("1", "-> %MW3")
+    assert (inner["q"].value, inner["q"].alias) == ("1", "-> Main.mw (%MW3)")
     assert (inner["most"].value, inner["most"].writable) == ("3", False)
     temporary = of_scope(method, 1, "VAR_TEMP")["t"]
     assert (temporary.value, temporary.path, temporary.writable) == ("5", "", True)
@@ -141,8 +141,8 @@ def test_variables_of_a_block(method: Scene) -> None:
 
 def test_in_outs_say_what_they_are_bound_to(method: Scene, function: Scene) -> None:
     found = of_scope(method, 1, "VAR_IN_OUT")
-    assert (found["io"].value, found["io"].alias, found["io"].address) == ("1", "-> %MW3", "%MW3")
-    assert (found["flag"].value, found["flag"].alias) == ("TRUE", "-> %MX0.5")
+    assert (found["io"].value, found["io"].alias, found["io"].address) == ("1", "-> Main.mw (%MW3)", "%MW3")
+    assert (found["flag"].value, found["flag"].alias) == ("TRUE", "-> Main.bits (%MX0.5)")
     array = of_scope(function, 0, "VAR_IN_OUT")["a"]
     assert (array.value, array.alias, array.path) == ("(4 elements)", "-> Main.list", "Main.list")
 
@@ -269,3 +269,29 @@ def test_wrong_messages(method: Scene, text: str, message: str, column: int) -> 
     assert isinstance(bad, BadCondition)
     assert message in bad.message
     assert bad.column == column
+
+
+# ---- in-outs by value ------------------------------------------------------------------------------------------------
+
+
+def test_an_in_out_by_value_shows_the_copy_and_what_was_passed() -> None:
+    program = checked("""{in_out 'value'}
+FUNCTION_BLOCK Inner VAR_IN_OUT level : INT; END_VAR
+  level := level + 1;
+  level := level + 1;
+END_FUNCTION_BLOCK
+{in_out 'value'}
+FUNCTION_BLOCK Outer VAR_IN_OUT io : INT; END_VAR VAR inner : Inner; END_VAR
+  inner(level := io);
+END_FUNCTION_BLOCK
+PROGRAM Main VAR o : Outer; tank : ARRAY[1..3] OF INT := [10, 20, 30]; END_VAR
+  o(io := tank[2]);
+END_PROGRAM
+""")
+    scene = halted(program, 4)
+    level = of_scope(scene, 0, "VAR_IN_OUT")["level"]
+    assert (level.value, level.alias, level.path) == ("21", "-> Main.tank[2]", "Main.o.inner.level")
+    outer = of_scope(scene, 1, "VAR_IN_OUT")["io"]
+    assert (outer.value, outer.alias) == ("20", "-> Main.tank[2]")
+    assert one(scene, 0, "level").value == "21"
+    assert one(scene, 2, "tank[2]").value == "20"

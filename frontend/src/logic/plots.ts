@@ -61,7 +61,12 @@ export function layoutOf(signals: readonly TraceSignal[], moved: ReadonlyMap<str
 /** `Main.belt[1].speed` -> `speed`; of an expression all of it. */
 export function lastName(text: string): string {
   const path = /^[\w.[\],^]+$/.test(text) ? text : null;
-  return path?.split(".").at(-1)?.replace(/\[[^\]]*\]$/, "") ?? text;
+  return (
+    path
+      ?.split(".")
+      .at(-1)
+      ?.replace(/\[[^\]]*\]$/, "") ?? text
+  );
 }
 
 /** Names as short as they can be while they differ; what all of them begin and end with says nothing. */
@@ -71,7 +76,11 @@ function shorten(lines: Line[]): void {
   let front = 0;
   while (front < depth - 1 && paths.every((path) => path[front] === paths[0]?.[front])) front += 1;
   let back = 0;
-  while (lines.length > 1 && back < depth - front - 1 && paths.every((path) => path.at(-1 - back) === paths[0]?.at(-1 - back)))
+  while (
+    lines.length > 1 &&
+    back < depth - front - 1 &&
+    paths.every((path) => path.at(-1 - back) === paths[0]?.at(-1 - back))
+  )
     back += 1;
   lines.forEach((line, at) => {
     const path = paths[at] ?? [];

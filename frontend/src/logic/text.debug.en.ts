@@ -28,6 +28,7 @@ export const debugEnglish = {
   "debug.bp.add.log": "Add logpoint…",
   "debug.bp.anyerror": "any error",
   "debug.bp.by": "set by {author}",
+  "debug.bp.count": "Breakpoints: {count}",
   "debug.bp.disable": "Switch off",
   "debug.bp.disable.of": "Switch off {place} {line}",
   "debug.bp.disableall": "Switch all off",

@@ -30,6 +30,7 @@ export const debugJapanese: Record<keyof typeof debugEnglish, string> = {
   "debug.bp.add.log": "ログポイントを追加…",
   "debug.bp.anyerror": "すべての異常",
   "debug.bp.by": "設定者: {author}",
+  "debug.bp.count": "ブレークポイント: {count}",
   "debug.bp.disable": "無効にする",
   "debug.bp.disable.of": "{place} {line} を無効にする",
   "debug.bp.disableall": "すべて無効にする",

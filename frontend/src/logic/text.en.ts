@@ -1,8 +1,10 @@
 /** English. */
 import { debugEnglish } from "./text.debug.en";
+import { traceEnglish } from "./text.trace.en";
 
 export const english = {
   ...debugEnglish,
+  ...traceEnglish,
   "area.access": "{words} words · program: {program} · tools: {tool} · engine: {engine}",
   build: "Build",
   "build.by": " by {author}",

@@ -1,9 +1,11 @@
 /** 日本語 */
 import { debugJapanese } from "./text.debug.ja";
 import type { TextKey } from "./text.en";
+import { traceJapanese } from "./text.trace.ja";
 
 export const japanese: Record<TextKey, string> = {
   ...debugJapanese,
+  ...traceJapanese,
   "area.access": "{words} ワード · プログラム: {program} · ツール: {tool} · エンジン: {engine}",
   build: "ビルド",
   "build.by": "（{author}）",
@@ -1044,7 +1046,8 @@ export const japanese: Record<TextKey, string> = {
   "forces.before.about": "入力リフレッシュまたは前回スキャンの値",
   "forces.label": "強制",
   "forces.none": "強制されている変数はありません",
-  "forces.none.about": "強制は、プログラムの書き込みにかかわらず、入力リフレッシュ後と出力リフレッシュ前に変数を一定の値に保ちます。この PLC の全員がここで確認できます。",
+  "forces.none.about":
+    "強制は、プログラムの書き込みにかかわらず、入力リフレッシュ後と出力リフレッシュ前に変数を一定の値に保ちます。この PLC の全員がここで確認できます。",
   "forces.none.click": "ウォッチの行で「強制」を選びます。",
   "forces.none.key": "選択行を入力値または表示値に強制します。Shift+F7 で解除します。",
   "forces.now": "現在値",

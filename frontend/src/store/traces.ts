@@ -1,7 +1,7 @@
 /** Traces of the PLC: which there are, which one is shown, what of it, and the cursors on it. */
 import { create } from "zustand";
-import type { Range, Samples } from "../logic/samples";
 import { within } from "../logic/plots";
+import type { Range, Samples } from "../logic/samples";
 import { t } from "../logic/text";
 import { Refused } from "../wire/rest";
 import { type Source, traces as wire } from "../wire/traces";
@@ -160,7 +160,7 @@ async function showRecord(id: number): Promise<void> {
 // ---- what people want ---------------------------------------------------------------------------------------------
 
 function fail(error: unknown, add?: string): void {
-  const near = error instanceof Refused ? error.refusal.near : [];
+  const near = error instanceof Refused ? (error.refusal.near ?? []) : [];
   set({ trouble: { message: messageOf(error), near, ...(add === undefined ? {} : { add }) } });
 }
 
@@ -381,4 +381,3 @@ export async function readSamples(
     return null; // the next turn asks again; that the connection is lost is said elsewhere
   }
 }
-

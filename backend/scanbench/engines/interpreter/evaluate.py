@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar, cast
 
-from scanbench.check.local import Local, LocalAssignments, LocalPlace
+from scanbench.check.local import Local, LocalAssignment, LocalAssignments, LocalPlace
 from scanbench.check.program import Expr, Place, Pou, Program, TrapSite
 from scanbench.check.types import Elementary, Kind, Record, StringType, Subrange, Type
 from scanbench.check.values import format_value
@@ -70,8 +70,8 @@ class Evaluator:
         run = self._on(local.calls)._located(local.pou, local.place)
         return self._guarded(local.traps, run, instance)
 
-    def assigned(self, local: LocalAssignments, instance: int) -> list[tuple[Spot, Type, bytes]]:
-        """What the assignments would store, one after the other: where, its type, and the bytes. Raises NoValue."""
+    def assigned(self, local: LocalAssignments, instance: int) -> list[tuple[LocalAssignment, Spot, bytes]]:
+        """What would be stored, one after the other: by which assignment, where, which bytes. Raises NoValue."""
         work = Evaluator(self.program, bytearray(self.memory))
         found = []
         for each in local.assignments:
@@ -84,7 +84,7 @@ class Evaluator:
             spot = self._guarded(local.traps, on._located(local.pou, each.target), instance)
             data = bytes_of(each.target.type, value)
             work._store(spot, data)
-            found.append((spot, each.target.type, data))
+            found.append((each, spot, data))
         return found
 
     def _store(self, spot: Spot, data: bytes) -> None:

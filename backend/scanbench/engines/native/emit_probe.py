@@ -8,6 +8,7 @@ from scanbench.check.program import Expr, If, Pou, Program, Stmt
 from scanbench.check.sites import Sites, sites_of
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body, Unit
+from scanbench.engines.native.emit_function import UNLIKELY
 from scanbench.engines.native.flavour import Flavour
 from scanbench.engines.native.speculate import harmless
 from scanbench.engines.probe import BadProbe, Probe
@@ -15,6 +16,8 @@ from scanbench.engines.probe import BadProbe, Probe
 SLOTS = "@probes"
 """An i64 for each probe: the last scan that reached it, or `NEVER`."""
 NEVER = -1
+HITS = "@probes.hits"
+"""u8 for each probe: reached in this scan. Eight at a time are looked at when the scan is done."""
 SILENT = "@probes.silent"
 """u8: what runs is not the user's program. Looked at only in POUs that it runs too."""
 TAG = "#probes"
@@ -24,6 +27,39 @@ TAG = "#probes"
 HALTED = -1
 """The status of a scan in which a probe that halts was reached; the numbers of traps are positive. The scan is run to its end
 before: nobody can tell, as the image is of no use, and leaving at once would keep loops from being optimised."""
+
+COLLECT = """\
+@probes.halts = internal constant [{count} x i8] c"{halts}"
+define internal i1 @probes.collect(i64 %scan) noinline cold #0 {{
+; notes the scan in which probes were reached; whether one of them halts
+entry:
+  br label %next
+next:
+  %i = phi i64 [ 0, %entry ], [ %after, %on ]
+  %halt = phi i8 [ 0, %entry ], [ %now, %on ]
+  %more = icmp ult i64 %i, {count}
+  br i1 %more, label %look, label %done
+look:
+  %hitat = getelementptr inbounds i8, ptr {hits}, i64 %i
+  %hit = load i8, ptr %hitat, align 1
+  %haltsat = getelementptr inbounds i8, ptr @probes.halts, i64 %i
+  %halts = load i8, ptr %haltsat, align 1
+  %both = and i8 %hit, %halts
+  %now = or i8 %halt, %both
+  %reached = icmp ne i8 %hit, 0
+  br i1 %reached, label %note, label %on
+note:
+  store i8 0, ptr %hitat, align 1
+  %slotat = getelementptr inbounds i64, ptr {slots}, i64 %i
+  store i64 %scan, ptr %slotat, align 8
+  br label %on
+on:
+  %after = add i64 %i, 1
+  br label %next
+done:
+  %any = icmp ne i8 %halt, 0
+  ret i1 %any
+}}"""
 
 
 class Probing(Flavour):
@@ -69,6 +105,7 @@ class Probing(Flavour):
     def declare(self, unit: Unit) -> None:
         slots = ", ".join(f"i64 {NEVER}" for _ in self._probes)
         unit.module.define(SLOTS, f"global [{len(self._probes)} x i64] [ {slots} ], align 8")
+        unit.module.define(HITS, f"global [{_padded(len(self._probes))} x i8] zeroinitializer, align 8")
         unit.module.define(SILENT, "global i8 0, align 1")
 
     # ---- the code ---------------------------------------------------------------------------------------------
@@ -79,11 +116,21 @@ class Probing(Flavour):
             body.text.do(f"store i8 {int(silent)}, ptr {SILENT}, align 1{body.module.tag(TAG)}")
 
     def done(self, body: Body) -> None:
-        halting = [number for number, probe in enumerate(self._probes) if probe.halt]
-        for number in halting:
-            self._refer(body.unit)
-            reached = body.text.op(f"icmp eq i64 {_last(body, number)}, {_now(body)}")
-            body.text.trap_status(reached, str(HALTED))
+        text, tag, found = body.text, body.module.tag(TAG), "0"
+        self._refer(body.unit)
+        for start in range(0, _padded(len(self._probes)), 8):
+            eight = text.op(f"load i64, ptr {_hit(start)}, align 8{tag}")
+            found = text.op(f"or i64 {found}, {eight}")
+        reached, on = text.name("reached"), text.name("on")
+        text.choose(text.op(f"icmp ne i64 {found}, 0"), reached, on, UNLIKELY)
+        text.begin(reached)
+        halts = "".join(f"\\{int(probe.halt):02X}" for probe in self._probes)
+        body.module.declare(
+            "@probes.collect", COLLECT.format(hits=HITS, slots=SLOTS, count=len(self._probes), halts=halts)
+        )
+        scan = text.op(f"load i64, ptr {text.address(body.image, Layout.SCAN)}, align 8{body.module.tag('#scan')}")
+        text.choose(text.op(f"call i1 @probes.collect(i64 {scan})"), text.fail(str(HALTED)), on)
+        text.begin(on)
 
     def may_select(self, body: Body, statement: If) -> bool:
         return all(harmless(body, each) for each in self._conditions(statement))
@@ -130,29 +177,25 @@ class Probing(Flavour):
         text.end_statement()
 
     def _refer(self, unit: Unit) -> None:
-        unit.module.refer(SLOTS, "external global [0 x i64], align 8")
+        for name in (SLOTS, HITS):
+            unit.module.refer(name, "external global [0 x i64], align 8")
         unit.module.refer(SILENT, "external global i8, align 1")
 
 
 def _note(body: Body, number: int, holds: str) -> None:
-    scan = _now(body)
+    text, tag, hit = body.text, body.module.tag(TAG), "1"
     if holds != "true":
-        scan = body.text.op(f"select i1 {holds}, i64 {scan}, i64 {_last(body, number)}")
-    body.text.do(f"store i64 {scan}, ptr {_slot(number)}, align 8{body.module.tag(TAG)}")
+        before = text.op(f"load i8, ptr {_hit(number)}, align 1{tag}")
+        hit = text.op(f"or i8 {before}, {text.op(f'zext i1 {holds} to i8')}")
+    text.do(f"store i8 {hit}, ptr {_hit(number)}, align 1{tag}")
 
 
-def _slot(number: int) -> str:
-    return f"getelementptr (i8, ptr {SLOTS}, i64 {8 * number})"
+def _hit(number: int) -> str:
+    return f"getelementptr (i8, ptr {HITS}, i64 {number})"
 
 
-def _last(body: Body, number: int) -> str:
-    """The scan that last reached it."""
-    return body.text.op(f"load i64, ptr {_slot(number)}, align 8{body.module.tag(TAG)}")
-
-
-def _now(body: Body) -> str:
-    where = body.text.address(body.image, Layout.SCAN)
-    return body.text.op(f"load i64, ptr {where}, align 8{body.module.tag('#scan')}")
+def _padded(count: int) -> int:
+    return -(-count // 8) * 8
 
 
 def _runs(pous: Iterator[Pou]) -> set[Pou]:

@@ -68,17 +68,19 @@ class NativeProbedEngine(NativeEngine, ProbedEngine):
         self.probes = tuple(probes)
         self._memory = memory
         self._halted: int | None = None
-        self._slots = (ctypes.c_int64 * len(self.probes)).from_address(
-            self._code.variable(emit_probe.SLOTS.removeprefix("@"))
-        )
+        slots, hits = (self._code.variable(name.removeprefix("@")) for name in (emit_probe.SLOTS, emit_probe.HITS))
+        self._slots = (ctypes.c_int64 * len(self.probes)).from_address(slots)
+        self._hits = (ctypes.c_uint8 * len(self.probes)).from_address(hits)
 
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
         """See `ProbedEngine`."""
         stop, self._halted = super().run(scans, pace), None
         if stop.reason is not Reason.TRAP:
             return stop
-        # what trapped may have reached a probe before
         scan = int.from_bytes(self._memory[Layout.SCAN : Layout.SCAN + 8], "little")
+        for number, hit in enumerate(self._hits):
+            if hit:  # by a scan that trapped after that
+                self._hits[number], self._slots[number] = 0, scan
         reached = (number for number, probe in enumerate(self.probes) if probe.halt and self._slots[number] == scan)
         self._halted = next(reached, None)
         return stop if self._halted is None else Stop(Reason.HALTED)

@@ -14,6 +14,7 @@ from scanbench.engines.engine import Engine
 from scanbench.plcmodel.load import NoSuchModel, load_all, model_directory, model_named
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem, Severity
+from scanbench.session.host.debugcode import DebugCode
 from scanbench.session.host.observed import ObservedCode
 from scanbench.session.known import key_of, recall
 from scanbench.session.protocol import Sources
@@ -68,6 +69,8 @@ class Builder:
         self._checks = Checks()
         self.observed = ObservedCode(self._cache)
         """Who notes what statements do."""
+        self.debug = DebugCode(self._cache)
+        """Who halts in the middle of a scan."""
         self._lock = threading.Lock()
         self._ready = False  # what was checked before makes the next check a short one
 

@@ -5,8 +5,10 @@ import threading
 from collections.abc import Callable
 
 from scanbench.runtime.carry_over import NEW, REMOVED, Change, changes
+from scanbench.runtime.programs import Loaded
 from scanbench.session import protocol
 from scanbench.session.host.build import Builder
+from scanbench.session.host.debugcode import Debuggable
 from scanbench.session.host.limits import MemoryLimit
 from scanbench.session.host.link import Link
 from scanbench.session.host.loop import Loop
@@ -47,10 +49,15 @@ class Builds:
         _behind("observe", lambda: self._observe(submit, loop))
 
     def get_ready(self, loop: Loop) -> None:
-        """Somebody looks, and may edit: checks what runs, once, so that the next check is a short one."""
-        if not self._ready:
-            self._ready = True
-            _behind("prepare", lambda: self._prepare(loop))
+        """Somebody looks, and may edit or debug: checks what runs, once, so that the next check is a short one, and builds
+        debugged code of it, so that a breakpoint holds at once."""
+        ready, self._ready = self._ready, True
+        if not ready or loop.timeline.live.debug is None:
+            _behind("prepare", lambda: self._prepare(loop, not ready))
+
+    def debug(self, loop: Loop) -> None:
+        """Builds debugged code of what runs; the loop gets it."""
+        _behind("debug", lambda: self._debug(loop))
 
     def optimise(self, loop: Loop) -> None:
         """Begins to optimise the program that was built last, if that is left to do."""
@@ -63,6 +70,8 @@ class Builds:
                 loaded = loop.programs.make(sources)
                 if loop.resource.observing:
                     self._builder.observed.prepare(loaded.program)
+                if loop.debugging.debugger.busy:
+                    self._debuggable(loaded).put_in_place()
             except Exception as error:  # whatever it is, the old program goes on and somebody must be told
                 why = f"the build failed, the old program goes on: {self._why(error)}"
                 loop.give(BuildRefused(ref, why))
@@ -86,9 +95,10 @@ class Builds:
 
     def _observe(self, submit: protocol.Submit, loop: Loop) -> None:
         with self._building:
-            version = loop.timeline.live_version
+            loaded = loop.timeline.live
+            version = loaded.version
             try:
-                program = self._builder.anew(loop.programs.sources(version))
+                program = loaded.renewed()
                 self._builder.observed.prepare(program)
             except Exception as error:  # as above
                 why = f"no code could be built that tells when a statement is reached: {self._why(error)}"
@@ -96,12 +106,30 @@ class Builds:
                 return
         loop.give(Observable(version, program, submit))
 
-    def _prepare(self, loop: Loop) -> None:
+    def _prepare(self, loop: Loop, edit: bool) -> None:
         with self._building:
             try:
-                self._builder.prepare(loop.programs.sources(loop.timeline.live_version))
+                if edit:
+                    self._builder.prepare(loop.programs.sources(loop.timeline.live_version))
             except (MemoryError, LookupError) as error:  # the first edit takes longer, or says the same
                 log.warning("not ready for an edit: %s", self._why(error))
+        self._debug(loop)
+
+    def _debug(self, loop: Loop) -> None:
+        with self._building:
+            loaded = loop.timeline.live
+            try:
+                code = self._debuggable(loaded)
+            except Exception as error:  # as above
+                why = f"no code could be built that can be halted: {self._why(error)}"
+                code = Debuggable(loaded, None, None, why)
+        loop.give(code)
+
+    def _debuggable(self, loaded: Loaded) -> Debuggable:
+        if loaded.debug is not None:
+            return Debuggable(loaded, loaded.fresh, None)
+        program = loaded.renewed()
+        return Debuggable(loaded, program, self._builder.debug.make(program, loaded.memory))
 
     def _why(self, error: Exception) -> str:
         return self._memory.report(error) if isinstance(error, MemoryError) else str(error)

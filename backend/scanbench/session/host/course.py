@@ -42,6 +42,11 @@ class Course:
         self._left, self._end, self.condition = scans, now + (scans or 0), condition
         self.set_pace(self._interval_ns)
 
+    def go(self) -> None:
+        """Goes on to where it was to go, at its pace from now."""
+        self.paused, self.reached = False, ""
+        self.set_pace(self._interval_ns)
+
     def pause(self) -> None:
         """Stops after the scan that runs."""
         self.paused = True

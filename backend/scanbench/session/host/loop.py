@@ -20,9 +20,13 @@ from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.rights import Right, may
 from scanbench.runtime.timeline import PAST, Timeline
-from scanbench.session import protocol
+from scanbench.session import debug_protocol, protocol
 from scanbench.session.codec import pack_body
+from scanbench.session.debug_protocol import DebugRequest
 from scanbench.session.host.course import MAX_SPEED, Course
+from scanbench.session.host.covering import Covering
+from scanbench.session.host.debugcode import Debuggable
+from scanbench.session.host.debugging import Debugging
 from scanbench.session.host.link import Link
 from scanbench.session.host.observed import Observable
 from scanbench.session.host.services import Services
@@ -48,7 +52,9 @@ class Loop:
         self._quit = self._rested = False
         self._course = Course(self.resource.program.interval_ns, start.speed, start.paused, start.cpu_percent)
         self._go_on(start)
-        self._services = Services(timeline, self._course, link, note, tiers, programs.sources)
+        self.debugging = Debugging(timeline, link, Covering(timeline, programs.sources))
+        self._debugger = self.debugging.debugger
+        self._services = Services(timeline, self._course, link, note, tiers, programs.sources, self._debugger)
         self.traces = Traces(timeline, link)
 
     @property
@@ -119,8 +125,11 @@ class Loop:
             if self._tick:
                 self._tick = False
                 self._services.tick()
+                self.debugging.tick()
                 self.traces.tick()
-            if self.timeline.past or not self.resource.runnable or self._course.paused:
+            if self._debugger.moving:
+                self._move()
+            elif self._stands():
                 self._wake.wait()
                 self._wake.clear()
                 self._rested = True
@@ -134,6 +143,11 @@ class Loop:
                 self._run()
         self.timeline.close()
 
+    def _stands(self) -> bool:
+        """Whether there is nothing to run."""
+        halted = self._debugger.halt is not None
+        return self.timeline.past or halted or not self.resource.runnable or self._course.paused
+
     def _served(self) -> bool:
         """Serves what was given; false after `Quit`."""
         while self._inbox:
@@ -143,21 +157,24 @@ class Loop:
     def _run(self) -> None:
         resource, course = self.resource, self._course
         first, busy = resource.header.scan, resource.measured.busy_ns
-        stop = self.timeline.run(course.scans, course.pace)
+        stop = self._debugger.run(course.scans, course.pace)
         self.traces.drain()
         scan = resource.header.scan
         course.ran(scan - first, stop.reason is Reason.CONDITION, scan)
         if course.paused:
             self.timeline.stop_when(None)
+        if course.paused or stop.reason is Reason.HALTED:
             self._tick = True
         course.worked(resource.measured.busy_ns - busy)
 
     def _serve(self, message: object) -> None:
         match message:
             case protocol.Submit():
-                self._entered(message.ref, self.timeline.submit(message.command))
+                self._entered(message.ref, self._debugger.submit(message.command))
             case protocol.Drive():
                 self._drive(message)
+            case _ if isinstance(message, DebugRequest | Debuggable):
+                self._debug(message)
             case protocol.Travel():
                 self._travel(message)
             case protocol.Copy():
@@ -220,6 +237,7 @@ class Loop:
             return ""
         if drive.action == "pause":
             self._course.pause()
+            self._debugger.forget_step()
             return "pause"
         if self.timeline.past:
             if drive.action != "scan":
@@ -228,7 +246,7 @@ class Loop:
         if not self.resource.runnable:
             return Refusal(f"the program is stopped: {self._services.state.message}")
         if drive.action == "scan":
-            return self._single()
+            return self._single(drive.author)
         condition: Condition | None = None
         if drive.until is not None:
             compiled = compile_condition(self.resource.program, drive.until)
@@ -237,18 +255,73 @@ class Loop:
             condition = compiled
         self.timeline.stop_when(condition)
         self._course.run_on(self.resource.header.scan, drive.scans, condition)
+        if self._debugger.halt is not None:
+            self._debugger.step("continue", drive.author)
         return f"continue: {self._course.target}" if self._course.target else "continue"
 
-    def _single(self) -> str:
-        """One scan, whatever knocks meanwhile."""
+    def _single(self, author: str) -> str | Refusal:
+        """One scan, whatever knocks meanwhile; from a halt to the first statement of the next one."""
+        if self._debugger.halt is not None:
+            return self._debugger.step("scan", author) or "one scan"
         self._course.pause()
         self.timeline.stop_when(None)
         scan = self.resource.header.scan
         while self.resource.runnable and self.resource.header.scan == scan:
-            if self.timeline.run(1).reason is Reason.TRAP:
+            if self._debugger.run(1).reason in (Reason.TRAP, Reason.HALTED):
                 break
         self._course.set_pace(self.resource.program.interval_ns)
         return "one scan"
+
+    # ---- the debugger ---------------------------------------------------------------------------------------------
+
+    def _debug(self, message: DebugRequest | Debuggable) -> None:
+        self._tick = True
+        if isinstance(message, Debuggable):
+            for waiting in self.debugging.on_ready(message):
+                self._serve(waiting)
+        elif self.debugging.ready(message):
+            if isinstance(message, debug_protocol.Step):
+                self._step(message)
+            else:
+                self.debugging.serve(message)
+                self._services.entered()
+
+    def _move(self) -> None:
+        """Goes on with a step in the past."""
+        program = self.resource.program
+        self._debugger.move()
+        self._shown_moved(program)
+        self._tick = True
+
+    def _shown_moved(self, program: Program) -> None:
+        """Perhaps another program is shown."""
+        if not self.timeline.past:
+            self._services.past_by = ""
+        if self.resource.program is not program:
+            self._services.moved()
+            self.traces.moved()
+
+    def _step(self, step: debug_protocol.Step) -> None:
+        """A step of a PLC that runs halts it first, at its next statement."""
+        debugger, course = self._debugger, self._course
+        runs = not self._stands()
+        action = step.action
+        if action in ("back", "reverse"):
+            if runs:
+                course.pause()
+                debugger.forget_step()
+            self._services.past_by = self._services.past_by or step.author
+        elif action == "continue" and runs:
+            self._ack(step.ref, True, "it runs")
+            return
+        elif runs and action in ("over", "out", "scan"):
+            action = "in"
+        program = self.resource.program
+        refusal = debugger.step(action, step.author, step.file, step.line, step.path)
+        if refusal is None and not self.timeline.past:
+            course.go()
+        self._shown_moved(program)
+        self._answer(step.ref, refusal, action)
 
     # ---- time travel ----------------------------------------------------------------------------------------------
 
@@ -262,6 +335,7 @@ class Loop:
         else:
             refusal = self.timeline.goto(travel.scan)
             self._services.past_by = travel.author if self.timeline.past else ""
+        self._debugger.travelled()
         if self.resource.program is not program:
             self._services.moved()
             self.traces.moved()
@@ -289,7 +363,7 @@ class Loop:
             if refusal is not None:
                 self._answer(swap.ref, refusal, "")
                 return
-        outcome = self.timeline.submit(ProgramChange(swap.author, swap.loaded.version))
+        outcome = self._debugger.submit(ProgramChange(swap.author, swap.loaded.version))
         if not isinstance(outcome, Refusal):
             self._moved()
         self._entered(swap.ref, outcome)
@@ -304,6 +378,7 @@ class Loop:
             self._course.condition = self.timeline.condition
         self.programs.drop_idle(self.timeline.version, self.timeline.live_version)
         self._services.moved()
+        self.debugging.moved()
         self.traces.moved()
 
     def _observe(self, observable: Observable) -> None:
@@ -314,7 +389,7 @@ class Loop:
             )
             return
         loaded.fresh = observable.program
-        self._entered(then.ref, self.timeline.submit(then.command))
+        self._entered(then.ref, self._debugger.submit(then.command))
 
     def _recode(self, recode: Recode) -> None:
         if recode.engine is not None:

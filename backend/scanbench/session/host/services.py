@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from scanbench.check.symbols import Symbol
 from scanbench.check.violations import Violations, read_violations
+from scanbench.debug.debugger import Debugger
 from scanbench.faults.arm import ARMED, armed_faults
 from scanbench.faults.inject import ACTIVE
 from scanbench.faults.preview import preview
@@ -37,9 +38,10 @@ class Services:
 
     def __init__(
         self, timeline: Timeline, course: Course, link: Link, note: str, tiers: Optimising | None,
-        sources: Callable[[int], protocol.Sources],
+        sources: Callable[[int], protocol.Sources], debugger: Debugger,
     ) -> None:  # fmt: skip
         self._timeline, self._course, self._link, self._note, self._tiers = timeline, course, link, note, tiers
+        self._debugger = debugger
         self._sources, self._version_told = sources, timeline.live_version
         self.past_by = ""
         self._attended = False
@@ -73,7 +75,7 @@ class Services:
     def state(self) -> protocol.HostState:
         """The state now."""
         note = self._course.reached or self._note or self._tier_note(monotonic_ns())
-        return host_state(self._timeline, self._course, self.past_by, note)
+        return host_state(self._timeline, self._course, self.past_by, note, self._debugger)
 
     @property
     def previous_version(self) -> int | None:
@@ -189,7 +191,7 @@ class Services:
     def _differs(self, state: protocol.HostState) -> bool:
         """Whether more than counters changed: people wait for that, and in a pause for every scan."""
         last = self._last_state
-        if last is None or self._course.paused or self._timeline.past:
+        if last is None or self._course.paused or self._timeline.past or state.halt is not None:
             return True
         counted = replace(
             last, scan=state.scan, live_scan=state.live_scan, time_ns=state.time_ns, cycle_us=state.cycle_us,

@@ -1,6 +1,7 @@
 """The programs of one run, by version: built when they are needed, and again when a run goes back to one of them."""
 
-from collections.abc import Mapping
+import threading
+from collections.abc import Callable, Mapping
 
 from scanbench.check.program import Program
 from scanbench.engines.engine import Engine
@@ -10,6 +11,21 @@ from scanbench.session.protocol import Sources
 
 _KEPT = 3
 """Programs that stay ready: the one that runs, and those that were run or looked at last."""
+
+
+class _Once:
+    """Makes a program when it is first asked for, in any thread."""
+
+    def __init__(self, make: Callable[[], Program]) -> None:
+        self._make = make
+        self._made: Program | None = None
+        self._lock = threading.Lock()
+
+    def __call__(self) -> Program:
+        with self._lock:
+            if self._made is None:
+                self._made = self._make()
+            return self._made
 
 
 class HostPrograms:
@@ -41,7 +57,9 @@ class HostPrograms:
         """Builds; in any thread, one build at a time."""
         built = self._builder.build(sources)
         memory = bytearray(built.program.layout.size)
-        return Loaded(sources.version, built.program, memory, built.engine(built.program, memory))
+        loaded = Loaded(sources.version, built.program, memory, built.engine(built.program, memory))
+        loaded.renew = _Once(lambda: self._builder.anew(sources))
+        return loaded
 
     def put(self, loaded: Loaded, sources: Sources) -> None:
         """Takes a program that was built behind."""

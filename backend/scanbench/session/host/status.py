@@ -1,6 +1,8 @@
 """The state of a PLC in words, derived from its image and journal."""
 
 from scanbench.check.program import TrapKind
+from scanbench.debug.debugger import Debugger
+from scanbench.debug.halt import Halt as Stopped
 from scanbench.faults.inject import ACTIVE
 from scanbench.runtime.command import Entry, Swapped
 from scanbench.runtime.forces import FORCED
@@ -27,11 +29,14 @@ def previous_version(timeline: Timeline) -> int | None:
     return versions[-2] if len(versions) > 1 else None
 
 
-def host_state(timeline: Timeline, course: Course, past_by: str, note: str) -> HostState:
+def host_state(timeline: Timeline, course: Course, past_by: str, note: str, debugger: Debugger) -> HostState:
     """What the top bar shows. `note` stands where nothing more pressing is to be said."""
     resource = timeline.resource
     header = resource.header
     state, message = _state(resource, course.paused, note)
+    halt = debugger.halt
+    if halt is not None:
+        state, message = "halted", _halted(halt)
     if timeline.past:
         state, message = "past", f"scan {header.scan} of {timeline.live_scan}, shown by {past_by}"
     return HostState(
@@ -56,7 +61,14 @@ def host_state(timeline: Timeline, course: Course, past_by: str, note: str) -> H
         late_percent=round(course.late_percent, 2),
         late_us=round(course.pace.late_ns / max(1, course.pace.scans) / 1000, 1),
         worst_us=round(course.pace.worst_ns / 1000, 1),
+        halt=halt,
+        flavour=debugger.flavour,
     )
+
+
+def _halted(halt: Stopped) -> str:
+    where = f" in front of {halt.span}" if halt.span is not None else ""
+    return f"halted{where}: {halt.text}"
 
 
 def _state(resource: Resource, paused: bool, note: str) -> tuple[str, str]:

@@ -1,4 +1,4 @@
-import { type FormEvent, type KeyboardEvent, type ReactNode, useEffect, useRef, useState } from "react";
+import { type FormEvent, type KeyboardEvent, useEffect, useRef, useState } from "react";
 import type { Wanted } from "../../logic/breakpoints";
 import { t } from "../../logic/text";
 import { type Editing, reasonOf, removeBreakpoints, setBreakpoint } from "../../store/debug";
@@ -62,7 +62,7 @@ export function BreakpointForm({ editing, pou, onClose }: Props) {
       onKeyDown={onKeyDown}
     >
       <div className="row wrap">
-        <fieldset className="seg" aria-label={t("debug.form.does")}>
+        <div className="seg" role="radiogroup" aria-label={t("debug.form.does")}>
           {DOES.map((each) => (
             <button
               key={each}
@@ -75,7 +75,7 @@ export function BreakpointForm({ editing, pou, onClose }: Props) {
               {t(`debug.form.${each}`)}
             </button>
           ))}
-        </fieldset>
+        </div>
         {does !== "halt" && (
           <Entry
             label={t(`debug.form.${does}.label`)}
@@ -156,7 +156,8 @@ interface EntryProps {
 
 function Entry({ label, hint, value, onChange, first = false, wide = false }: EntryProps) {
   return (
-    <Labelled label={label} wide={wide}>
+    <label className={`field${wide ? " wide" : ""}`}>
+      <span>{label}</span>
       <input
         className="inp sm mono"
         value={value}
@@ -167,15 +168,6 @@ function Entry({ label, hint, value, onChange, first = false, wide = false }: En
         data-first={first || undefined}
         onChange={(event) => onChange(event.target.value)}
       />
-    </Labelled>
-  );
-}
-
-function Labelled({ label, wide = false, children }: { label: string; wide?: boolean; children: ReactNode }) {
-  return (
-    <label className={`field${wide ? " wide" : ""}`}>
-      <span>{label}</span>
-      {children}
     </label>
   );
 }
@@ -212,13 +204,14 @@ function Tasks({ value, onChange }: ChoiceProps) {
 
 function Choice({ label, any, all, value, onChange }: ChoiceProps & { label: string; any: string; all: string[] }) {
   return (
-    <Labelled label={label}>
+    <label className="field">
+      <span>{label}</span>
       <select className="inp sm" value={value} onChange={(event) => onChange(event.target.value)}>
         <option value="">{any}</option>
         {all.map((each) => (
           <option key={each}>{each}</option>
         ))}
       </select>
-    </Labelled>
+    </label>
   );
 }

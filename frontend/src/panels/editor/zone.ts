@@ -37,13 +37,13 @@ export function openZone(code: editor.IStandaloneCodeEditor, line: number): Zone
   code.changeViewZones((zones) => {
     id = zones.addZone(zone);
   });
-  const fit = () => {
+  const toWidth = () => {
     const { contentLeft, contentWidth, verticalScrollbarWidth } = code.getLayoutInfo();
     element.style.left = `${contentLeft}px`;
     element.style.width = `${contentWidth - verticalScrollbarWidth}px`;
   };
-  fit();
-  const layout = code.onDidLayoutChange(fit);
+  toWidth();
+  const layout = code.onDidLayoutChange(toWidth);
   const sized = new ResizeObserver(() => {
     if (zone.heightInPx === element.offsetHeight) return;
     zone.heightInPx = element.offsetHeight;

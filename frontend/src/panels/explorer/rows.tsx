@@ -4,6 +4,7 @@ import { type FileNode, isTable, type PouGroup, type PouNode, pouGroups, shownAt
 import { percent } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
+import { useDebug } from "../../store/debug";
 import { isDirty, useDocuments } from "../../store/documents";
 import { loadMembers, useMembers } from "../../store/members";
 import { openFile } from "../../store/navigate";
@@ -13,6 +14,7 @@ import { addToWatch } from "../../store/watchlist";
 import type { IconName } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import type { MenuItem } from "../../ui/Menu";
+import { StateWord } from "../../ui/StateWord";
 import type { TreeRow } from "../../ui/Tree";
 import type { Area, ModelInfo, PlcSymbol, Pou, Problem } from "../../wire/types";
 import type { OpenMenu } from "./Explorer";
@@ -135,8 +137,10 @@ function folder(folding: Folding, key: string, name: string, count?: number): Tr
 
 function FileMarks({ file, dirty, problems }: { file: string; dirty: boolean; problems: readonly Problem[] }) {
   const errors = problems.filter((problem) => problem.file === file && problem.severity === "error").length;
+  const breakpoints = useDebug((debug) => debug.breakpoints.filter((known) => known.file === file).length);
   return (
     <>
+      {breakpoints > 0 && <span className="bpdot" title={t("debug.bp.count", { count: breakpoints })} />}
       {errors > 0 && (
         <span className="bad">{t(errors === 1 ? "explorer.errors.one" : "explorer.errors", { count: errors })}</span>
       )}
@@ -166,7 +170,7 @@ function symbolRows(
       icon: SYMBOL_ICONS[symbol.kind] ?? "var",
       label: symbol.name,
       name: symbol.path,
-      meta: symbol.type,
+      meta: <SymbolMeta symbol={symbol} />,
       title: [symbol.path, symbol.type, symbol.address, symbol.section].filter(Boolean).join(" · "),
       open,
       drag: symbol.path,
@@ -177,6 +181,12 @@ function symbolRows(
     };
     return open ? [row, ...symbolRows(symbol.path, level + 1, members, folding, openMenu)] : [row];
   });
+}
+
+/** The type, or that the program is halted in this instance. */
+function SymbolMeta({ symbol }: { symbol: PlcSymbol }) {
+  const halted = usePlc((plc) => plc.state?.halt != null && plc.state.halt.instance === symbol.path);
+  return halted ? <StateWord tone="halted" icon="halted" word={t("state.halted")} /> : symbol.type;
 }
 
 function AddButton({ path, onAdd }: { path: string; onAdd: () => void }) {

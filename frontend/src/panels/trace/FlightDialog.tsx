@@ -4,8 +4,8 @@ import { spanText } from "../../logic/plots";
 import { t } from "../../logic/text";
 import { messageOf } from "../../store/documents";
 import { usePlc } from "../../store/plc";
-import { fly, shownOf, useTraces } from "../../store/traces";
 import { liveScan, useTimeline } from "../../store/timeline";
+import { fly, shownOf, useTraces } from "../../store/traces";
 import { Dialog } from "../../ui/Dialog";
 import { Field } from "../../ui/Field";
 

@@ -55,7 +55,11 @@ export function Toolbar({ shown, graph }: { shown: Shown | null; graph: RefObjec
             label={t("trace.export")}
             items={() => [
               { label: t("trace.csv"), icon: "export", onSelect: () => void exportCsv() },
-              { label: t("trace.png"), icon: "export", onSelect: () => graph.current && savePng(graph.current, shown.name) },
+              {
+                label: t("trace.png"),
+                icon: "export",
+                onSelect: () => graph.current && savePng(graph.current, shown.name),
+              },
               ...(shown.trace
                 ? [{ label: t("trace.keep"), icon: "record" as const, onSelect: () => ask("keep" as const) }]
                 : []),
@@ -125,7 +129,8 @@ function SourceMenu({ shown, onAsk }: { shown: Shown | null; onAsk: (question: Q
       { label: t("trace.flight.menu"), icon: "past", onSelect: () => onAsk("flight") },
     ];
     if (shown?.trace) more.push({ label: `${t("trace.rename")}...`, onSelect: () => onAsk("rename") });
-    if (shown) more.push({ label: t("trace.delete", { name: shown.name }), icon: "trash", onSelect: () => void deleteShown() });
+    if (shown)
+      more.push({ label: t("trace.delete", { name: shown.name }), icon: "trash", onSelect: () => void deleteShown() });
     return [
       ...traces.map(({ id, definition, by }) => ({
         label: definition.name,
@@ -215,7 +220,9 @@ function CompareMenu({ shown }: { shown: Shown }) {
   return (
     <MenuButton label={t("trace.compare")} items={items}>
       {compared
-        ? t(compared.by === "trigger" ? "trace.compared.trigger" : "trace.compared.first", { name: compared.record.name })
+        ? t(compared.by === "trigger" ? "trace.compared.trigger" : "trace.compared.first", {
+            name: compared.record.name,
+          })
         : t("trace.compare")}
     </MenuButton>
   );

@@ -1,9 +1,9 @@
 import { type DragEvent, useEffect, useRef } from "react";
-import { layoutOf } from "../../logic/plots";
 import { pathsIn } from "../../logic/paths";
+import { layoutOf } from "../../logic/plots";
 import { t } from "../../logic/text";
-import { addAllToTrace, putAwayTrouble, refreshTraces, shownOf, useTraces } from "../../store/traces";
 import { useBench } from "../../store/bench";
+import { addAllToTrace, putAwayTrouble, refreshTraces, shownOf, useTraces } from "../../store/traces";
 import { Icon } from "../../ui/Icon";
 import { CursorTable } from "./CursorTable";
 import { EmptyTrace } from "./EmptyTrace";

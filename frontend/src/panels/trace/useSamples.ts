@@ -100,7 +100,7 @@ async function fetched(key: string, held: Held | null): Promise<Held | null> {
     const samples = appended(mine.samples, more, Math.max(2 * Math.ceil(rows) + 100, 4000));
     return { key, samples, from: samples.scans[0] ?? 0, to: samples.scans.at(-1) ?? 0 };
   }
-  const grown = grows && atEnd && mine !== null && mine.samples.decimated;
+  const grown = grows && atEnd && mine?.samples.decimated === true;
   const whole = wholeOf({ ...shown, end });
   const wanted = { from: Math.max(whole.from, view.from), to: Math.min(whole.to, view.to) };
   if (mine && enough(mine, wanted, grown)) return held;

@@ -1,0 +1,235 @@
+"""Debugging in the process of a PLC: answers what the parent asks, in the loop's thread."""
+
+from collections import deque
+from collections.abc import Callable
+
+from scanbench.check.condition import BadCondition
+from scanbench.check.local import Locals
+from scanbench.check.program import Program
+from scanbench.check.sites import Sites, sites_of
+from scanbench.debug.assign import Assign
+from scanbench.debug.binding import Bindings
+from scanbench.debug.debugger import Debugger
+from scanbench.debug.evaluate import evaluate
+from scanbench.debug.frames import stack
+from scanbench.debug.scene import NoFrame, Scene, at
+from scanbench.debug.scopes import scopes, variables
+from scanbench.debug.set_value import set_value
+from scanbench.engines.interpreter.evaluate import NoValue
+from scanbench.runtime.clock import monotonic_ns
+from scanbench.runtime.command import Command, Entry, Refusal
+from scanbench.runtime.resource import Resource
+from scanbench.runtime.timeline import PAST, Timeline
+from scanbench.session import debug_protocol, protocol
+from scanbench.session.host.covering import Covering
+from scanbench.session.host.debugcode import Debuggable
+from scanbench.session.host.link import Link
+from scanbench.session.host.saying import Saying
+
+_COUNTED_NS = 200_000_000
+"""How often it is told that hits were counted, or that more was reached."""
+_PLACES = 10_000
+Submitted = Callable[[Command], Entry | Refusal]
+
+
+class Debugging:
+    """Answers `DebugRequest`s but `Step`, which is the loop's."""
+
+    def __init__(self, timeline: Timeline, link: Link, covering: Covering) -> None:
+        self._timeline, self._link, self._covering = timeline, link, covering
+        self.saying = Saying(link)
+        self.debugger = Debugger(timeline, self.saying)
+        self.submit: Submitted = self.debugger.submit
+        self.build: Callable[[], None] = lambda: None
+        """Begins to build debugged code, whose `Debuggable` comes to `on_ready`."""
+        self._building = False
+        self._waiting: deque[object] = deque()
+        self._bindings: tuple[Program, Bindings] | None = None
+        self._sites_known: tuple[Program, Sites] | None = None
+        self._told_at = 0
+
+    @property
+    def _resource(self) -> Resource:
+        return self._timeline.resource
+
+    # ---- the debug flavour ----------------------------------------------------------------------------------------
+
+    def ready(self, message: object) -> bool:
+        """Whether it can be served now; else it is kept until there is debugged code."""
+        if not self._needs_code(message):
+            return True
+        if not self._waiting and (self._timeline.live.debug is not None):
+            return True
+        self._waiting.append(message)
+        if not self._building:
+            self._building = True
+            self.build()
+        return False
+
+    def on_ready(self, code: Debuggable) -> list[object]:
+        """Takes it; what waited for it is to be served now."""
+        self._building = False
+        code.put_in_place()
+        waiting = list(self._waiting)
+        self._waiting.clear()
+        if code.message:
+            for message in waiting:
+                self._ack(getattr(message, "ref", 0), False, code.message)
+            return []
+        if waiting and self._timeline.live.debug is None:  # another program runs by now
+            self._waiting.extend(waiting)
+            self._building = True
+            self.build()
+            return []
+        return waiting
+
+    def _needs_code(self, message: object) -> bool:
+        match message:
+            case debug_protocol.SetBreakpoints():
+                return bool(message.breakpoints or self.debugger.breakpoints.placed or self._waiting)
+            case debug_protocol.SetCoverage():
+                return message.on or bool(self._waiting)
+            case debug_protocol.Step() | debug_protocol.WantPlaces():
+                return True
+        return False
+
+    # ---- requests -------------------------------------------------------------------------------------------------
+
+    def serve(self, request: object) -> None:
+        """Answers, whatever it is."""
+        try:
+            self._serve(request)
+        except (NoFrame, NoValue) as error:
+            self._ack(getattr(request, "ref", 0), False, str(error))
+
+    def _serve(self, request: object) -> None:
+        match request:
+            case debug_protocol.SetBreakpoints():
+                verdicts = self.debugger.set(request.group, request.kind, request.file, request.breakpoints)
+                self._link.post(debug_protocol.BreakpointsAre(request.ref, verdicts))
+            case debug_protocol.WantStack():
+                if self.debugger.halt is None:
+                    self._ack(request.ref, False, "the PLC is not halted: there are no calls to show")
+                else:
+                    self._link.post(debug_protocol.Stack(request.ref, stack(self.scene())))
+            case debug_protocol.WantScopes():
+                self._link.post(debug_protocol.Scopes(request.ref, scopes(self.scene(), request.frame)))
+            case debug_protocol.WantVariables():
+                found, total = variables(
+                    self.scene(), request.frame, request.scope, request.expression, request.start, request.count
+                )
+                self._link.post(debug_protocol.Variables(request.ref, found, total))
+            case debug_protocol.Evaluate():
+                self._evaluate(request)
+            case debug_protocol.SetExpression():
+                self._set(request)
+            case debug_protocol.WantPlaces():
+                self._places(request)
+            case debug_protocol.WantBinding():
+                self._binding(request)
+            case debug_protocol.SetCoverage():
+                self._covering.set(self.debugger, request.on, request.reset)
+                self._ack(request.ref, True, "coverage is on" if request.on else "coverage is off")
+                self._link.post(self._covering.answer(None))
+            case debug_protocol.WantCoverage():
+                self._resource.look()
+                self._link.post(self._covering.answer(request.ref))
+
+    def scene(self) -> Scene:
+        """What is shown now."""
+        resource = self._resource
+        frames = resource.inside.frames if resource.inside is not None else ()
+        program = resource.view.statements
+        return Scene(program, resource.memory, self._sites(), frames, self._timeline.past)
+
+    def _sites(self) -> Sites:
+        loaded = self._resource.loaded
+        if loaded.debug is not None:
+            return loaded.debug.sites
+        if self._sites_known is None or self._sites_known[0] is not loaded.statements:
+            self._sites_known = loaded.statements, sites_of(loaded.statements)
+        return self._sites_known[1]
+
+    def _evaluate(self, request: debug_protocol.Evaluate) -> None:
+        scene = self.scene()
+        if request.effects and _assigns(scene, request.frame, request.text):
+            pou, instance = at(scene.frame(request.frame))
+            name = "" if pou is None else pou.name
+            outcome = self.submit(Assign(request.author, name, instance, request.text))
+            if isinstance(outcome, Refusal):
+                self._evaluated(request.ref, BadCondition(outcome.message, outcome.near))
+            else:
+                self._link.post(debug_protocol.Evaluated(request.ref, True, outcome.plan.message, None))
+            return
+        self._evaluated(request.ref, evaluate(scene, request.frame, request.text))
+
+    def _set(self, request: debug_protocol.SetExpression) -> None:
+        if self._timeline.past:
+            self._evaluated(request.ref, BadCondition(PAST))
+            return
+        command = set_value(self.scene(), request.frame, request.target, request.value, request.author)
+        if isinstance(command, BadCondition):
+            self._evaluated(request.ref, command)
+            return
+        outcome = self.submit(command)
+        if isinstance(outcome, Refusal):
+            self._evaluated(request.ref, BadCondition(outcome.message, outcome.near))
+            return
+        self._evaluated(request.ref, evaluate(self.scene(), request.frame, request.target))
+
+    def _evaluated(self, ref: int, found: object) -> None:
+        if isinstance(found, BadCondition):
+            self._link.post(debug_protocol.Evaluated(ref, False, found.message, None, found.near))
+        else:
+            assert isinstance(found, debug_protocol.VariableInfo)
+            self._link.post(debug_protocol.Evaluated(ref, True, "", found))
+
+    def _places(self, request: debug_protocol.WantPlaces) -> None:
+        statements = self.debugger.placing.sites.statements
+        found = [
+            debug_protocol.PlaceInfo(
+                each.span.line, each.span.column, each.span.end_line, each.span.end_column, each.pou
+            )
+            for each in statements
+            if each.span.file == request.file and request.first <= each.span.line <= request.last
+        ]
+        self._link.post(debug_protocol.Places(request.ref, tuple(found[:_PLACES])))
+
+    def _binding(self, request: debug_protocol.WantBinding) -> None:
+        view = self._resource.view
+        if self._bindings is None or self._bindings[0] is not view.statements:
+            self._bindings = view.statements, Bindings(view.statements)
+        bound = self._bindings[1].of(view, request.path, self._resource.inside is not None)
+        self._link.post(debug_protocol.Binding(request.ref, bound.ok, bound.message, bound.convention, bound.sites))
+
+    # ---- at each tick ---------------------------------------------------------------------------------------------
+
+    def tick(self) -> None:
+        """Tells what was counted, said and reached."""
+        now = monotonic_ns()
+        if now < self._told_at:
+            return
+        self._told_at = now + _COUNTED_NS
+        self.saying.catch_up()
+        if self.debugger.changed:
+            self.debugger.changed = False
+            self._link.post(debug_protocol.BreakpointsAre(None, self.debugger.verdicts))
+        if self.debugger.covering and not self._timeline.past:
+            self._resource.look()
+            if self._covering.more:
+                self._link.post(self._covering.answer(None))
+
+    def moved(self) -> None:
+        """Another program runs."""
+        self.debugger.moved()
+        self._covering.moved(self.debugger)
+
+    def _ack(self, ref: int, ok: bool, message: str) -> None:
+        self._link.post(protocol.Ack(ref, ok, message, self._resource.header.scan))
+
+
+def _assigns(scene: Scene, index: int | None, text: str) -> bool:
+    """Whether the text is assignments, not a value."""
+    locals: Locals = scene.locals
+    pou, _ = at(scene.frame(index))
+    return ":=" in text and not isinstance(locals.assignments(pou, text), BadCondition)

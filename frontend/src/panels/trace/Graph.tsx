@@ -1,0 +1,277 @@
+import { type PointerEvent, type Ref, useEffect, useImperativeHandle, useLayoutEffect, useRef, useState } from "react";
+import "uplot/dist/uPlot.min.css";
+import { grouped } from "../../logic/numbers";
+import { type Layout, type Plot, ticks, within, zoomedAt } from "../../logic/plots";
+import { nearestRow, type Range, type Samples } from "../../logic/samples";
+import { t } from "../../logic/text";
+import { usePrefs } from "../../store/prefs";
+import { type Compared, look, moveTo, type Shown, setCursor, useTraces, viewOf, wholeOf } from "../../store/traces";
+import { CursorFlags } from "./CursorFlags";
+import { colorsOf, drawAxis, drawLanes, LANE, LEFT, prepared, RIGHT, type Scale, scanOf, xOf } from "./draw";
+import { Overview } from "./Overview";
+import { PlotDrawing } from "./plot";
+
+interface Props {
+  ref: Ref<HTMLDivElement>;
+  shown: Shown;
+  samples: Samples | null;
+  whole: Samples | null;
+  layout: Layout;
+  compared: Compared | null;
+}
+
+const AXIS = 22;
+const LEAST_PLOT = 84;
+/** So far the pointer must move for a press to be more than a click. */
+const DRAG = 4;
+
+/** The outline of all, the plots and lanes with the same scans above each other, and the cursors over them. */
+export function Graph({ ref, shown, samples, whole, layout, compared }: Props) {
+  const element = useRef<HTMLDivElement>(null);
+  const size = useSize(element);
+  useImperativeHandle(ref, () => element.current as HTMLDivElement);
+  const state = useTraces();
+  const theme = usePrefs((prefs) => prefs.theme);
+  const view = viewOf(state, shown, samples?.end ?? shown.end);
+  const width = Math.max(40, size.width - LEFT - RIGHT);
+  const scale: Scale = { view, width };
+  const lanesHeight = layout.lanes.length > 0 ? layout.lanes.length * LANE + 8 : 0;
+  const room = size.height - 40 - lanesHeight - AXIS;
+  const plotHeight = Math.max(LEAST_PLOT, Math.floor(room / Math.max(1, layout.plots.length)));
+  const cursors = [state.a, state.b].filter((scan): scan is number => scan !== null);
+  const xTicks = ticks(view, Math.max(2, Math.floor(width / 110)), true);
+  const { onPointerDown, box } = useDrag(shown, samples, scale, element);
+  useWheel(element, shown, scale);
+
+  return (
+    <div className="trplot" ref={element}>
+      <Overview shown={shown} samples={whole} layout={layout} view={view} theme={theme} width={size.width} />
+      <div className="trstack" onPointerDown={onPointerDown}>
+        {samples &&
+          layout.plots.map((plot) => (
+            <PlotArea
+              key={`${plot.key} ${plot.lines.map(({ signal }) => signal.text).join()} ${theme}`}
+              plot={plot}
+              width={size.width}
+              height={plotHeight}
+              view={view}
+              samples={samples}
+              xTicks={xTicks}
+              cursors={cursors}
+              compared={
+                compared &&
+                comparedWith(
+                  compared,
+                  plot.lines.map(({ signal }) => signal.text),
+                )
+              }
+            />
+          ))}
+        <Lanes
+          layout={layout}
+          samples={samples}
+          scale={scale}
+          xTicks={xTicks}
+          theme={theme}
+          compared={
+            compared &&
+            comparedWith(
+              compared,
+              layout.lanes.map(({ signal }) => signal.text),
+            )
+          }
+        />
+        {samples?.scans.length === 0 && <p className="trnone faint">{t("trace.nothing")}</p>}
+        {shown.triggered !== null && <TriggerMark x={xOf(shown.triggered, scale)} width={width} />}
+        {box && <span className="trbox" style={{ left: box.from, width: box.to - box.from }} />}
+        <CursorFlags shown={shown} samples={samples} scale={scale} />
+      </div>
+    </div>
+  );
+}
+
+const comparedWith = ({ record, samples, shift }: Compared, texts: readonly string[]) => ({
+  samples,
+  shift,
+  columns: texts.map((text) => record.signals.findIndex((signal) => signal.text === text)),
+});
+
+function TriggerMark({ x, width }: { x: number; width: number }) {
+  if (x < LEFT || x > LEFT + width) return null;
+  return <span className="trtrigger" style={{ left: x }} title={t("trace.triggerhere")} />;
+}
+
+type Beside = ReturnType<typeof comparedWith> | null;
+
+interface AreaProps {
+  plot: Plot;
+  width: number;
+  height: number;
+  view: Range;
+  samples: Samples;
+  xTicks: readonly number[];
+  cursors: readonly number[];
+  compared: Beside;
+}
+
+function PlotArea({ plot, width, height, ...view }: AreaProps) {
+  const element = useRef<HTMLDivElement>(null);
+  const drawing = useRef<PlotDrawing | null>(null);
+  // The drawing is made once; React's key makes another one for other lines or colours.
+  // biome-ignore lint/correctness/useExhaustiveDependencies: as said
+  useLayoutEffect(() => {
+    if (!element.current || width === 0) return;
+    const made = new PlotDrawing(element.current, plot, colorsOf(element.current), { width, height });
+    drawing.current = made;
+    return () => made.destroy();
+  }, [width === 0]);
+  useLayoutEffect(() => {
+    drawing.current?.resize(width, height);
+    drawing.current?.show(view);
+  });
+  return (
+    <div
+      ref={element}
+      className="truplot"
+      style={{ height }}
+      role="img"
+      aria-label={t("trace.plot", { names: plot.lines.map(({ signal }) => signal.text).join(", ") })}
+      onDragOver={(event) => event.dataTransfer.types.includes("application/x-trace-signal") && event.preventDefault()}
+      onDrop={(event) => {
+        const text = event.dataTransfer.getData("application/x-trace-signal");
+        if (!text) return;
+        event.preventDefault();
+        event.stopPropagation();
+        moveTo(text, plot.key);
+      }}
+    />
+  );
+}
+
+interface LanesProps {
+  layout: Layout;
+  samples: Samples | null;
+  scale: Scale;
+  xTicks: readonly number[];
+  theme: string;
+  compared: Beside;
+}
+
+/** Lanes of BOOLs, and the scans below all. */
+function Lanes({ layout: { lanes }, samples, scale, xTicks, theme, compared }: LanesProps) {
+  const canvas = useRef<HTMLCanvasElement>(null);
+  const height = (lanes.length > 0 ? lanes.length * LANE + 8 : 0) + AXIS;
+  // biome-ignore lint/correctness/useExhaustiveDependencies: the theme changes the colours
+  useLayoutEffect(() => {
+    const context = canvas.current && prepared(canvas.current);
+    if (!context || !canvas.current) return;
+    const colors = colorsOf(canvas.current);
+    if (samples && lanes.length > 0) drawLanes(context, lanes, samples, scale, colors, xTicks, compared);
+    drawAxis(context, xTicks, scale, height - AXIS, colors, grouped);
+  }, [lanes, samples, scale.view.from, scale.view.to, scale.width, theme, compared?.samples, compared?.shift]);
+  return (
+    <canvas
+      ref={canvas}
+      className="trlanes"
+      style={{ height }}
+      role="img"
+      aria-label={t("trace.plot", { names: lanes.map(({ signal }) => signal.text).join(", ") })}
+    />
+  );
+}
+
+function useSize(element: { current: HTMLElement | null }): { width: number; height: number } {
+  const [size, setSize] = useState({ width: 0, height: 0 });
+  useEffect(() => {
+    if (!element.current) return;
+    const observer = new ResizeObserver(([entry]) => {
+      if (entry) setSize({ width: Math.floor(entry.contentRect.width), height: Math.floor(entry.contentRect.height) });
+    });
+    observer.observe(element.current);
+    return () => observer.disconnect();
+  }, [element]);
+  return size;
+}
+
+/** Wheel: closer and wider at the pointer; with Shift, or sideways: along. */
+function useWheel(element: { current: HTMLElement | null }, shown: Shown, scale: Scale): void {
+  const now = useRef({ shown, scale });
+  now.current = { shown, scale };
+  useEffect(() => {
+    const target = element.current;
+    if (!target) return;
+    const onWheel = (event: WheelEvent) => {
+      const { shown, scale } = now.current;
+      const whole = wholeOf(shown);
+      const along = event.shiftKey || Math.abs(event.deltaX) > Math.abs(event.deltaY);
+      if (!along && !event.ctrlKey && target.scrollHeight > target.clientHeight + 1 && !inside(event, target)) return;
+      event.preventDefault();
+      const { from, to } = scale.view;
+      if (along) {
+        const by = ((event.deltaX || event.deltaY) / scale.width) * (to - from);
+        look(within({ from: from + by, to: to + by }, whole));
+        return;
+      }
+      const held = scanOf(event.clientX - target.getBoundingClientRect().left, scale);
+      look(zoomedAt(scale.view, whole, 1.2 ** (event.deltaY / 60), Math.max(from, Math.min(to, held))));
+    };
+    target.addEventListener("wheel", onWheel, { passive: false });
+    return () => target.removeEventListener("wheel", onWheel);
+  }, [element]);
+}
+
+/** Between the gutters: there the wheel zooms, also where the panel could be scrolled. */
+function inside(event: WheelEvent, target: HTMLElement): boolean {
+  const { left, width } = target.getBoundingClientRect();
+  return event.clientX - left > LEFT && event.clientX - left < width - RIGHT;
+}
+
+/** Click: a cursor. Drag: what is marked fills the view. Drag with Shift or the middle button: along. */
+function useDrag(shown: Shown, samples: Samples | null, scale: Scale, element: { current: HTMLElement | null }) {
+  const [box, setBox] = useState<Range | null>(null);
+
+  function onPointerDown(event: PointerEvent): void {
+    const target = element.current;
+    if (!target || event.button > 1 || (event.target as Element).closest("button")) return;
+    const left = target.getBoundingClientRect().left;
+    const start = event.clientX;
+    const along = event.shiftKey || event.button === 1;
+    const begin = scale;
+    const inX = (x: number) => Math.max(LEFT, Math.min(LEFT + begin.width, x - left));
+    let moved = false;
+    const onMove = (move: globalThis.PointerEvent) => {
+      moved ||= Math.abs(move.clientX - start) > DRAG;
+      if (!moved) return;
+      if (along) {
+        const by = ((start - move.clientX) / begin.width) * (begin.view.to - begin.view.from);
+        look(within({ from: begin.view.from + by, to: begin.view.to + by }, wholeOf(shown)));
+      } else setBox({ from: Math.min(inX(start), inX(move.clientX)), to: Math.max(inX(start), inX(move.clientX)) });
+    };
+    const onUp = (up: globalThis.PointerEvent) => {
+      removeEventListener("pointermove", onMove);
+      removeEventListener("pointerup", onUp);
+      removeEventListener("pointercancel", onUp);
+      setBox(null);
+      if (!moved) click(scanOf(start - left, begin));
+      else if (!along && up.type === "pointerup") {
+        const ends = [scanOf(inX(start), begin), scanOf(inX(up.clientX), begin)];
+        look({ from: Math.min(...ends), to: Math.max(...ends) });
+      }
+    };
+    addEventListener("pointermove", onMove);
+    addEventListener("pointerup", onUp);
+    addEventListener("pointercancel", onUp);
+  }
+
+  /** The first cursor, then the second, then whichever is nearer. */
+  function click(scan: number): void {
+    if (!samples || scan < scale.view.from || scan > scale.view.to) return;
+    const at = samples.scans[nearestRow(samples, scan)];
+    if (at === undefined) return;
+    const { a, b } = useTraces.getState();
+    const nearer = a !== null && b !== null && Math.abs(b - at) < Math.abs(a - at) ? "b" : "a";
+    setCursor(a === null ? "a" : b === null ? "b" : nearer, at);
+  }
+
+  return { onPointerDown, box };
+}
