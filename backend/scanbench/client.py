@@ -25,6 +25,7 @@ Value = str | int | float | bool
 
 _TIMEOUT_S = 60
 _LOOK_S = 0.02
+_GOES_ON = ("starting", "restarting", "running")
 
 
 class Refused(Exception):
@@ -131,7 +132,7 @@ class Plc:
         if scans is None and until is None:
             return said
         end = monotonic_ns() + int(timeout_s * 1e9)
-        while (state := self.state)["state"] == "running":
+        while (state := self.state)["state"] in _GOES_ON:
             if monotonic_ns() > end:
                 raise TimeoutError(f"{said}: it still runs, at scan {state['scan']}")
             sleep(_LOOK_S)

@@ -147,6 +147,16 @@ export class Watch {
     await this.page.mouse.up();
   }
 
+  /** The line below an in-out: how it is bound, and by which call. */
+  binding(path: string): Locator {
+    return this.row(path).locator('xpath=following-sibling::*[contains(@class, "binding")][1]');
+  }
+
+  async pickCall(path: string, actual: RegExp): Promise<void> {
+    await this.page.getByRole('button', { name: `Other call for ${path}` }).click();
+    await this.page.getByRole('menuitemradio', { name: actual }).click();
+  }
+
   async importCsv(path: string): Promise<void> {
     await this.page.getByTestId('watch-csv').setInputFiles(path);
   }

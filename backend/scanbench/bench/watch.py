@@ -31,6 +31,9 @@ from scanbench.web.serve import serve
 serve("127.0.0.1", 0, Path(sys.argv[1]), lambda line: print(line, flush=True))
 """
 _TICKS = os.sysconf("SC_CLK_TCK")
+_HEAD = 24
+"""Bytes before the ids of a frame."""
+_PATIENCE_S = 30.0
 
 
 @dataclass(frozen=True, slots=True)
@@ -54,9 +57,7 @@ class WatchFigures:
         return self.web_share + self.host_share
 
 
-def run_watch_bench(
-    values: int = 10_000, browsers: int = 1, seconds: float = 8, writes: int = 300
-) -> WatchFigures:
+def run_watch_bench(values: int = 10_000, browsers: int = 1, seconds: float = 8, writes: int = 300) -> WatchFigures:
     """Starts a server, an instance whose values all change in every scan, and browsers that watch them."""
     with tempfile.TemporaryDirectory() as data, _server(Path(data)) as (address, pid):
         base, _, token = address.partition("/?token=")
@@ -149,7 +150,7 @@ def _client(base: str, token: str, instance: int, values: int, browsers: int, se
 
 
 def _browse(address: str, values: int, seconds: float, ready: threading.Barrier) -> tuple[int, int, int]:
-    with connect(address, compression=None) as socket:
+    with connect(address, compression=None, max_size=None) as socket:
         paths = [f"Main.v[{number}]" for number in range(1, values + 1)]
         socket.send(json.dumps({"type": "watch", "ref": 1, "paths": paths}))
         while not isinstance(socket.recv(), bytes):
@@ -168,19 +169,32 @@ def _browse(address: str, values: int, seconds: float, ready: threading.Barrier)
 
 def _writes(address: str, count: int) -> Iterator[float]:
     """Seconds from each write to the frame with its value, at moments that have nothing to do with the frames' own."""
-    with connect(address, compression=None) as writer, connect(address, compression=None) as reader:
+    with (
+        connect(address, compression=None, max_size=None) as writer,
+        connect(address, compression=None, max_size=None) as reader,
+    ):
         reader.send(json.dumps({"type": "watch", "ref": 1, "paths": ["Main.written"]}))
-        while not isinstance(reader.recv(), bytes):
-            pass
+        id = _id_in(reader)
         draining = threading.Thread(target=_drain, args=(writer,), daemon=True)
         draining.start()
         for number in range(1, count + 1):
             time.sleep(0.037 + number % 7 * 0.011)
             start = time.monotonic()
             writer.send(json.dumps({"type": "write", "ref": number, "path": "Main.written", "value": str(number)}))
-            while _value(reader.recv()) != number:
+            while _value(reader.recv(_PATIENCE_S), id) != number:
                 pass
             yield time.monotonic() - start
+
+
+def _id_in(socket: ClientConnection) -> int:
+    """The id of the one path that was asked for."""
+    while True:
+        data = socket.recv(_PATIENCE_S)
+        message = {} if isinstance(data, bytes) else json.loads(data)
+        if message.get("type") == "watching":
+            id = message["items"][0]["id"]
+            assert isinstance(id, int)
+            return id
 
 
 def _drain(socket: ClientConnection) -> None:
@@ -189,11 +203,15 @@ def _drain(socket: ClientConnection) -> None:
             socket.recv()
 
 
-def _value(data: str | bytes) -> int | None:
-    """The one value that a frame is about."""
-    if not isinstance(data, bytes) or struct.unpack_from("<I", data, 4)[0] != 1:
+def _value(data: str | bytes, id: int) -> int | None:
+    """The value of this id in a frame."""
+    if not isinstance(data, bytes):
         return None
-    return int(struct.unpack_from("<Q", data, 24 + 8)[0])
+    count = struct.unpack_from("<I", data, 4)[0]
+    ids = struct.unpack_from(f"<{count}I", data, _HEAD)
+    if id not in ids:
+        return None
+    return int(struct.unpack_from("<Q", data, _HEAD + (count + count % 2) * 4 + 8 * ids.index(id))[0])
 
 
 def main(arguments: list[str]) -> int:

@@ -155,8 +155,8 @@ class Locals:
     # ---- parsing ----------------------------------------------------------------------------------------
 
     def _parsed(self, text: str, what: str) -> tree.Expression | Bad:
-        bad = _unreadable(text, what)
-        return bad or parsed(joined(self.program, text))
+        node = _unreadable(text, what) or parsed(joined(self.program, text))
+        return replace(node, message=node.message.replace("a condition", f"{_article(what)} {what}")) if isinstance(node, Bad) else node
 
     def _parsed_statements(self, text: str) -> tuple[tree.Assignment, ...] | Bad:
         bad = _unreadable(text, "assignment")
@@ -230,6 +230,10 @@ def this_of(pou: Pou) -> Member | None:
 
 def _ours(pou: Pou) -> bool:
     return is_system(pou.span) or in_library(pou.span) or pou.name.startswith("__")
+
+
+def _article(what: str) -> str:
+    return "an" if what[0] in "aeiou" else "a"
 
 
 def _unreadable(text: str, what: str) -> Bad | None:

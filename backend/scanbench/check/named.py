@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 
 from scanbench.check.program import Pou, Program
-from scanbench.check.symbols import Symbol, UnknownPath, around, members, resolve, roots
+from scanbench.check.symbols import Symbol, UnknownPath, around, members, resolve, roots, roots_at
 from scanbench.check.types import BOOL, ArrayType, Elementary, Record, Type
 
 Place = tuple[int, int | None]
@@ -67,8 +67,8 @@ def _paths(program: Program, place: Place, type: Type) -> Iterator[str]:
         if bits in (1, 8, 16, 32, 64):
             yield program.layout.model.format(area, byte, (bit or 0) if bits == 1 else None, bits)
         return
-    for root in roots(program):
-        if not root.slots and root.address is None and root.offset <= offset < root.offset + root.type.size:
+    for root in roots_at(program, offset):
+        if root.address is None:
             yield from _below(root, place, type)
             return
 

@@ -164,12 +164,35 @@ def roots(program: Program) -> Iterator[Symbol]:
     for member in owner.members.values() if owner else ():
         if member.hidden:
             continue
-        yield _checked(program, _member(Symbol("", "", BOOL, "", 0), member, member.name))
+        yield _global(program, member)
+
+
+def roots_at(program: Program, offset: int) -> Iterator[Symbol]:
+    """Those of them that hold a byte of the image themselves: not behind a slot."""
+    for instance in program.shown:
+        if instance.offset <= offset < instance.offset + instance.pou.instance.size:
+            yield Symbol(instance.name, instance.name, instance.pou.instance, "PROGRAM", instance.offset)
+    owner = program.layout.globals
+    for member in owner.members.values() if owner else ():
+        if member.offset <= offset < member.offset + member.type.size and not member.hidden:
+            symbol = _global(program, member)
+            if not symbol.slots:
+                yield symbol
+
+
+def _global(program: Program, member: Member) -> Symbol:
+    return _checked(program, _member(Symbol("", "", BOOL, "", 0), member, member.name))
 
 
 def _root(program: Program, name: str) -> Symbol | None:
-    upper = name.upper()
-    found = next((symbol for symbol in roots(program) if symbol.name.upper() == upper), None)
+    upper, owner = name.upper(), program.layout.globals
+    instance = next((each for each in program.shown if each.name.upper() == upper), None)
+    member = owner.members.get(upper) if owner is not None else None
+    found = None
+    if instance is not None:
+        found = Symbol(instance.name, instance.name, instance.pou.instance, "PROGRAM", instance.offset)
+    elif member is not None and not member.hidden:
+        found = _global(program, member)
     access = next((each for each in program.accesses if each.name.upper() == upper), None)
     if found is None and access is None:
         given = _given(program).get(upper)
@@ -300,9 +323,13 @@ def _range(program: Program, first: str, count: int) -> Symbol:
     room = (16 * area.words - at) // step
     if not 1 <= count <= min(room, MAX_MEMBERS):
         most = f"there are {room} from there on" if room < MAX_MEMBERS else f"at most {MAX_MEMBERS:,} can be watched"
-        raise UnknownPath(f"`{first}:{count}` is not a range of {area.name}: {most}.", (f"{start.path}:{min(room, 8)}",))
+        raise UnknownPath(
+            f"`{first}:{count}` is not a range of {area.name}: {most}.", (f"{start.path}:{min(room, 8)}",)
+        )
     path = f"{start.path}:{count}"
-    return replace(start, path=path, name=path, type=ArrayType(((0, count - 1),), start.type), section="range", bit=None)
+    return replace(
+        start, path=path, name=path, type=ArrayType(((0, count - 1),), start.type), section="range", bit=None
+    )
 
 
 def _position(symbol: Symbol, byte: int) -> tuple[int, int]:
@@ -407,8 +434,8 @@ def at_offset(program: Program, offset: int) -> str:
         area, byte = found
         return program.layout.model.format(area, byte - byte % 2, None, 16)
     common = (Symbol(each.name, each.name, each.pou.instance, "PROGRAM", each.offset) for each in program.common)
-    for symbol in (*roots(program), *common):
-        if not symbol.slots and symbol.offset <= offset < symbol.offset + symbol.type.size:
+    for symbol in (*roots_at(program, offset), *common):
+        if symbol.offset <= offset < symbol.offset + symbol.type.size:
             return _descend(program, symbol, offset)
     return f"image+{offset}"
 
@@ -440,7 +467,7 @@ def instance_at(program: Program, offset: int, pou: str) -> str:
 
 def starting_at(program: Program, offset: int) -> Iterator[Symbol]:
     """Everything that begins at a byte of the image: an instance, its first member, that member's first element, ..."""
-    open_ = [symbol for symbol in roots(program) if _holds(symbol, offset)]
+    open_ = list(roots_at(program, offset))
     while open_:
         symbol = open_.pop(0)
         if symbol.offset == offset:

@@ -13,7 +13,7 @@ from scanbench.check.call_sites import (
 )
 from scanbench.check.named import Place, same_place, temporary_at, variable_at
 from scanbench.check.program import Program, Task
-from scanbench.check.symbols import Symbol, UnknownPath, resolve
+from scanbench.check.symbols import Symbol, resolve
 from scanbench.check.types import Elementary, StringType
 from scanbench.debug.bound_to import Bound, BoundTo, Convention
 from scanbench.runtime.command import View
@@ -30,12 +30,10 @@ class Bindings:
         self._calls: Calls | None = None
 
     def of(self, view: View, path: str, inside: bool = False) -> Bound:
-        """The binding of the last in-out on a path; `inside`: a debugger has halted the scan in the middle."""
-        try:
-            symbol = resolve(self._program, path.strip())
-            formal = formal_of(self._program, symbol.path)
-        except UnknownPath as error:
-            return Bound(False, error.message, "reference", (), tuple(error.near))
+        """The binding of the last in-out on a path; `inside`: a debugger has halted the scan in the middle. Raises
+        `UnknownPath`."""
+        symbol = resolve(self._program, path.strip())
+        formal = formal_of(self._program, symbol.path)
         if formal is None:
             return Bound(False, f"{symbol.path} is no in-out: a write goes to itself", "reference", ())
         self._calls = self._calls or Calls(self._program)

@@ -36,4 +36,3 @@ class Bound:
     """Why it is bound to nothing: `not called yet`, ..."""
     convention: Convention
     sites: tuple[BoundTo, ...]
-    near: tuple[str, ...] = ()

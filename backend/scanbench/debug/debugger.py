@@ -52,6 +52,8 @@ class Debugger:
         self._trap_seen: Position | None = None
         """The statement in front of which it halted before it traps."""
         self._last_entry: Entry | None = None
+        self._stood: Position = (-1, 0)
+        """Where it was halted in the scan that is next: up to there nothing halts it."""
         self._past = Past(timeline, self.breakpoints)
         timeline.resource.on_trap = self._on_trap
         self._note_entries()
@@ -222,8 +224,12 @@ class Debugger:
             resource.hook = None
             return None
         listener.goal, listener.pending = self._goal, self._pending or listener.pending
-        inside = resource.inside
-        listener.passed.begin = (resource.header.scan, inside.count) if inside is not None else (-1, 0)
+        inside, scan = resource.inside, resource.header.scan
+        if inside is not None:
+            self._stood = scan, inside.count
+        elif self._stood[0] != scan:  # else a knock came before the scan had run up to there again
+            self._stood = -1, 0
+        listener.passed.begin = self._stood
         resource.hook = listener
         return listener
 

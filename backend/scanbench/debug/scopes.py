@@ -1,7 +1,8 @@
 """The variables of a frame by their sections, and what is below them."""
 
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import replace
+from itertools import islice
 
 from scanbench.check.condition import BadCondition
 from scanbench.check.symbols import Symbol, UnknownPath, children, member_of, referred, resolve, roots
@@ -16,13 +17,15 @@ from scanbench.engines.interpreter.evaluate import NoValue
 MOST = 1000
 """Variables in one answer."""
 THIS, GLOBAL, RESULT = "THIS", "GLOBAL", "RESULT"
-_ORDER = ("VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR", "VAR_TEMP", RESULT, THIS, GLOBAL)
+_ORDER = ("VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR", "VAR_TEMP", RESULT, THIS)
 
 
 def scopes(scene: Scene, index: int | None) -> tuple[ScopeInfo, ...]:
     """Of a frame (None: of the whole program), those that have any variables. Raises NoFrame."""
-    found = _of_frame(scene, scene.frame(index))
-    return tuple(ScopeInfo(name, len(found[name])) for name in _ORDER if found.get(name))
+    frame = scene.frame(index)
+    found = [(name, len(each)) for name, each in _of_frame(scene, frame).items()]
+    found.append((GLOBAL, _globals(scene, frame)[1]))
+    return tuple(ScopeInfo(name, count) for name, count in found if count)
 
 
 def variables(
@@ -32,10 +35,7 @@ def variables(
     frame = scene.frame(index)
     most = min(count or MOST, MOST)
     if not expression:
-        found = _of_frame(scene, frame).get(scope.upper())
-        if found is None:
-            raise NoFrame(f"there is no scope `{scope}` here")
-        return tuple(info(scene, each) for each in found[start : start + most]), len(found)
+        return _of_scope(scene, frame, scope, start, most)
     parent = named(scene, frame, expression)
     if isinstance(parent, BadCondition):
         raise NoValue(parent.message)
@@ -48,10 +48,9 @@ def named(scene: Scene, frame: Frame | None, text: str) -> Shown | BadCondition:
     """The variable, or part of one, that this means in the scope of a frame. Raises NoValue where it is nowhere now."""
     text = text.strip()
     if frame is not None:
-        for found in _of_frame(scene, frame).values():
-            for each in found:
-                if each.expression.upper() == text.upper():
-                    return each
+        for scope, found in _of_frame(scene, frame).items():
+            if scope != GLOBAL and (known := _by_expression(found, text)) is not None:
+                return known
     pou, instance = at(frame)
     local = scene.locals.place(pou, text)
     if isinstance(local, BadCondition):
@@ -67,6 +66,10 @@ def named(scene: Scene, frame: Frame | None, text: str) -> Shown | BadCondition:
         if found_symbol.type == symbol.type and found_symbol.locate(scene.memory) == (offset, bit):
             return Shown(text, replace(symbol, path=found_symbol.path), found_symbol.path)
     return Shown(text, symbol, tool_path(scene, symbol, ""))
+
+
+def _by_expression(found: Sequence[Shown], text: str) -> Shown | None:
+    return next((each for each in found if each.expression.upper() == text.upper()), None)
 
 
 def _paths(scene: Scene, frame: Frame | None, text: str) -> Iterator[str]:
@@ -93,7 +96,6 @@ def _of_frame(scene: Scene, frame: Frame | None) -> dict[str, list[Shown]]:
         for member in _visible(local):
             shown = _shown(base, member, member.name, "")
             found[_scope(member)].append(replace(shown, path=_passed(scene, shown)))
-    found[GLOBAL] = [Shown(each.name, each, each.path) for each in _globals(scene, frame)]
     return found
 
 
@@ -130,9 +132,27 @@ def _passed(scene: Scene, shown: Shown) -> str:
     return tool_path(scene, symbol, "") if symbol.slots and symbol.section == Section.IN_OUT.value else ""
 
 
-def _globals(scene: Scene, frame: Frame | None) -> Iterator[Symbol]:
-    """Global variables; for the whole program its instances too."""
-    return (each for each in roots(scene.program) if frame is None or each.section != "PROGRAM")
+def _of_scope(
+    scene: Scene, frame: Frame | None, scope: str, start: int, most: int
+) -> tuple[tuple[VariableInfo, ...], int]:
+    if scope.upper() == GLOBAL:
+        symbols, total = _globals(scene, frame)
+        page = [Shown(each.name, each, each.path) for each in islice(symbols, start, start + most)]
+        return tuple(info(scene, each) for each in page), total
+    found = _of_frame(scene, frame).get(scope.upper())
+    if found is None:
+        raise NoFrame(f"there is no scope `{scope}` here")
+    return tuple(info(scene, each) for each in found[start : start + most]), len(found)
+
+
+def _globals(scene: Scene, frame: Frame | None) -> tuple[Iterator[Symbol], int]:
+    """Global variables, and how many; for the whole program its instances too."""
+    program, owner = scene.program, scene.program.layout.globals
+    instances = len(program.shown)
+    total = instances + sum(not member.hidden for member in (owner.members.values() if owner else ()))
+    if frame is None:
+        return roots(program), total
+    return islice(roots(program), instances, None), total - instances
 
 
 def _below(scene: Scene, parent: Shown, start: int, count: int) -> list[Shown]:

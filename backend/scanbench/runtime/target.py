@@ -96,7 +96,7 @@ def _at_site(view: View, path: str, site: str) -> tuple[int, int | None] | Refus
     formal = formal_of(view.program, path)
     if formal is None:
         return Refusal(f"{path} is behind a reference, and no call passes anything for that")
-    sites = Calls(view.program).sites(formal, view.memory)
+    sites = Calls(view.statements).sites(formal, view.memory)
     wanted = [each for each in sites if site in (str(each.span), f"{each.span.file}:{each.span.line}")]
     if not wanted:
         near = tuple(f"{each.span.file}:{each.span.line}" for each in sites)
@@ -118,7 +118,7 @@ def passed_by(view: View, formal: Formal, path: str, site: CallSite) -> tuple[in
 
 
 def _nowhere(view: View, path: str, site: str, place: tuple[int, int | None] | None) -> str:
-    temporary = None if place is None else temporary_at(view.program, place[0])
+    temporary = None if place is None else temporary_at(view.statements, place[0])
     if temporary is not None:
         return _gone(path, *temporary)
     return f"what {site} passes for {path} cannot be told now: let that call run first"
@@ -144,7 +144,7 @@ def writable_target(view: View, path: str, verb: Right, through: str = "") -> Ta
         return Refusal(not_called(view, symbol))
     offset, bit = place
     if offset >= view.program.layout.state_size:
-        found = temporary_at(view.program, offset)
+        found = temporary_at(view.statements, offset)
         return Refusal(_gone(symbol.path, *(found or (None, ""))))
     reason = read_only_reason(view, symbol, offset, bit)
     if reason is not None:

@@ -239,6 +239,8 @@ class Instance:
         )  # fmt: skip
 
     def _set_state(self, **changes: object) -> None:
+        if changes.get("pid", self) is None:  # where there is no process, nothing is halted
+            changes["halt"] = None
         self.state = replace(self.state, **changes)  # type: ignore[arg-type]  # names and types are PlcState's own
         self._on_state(self.state)
 

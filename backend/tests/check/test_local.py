@@ -114,6 +114,7 @@ def test_worth(program: Program, ran: Evaluator, pou: str, text: str, wanted: st
         ("Counter", "list[9]", "outside of 1..3"),
         ("Counter", "", "There is no expression"),
         ("Counter", "1 +", "expected"),
+        ("Counter", "n := 1", "an expression changes nothing"),
         ("Counter", "x" * 2001, "2001 characters"),
         ("twice", "THIS.n", "THIS"),
     ],

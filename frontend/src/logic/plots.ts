@@ -71,6 +71,7 @@ export function lastName(text: string): string {
 
 /** Names as short as they can be while they differ; what all of them begin and end with says nothing. */
 function shorten(lines: Line[]): void {
+  if (lines.length === 0) return;
   const paths = lines.map(({ signal }) => (/^[\w.[\],^]+$/.test(signal.text) ? signal.text.split(".") : [signal.text]));
   const depth = Math.min(...paths.map((path) => path.length));
   let front = 0;

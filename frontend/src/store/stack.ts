@@ -184,7 +184,8 @@ export function frameText(name: string): string | undefined {
     const found = get()
       .below.get(scope.name)
       ?.find((variable) => variable.name.toUpperCase() === wanted);
-    if (found) return found.value;
+    // What it consists of says more than how much that is.
+    if (found) return found.variablesReference > 0 ? undefined : found.value;
   }
   return undefined;
 }

@@ -9,6 +9,8 @@ if TYPE_CHECKING:
     from scanbench.engines.native.emit_body import Body, Unit
     from scanbench.engines.native.emit_memory import Address
 
+_NOTHING = nullcontext()
+
 
 class Flavour:
     """The run flavour. The emitters tell a flavour where they are; others emit something there."""
@@ -48,7 +50,7 @@ class Flavour:
 
     def joined(self, body: "Body", instance: ProgramInstance) -> AbstractContextManager[None]:
         """Around what a CONFIGURATION connects to the program."""
-        return nullcontext()
+        return _NOTHING
 
     # ---- statements -------------------------------------------------------------------------------------------
 
@@ -60,7 +62,7 @@ class Flavour:
 
     def statement(self, body: "Body", statement: Stmt) -> AbstractContextManager[None]:
         """Around a statement; what is emitted meanwhile belongs to it."""
-        return nullcontext()
+        return _NOTHING
 
     def selected(self, body: "Body", statement: Stmt, guard: str) -> None:
         """The statement begins where the guard, an i1, is true: instead of `statement`, where `may_select`."""
@@ -70,7 +72,7 @@ class Flavour:
 
     def loop(self, body: "Body", statement: Stmt) -> AbstractContextManager[None]:
         """Around a FOR or WHILE."""
-        return nullcontext()
+        return _NOTHING
 
     def goes(self, body: "Body", statement: Stmt, way: int) -> None:
         """The statement goes this way, see `Sites.outcome`."""

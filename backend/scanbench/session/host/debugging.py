@@ -7,6 +7,7 @@ from scanbench.check.condition import BadCondition
 from scanbench.check.local import Locals
 from scanbench.check.program import Program
 from scanbench.check.sites import Sites, sites_of
+from scanbench.check.symbols import UnknownPath
 from scanbench.debug.assign import Assign
 from scanbench.debug.binding import Bindings
 from scanbench.debug.debugger import Debugger
@@ -199,7 +200,12 @@ class Debugging:
         view = self._resource.view
         if self._bindings is None or self._bindings[0] is not view.statements:
             self._bindings = view.statements, Bindings(view.statements)
-        bound = self._bindings[1].of(view, request.path, self._resource.inside is not None)
+        try:
+            bound = self._bindings[1].of(view, request.path, self._resource.inside is not None)
+        except UnknownPath as error:
+            scan = self._resource.header.scan
+            self._link.post(protocol.Ack(request.ref, False, error.message, scan, tuple(error.near)))
+            return
         self._link.post(debug_protocol.Binding(request.ref, bound.ok, bound.message, bound.convention, bound.sites))
 
     # ---- at each tick ---------------------------------------------------------------------------------------------

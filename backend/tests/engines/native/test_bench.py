@@ -5,6 +5,7 @@ from pathlib import Path
 import pytest
 
 from scanbench.bench.building import measure_building
+from scanbench.bench.debugging import conveyor, measure_costs, measure_swaps
 from scanbench.bench.pace import PERIODS_MS, report, run_pace_bench
 from scanbench.bench.run import HERE, PROGRAMS, BenchError, run_bench
 from scanbench.cli.bench import BUILDING
@@ -45,6 +46,15 @@ def test_what_building_takes(tmp_path: Path) -> None:
     figures = measure_building(str(path))
     assert set(figures) == {key for key, _, _ in BUILDING}
     assert all(figure >= 0 for figure in figures.values()), figures
+
+
+def test_what_breakpoints_cost() -> None:
+    program = conveyor()
+    costs = measure_costs(program)
+    assert min(costs.run_ns, costs.loaded, costs.probed_hot, costs.debug_hot) > 0
+    assert costs.probed_cold is not None
+    swaps = measure_swaps(program)
+    assert min(swaps.debug_pause, swaps.debug_build, swaps.probed_pause, swaps.probed_build) > 0
 
 
 def test_what_the_loop_can_do() -> None:

@@ -32,7 +32,7 @@ def test_a_folder_is_launched_and_nothing_is_left_of_it(project: Path, tmp_path:
         assert client.stack()[0]["source"]["path"] == str(project / "Main.st")
         files = [each["path"] for each in client.ask("loadedSources")["sources"]]
         assert str(project / "blocks" / "Counter.st") in files
-        assert client.value("A400") == "0"  # the model that project.json names
+        assert client.value("A400") == "16#0000"  # the model that project.json names
         client.ask("disconnect")
         assert client.process.wait(30) == 0
     assert list(temporary.iterdir()) == []

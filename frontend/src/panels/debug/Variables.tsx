@@ -146,6 +146,7 @@ interface LineProps {
 function Line({ keyName, variable, changed, editing, onDone }: LineProps) {
   const force = useForces((forces) => forceOf(forces, variable.scanbench?.path ?? ""));
   const alias = variable.scanbench?.alias;
+  const below = variable.variablesReference > 0;
   return (
     <span className="varline">
       <span className="cut">{variable.name}</span>
@@ -153,7 +154,10 @@ function Line({ keyName, variable, changed, editing, onDone }: LineProps) {
       {editing ? (
         <ValueEntry keyName={keyName} variable={variable} onDone={onDone} />
       ) : (
-        <span className={`varvalue mono cut${changed ? " changed" : ""}`} data-testid={`variable:${variable.name}`}>
+        <span
+          className={`varvalue mono cut${changed ? " changed" : ""}${below ? " faint" : ""}`}
+          data-testid={`variable:${variable.name}`}
+        >
           {variable.value}
         </span>
       )}

@@ -59,6 +59,7 @@ function decoration({ look, text }: Standing, breakpoint: boolean, line: number)
     options: {
       isWholeLine: true,
       className: `${look}line`,
+      marginClassName: `${look}line`,
       glyphMarginClassName: `gl gl-here ${look}${breakpoint && look === "halt" ? " gl-on-bp" : ""}`,
       glyphMarginHoverMessage: { value: text },
       zIndex: 10,

@@ -1,5 +1,5 @@
 import { useEffect, useState } from "react";
-import { grouped } from "../../logic/numbers";
+import { grouped, plcTime } from "../../logic/numbers";
 import { axisText, layoutOf, spanText } from "../../logic/plots";
 import { decode, rowAt, type Samples, textAt } from "../../logic/samples";
 import { t } from "../../logic/text";
@@ -26,7 +26,7 @@ export function CursorTable({ shown, samples }: Props) {
   const [menu, setMenu] = useState<{ signal: TraceSignal; x: number; y: number } | null>(null);
   const { plots, lanes } = layoutOf(shown.signals, moved);
   const lines = [...plots.flatMap((plot) => plot.lines), ...lanes];
-  const time = (scan: number | null) => (scan === null ? "" : spanText(scan * shown.interval));
+  const time = (scan: number | null) => (scan === null ? "" : plcTime(scan * shown.interval).replace(/^00:/, ""));
   return (
     <>
       <div className="grid trtable" role="grid" aria-label={t("trace.table")}>

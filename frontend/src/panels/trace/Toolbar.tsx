@@ -66,7 +66,7 @@ export function Toolbar({ shown, graph }: { shown: Shown | null; graph: RefObjec
             ]}
           >
             <Icon name="export" small />
-            CSV, PNG
+            <span className="long">CSV, PNG</span>
           </MenuButton>
           <span className="vr" />
           <IconButton icon="zoom-out" small label={t("timeline.zoom.out")} onClick={() => zoom(2)} />
@@ -219,11 +219,14 @@ function CompareMenu({ shown }: { shown: Shown }) {
   };
   return (
     <MenuButton label={t("trace.compare")} items={items}>
-      {compared
-        ? t(compared.by === "trigger" ? "trace.compared.trigger" : "trace.compared.first", {
-            name: compared.record.name,
-          })
-        : t("trace.compare")}
+      <Icon name="swap" small />
+      <span className={compared ? "cut trname" : "long"}>
+        {compared
+          ? t(compared.by === "trigger" ? "trace.compared.trigger" : "trace.compared.first", {
+              name: compared.record.name,
+            })
+          : t("trace.compare")}
+      </span>
     </MenuButton>
   );
 }

@@ -1,0 +1,90 @@
+"""The process of a PLC as its parent sees it, for tests."""
+
+import socket
+import subprocess
+import sys
+from collections.abc import Callable
+from pathlib import Path
+from typing import Self, TypeVar
+
+from scanbench.debug.halt import Halt
+from scanbench.session import debug_protocol, protocol
+from scanbench.session.codec import Splitter, pack
+from scanbench.session.protocol import Sources
+
+T = TypeVar("T")
+MODEL = "CJ1M-CPU63"
+
+
+class Child:
+    """A host over its socket."""
+
+    def __init__(
+        self, run: Path, source: str, cache: Path, paused: bool = False, speed: float = 1.0, until: int = 0
+    ) -> None:  # fmt: skip
+        ours, theirs = socket.socketpair()
+        self._socket, self._splitter = ours, Splitter()
+        ours.settimeout(60)
+        command = [sys.executable, "-m", "scanbench.session.host", str(theirs.fileno()), str(cache)]
+        self.process = subprocess.Popen(command, pass_fds=[theirs.fileno()])
+        theirs.close()
+        self.messages: list[object] = []
+        self._ref = 0
+        sources = Sources(MODEL, {"main.st": source}, 10_000_000, 1)
+        self.send(
+            protocol.Start("plc", sources, str(run), None, None, None, speed, paused, until, None, None)
+        )  # fmt: skip
+        self.wait(protocol.Ready)
+        self.send(protocol.Attend(True))
+
+    def __enter__(self) -> Self:
+        return self
+
+    def __exit__(self, *error: object) -> None:
+        if self.process.poll() is None:
+            self.send(protocol.Quit())
+        self._socket.close()
+        self.process.wait(30)
+
+    def send(self, message: object) -> None:
+        self._socket.sendall(pack(message))
+
+    def take(self) -> list[object]:
+        """What comes next; kept too."""
+        data = self._socket.recv(1 << 20)
+        assert data, "the host has ended"
+        new = list(self._splitter.feed(data))
+        self.messages += new
+        return new
+
+    def wait(self, kind: type[T], test: Callable[[T], bool] = lambda message: True) -> T:
+        """The first message of this kind that is to come (or came, of those not looked at yet)."""
+        seen = 0
+        while True:
+            for message in self.messages[seen:]:
+                if isinstance(message, kind) and test(message):
+                    del self.messages[: self.messages.index(message) + 1]
+                    return message
+            seen = len(self.messages)
+            self.take()
+
+    def ask(self, make: Callable[[int], object], kind: type[T]) -> T:
+        """A request and its answer."""
+        self._ref += 1
+        ref = self._ref
+        self.send(make(ref))
+        return self.wait(kind, lambda message: getattr(message, "ref", None) == ref)
+
+    def step(self, action: debug_protocol.StepAction, **more: object) -> protocol.Ack:
+        return self.ask(lambda ref: debug_protocol.Step(ref, action, "Ann", **more), protocol.Ack)  # type: ignore[arg-type]
+
+    def halted(self, after: int = 0) -> Halt:
+        """The next halt."""
+        state = self.wait(protocol.HostState, lambda state: state.halt is not None and state.halt.number > after)
+        assert state.halt is not None
+        return state.halt
+
+    def value(self, text: str, frame: int | None = None) -> str:
+        found = self.ask(lambda ref: debug_protocol.Evaluate(ref, frame, text, "Ann"), debug_protocol.Evaluated)
+        assert found.variable is not None, found.message
+        return found.variable.value

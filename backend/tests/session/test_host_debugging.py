@@ -1,0 +1,154 @@
+"""Debugging through the process of a PLC: what its parent asks and hears, on native code."""
+
+import os
+import signal
+from pathlib import Path
+
+import pytest
+
+from scanbench.debug.breakpoint import Breakpoint
+from scanbench.runtime.write import Write
+from scanbench.session import debug_protocol, protocol
+from tests.session.child import Child
+
+STATIONS = """FUNCTION_BLOCK Station
+VAR_INPUT up : DINT; END_VAR
+VAR_OUTPUT total : DINT; END_VAR
+VAR last : DINT; END_VAR
+  last := total;
+  total := total + up;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR n : DINT; a, b, c : Station; END_VAR
+  n := n + 1;
+  a(up := 1);
+  b(up := 2);
+  c(up := 3);
+END_PROGRAM
+"""
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("cache")
+
+
+def at_line(line: int, **more: object) -> tuple[Breakpoint, ...]:
+    return (Breakpoint(1, "line", "Ann", file="main.st", line=line, **more),)  # type: ignore[arg-type]
+
+
+def set_breakpoints(child: Child, breakpoints: tuple[Breakpoint, ...]) -> tuple[debug_protocol.Verdict, ...]:
+    return child.ask(
+        lambda ref: debug_protocol.SetBreakpoints(ref, "", None, None, breakpoints), debug_protocol.BreakpointsAre
+    ).verdicts
+
+
+def test_a_breakpoint_halts_one_of_three_instances_and_a_step_goes_on(tmp_path: Path, cache: Path) -> None:
+    with Child(tmp_path / "a.run", STATIONS, cache) as child:
+        (verdict,) = set_breakpoints(child, at_line(6, instance="Main.b", condition="up = 2 AND total >= 20"))
+        assert verdict.verified, verdict.message
+        halt = child.halted()
+        assert (halt.reason, halt.pou, halt.instance, halt.past) == ("breakpoint", "Station", "Main.b", False)
+        assert halt.span is not None
+        assert (halt.span.line, halt.breakpoints) == (6, (1,))
+        total = int(child.value("total", 0))
+        assert total >= 20
+        assert child.value("up + 1", 0) == "3"
+        stack = child.ask(debug_protocol.WantStack, debug_protocol.Stack)
+        assert [each.name for each in stack.frames] == ["Main.b (Station)", "Main"]
+        assert child.step("over").ok
+        halt = child.halted(halt.number)
+        assert (halt.reason, halt.instance, halt.span and halt.span.line) == ("step", "Main", 13)
+        assert int(child.value("Main.b.total")) == total + 2
+        assert child.step("continue").ok
+        halt = child.halted(halt.number)
+        assert int(child.value("total", 0)) == total + 2
+
+
+def test_what_is_changed_while_halted_is_seen_by_the_next_statement(tmp_path: Path, cache: Path) -> None:
+    with Child(tmp_path / "a.run", STATIONS, cache) as child:
+        set_breakpoints(child, at_line(6, instance="Main.c"))
+        halt = child.halted()
+        before = int(child.value("total", 0))
+        answer = child.ask(
+            lambda ref: debug_protocol.SetExpression(ref, 0, "up", "1000", "Ann"), debug_protocol.Evaluated
+        )
+        assert answer.ok, answer.message
+        assert answer.variable is not None
+        assert answer.variable.value == "1000"
+        child.step("in")
+        halt = child.halted(halt.number)
+        assert int(child.value("Main.c.total")) == before + 1000
+        set_breakpoints(child, ())
+        child.step("continue")
+        child.wait(protocol.HostState, lambda state: state.state == "running" and not state.flavour)
+
+
+def test_back_into_an_earlier_scan_and_forward_to_where_it_stands(tmp_path: Path, cache: Path) -> None:
+    with Child(tmp_path / "a.run", STATIONS, cache) as child:
+        set_breakpoints(child, at_line(10, condition="n > 30"))
+        live = child.halted()
+        number, n = live.number, int(child.value("n", 0))
+        assert child.step("back").ok
+        halt = child.halted(number)
+        assert (halt.past, halt.scan, halt.span and halt.span.line) == (True, live.scan - 1, 6)
+        assert child.value("Main.n") == str(n)
+        refused = child.ask(lambda ref: protocol.Submit(ref, Write("Ann", "Main.n", "7")), protocol.Ack)
+        assert not refused.ok
+        assert child.step("continue").ok
+        again = child.wait(protocol.HostState, lambda state: state.halt is not None and not state.halt.past).halt
+        assert again == live
+
+
+def test_a_plc_that_is_killed_while_halted_stands_in_front_of_that_scan(tmp_path: Path, cache: Path) -> None:
+    run = tmp_path / "a.run"
+    with Child(run, STATIONS, cache) as child:
+        set_breakpoints(child, at_line(5, instance="Main.c", condition="total > 30"))
+        halt = child.halted()
+        total, n = int(child.value("total", 0)), int(child.value("Main.n"))
+        answer = child.ask(lambda ref: protocol.Submit(ref, Write("Ann", "Main.c.up", "500")), protocol.Ack)
+        assert answer.ok
+        child.step("in")
+        halt = child.halted(halt.number)
+        assert (halt.span and halt.span.line, child.value("up", 0)) == (6, "500")
+        os.kill(child.process.pid, signal.SIGKILL)
+    with Child(run, STATIONS, cache, paused=True, until=halt.scan) as child:
+        state = child.wait(protocol.HostState)
+        assert (state.scan, state.halt) == (halt.scan, None)
+        assert (int(child.value("Main.n")), int(child.value("Main.c.total"))) == (n - 1, total)
+        done = child.ask(lambda ref: protocol.Drive(ref, "scan", None, "Ann"), protocol.Ack)
+        assert done.ok
+        assert int(child.value("Main.c.total")) == total + 500, "what was written inside of the scan is in the journal"
+
+
+def test_the_program_can_be_halted_where_it_traps(tmp_path: Path, cache: Path) -> None:
+    source = "PROGRAM Main\nVAR n : DINT := 50; d : DINT; END_VAR\n  n := n - 1;\n  d := 100 / n;\nEND_PROGRAM\n"
+    with Child(tmp_path / "a.run", source, cache) as child:
+        set_breakpoints(child, (Breakpoint(1, "trap", "Ann"),))
+        halt = child.halted()
+        assert (halt.reason, halt.scan, halt.span and halt.span.line) == ("trap", 49, 4)
+        assert child.value("n", 0) == "0"
+        child.step("continue")
+        state = child.wait(protocol.HostState, lambda state: state.state in ("trapped", "fatal"))
+        assert state.trap is not None
+        assert (state.trap.line, state.halt) == (4, None)
+
+
+def test_a_logpoint_that_speaks_all_the_time_does_not_flood(tmp_path: Path, cache: Path) -> None:
+    with Child(tmp_path / "a.run", STATIONS, cache, speed=0) as child:
+        set_breakpoints(child, at_line(10, log="n is {n}"))
+        first = child.wait(debug_protocol.LogpointSaid)
+        assert first.text.startswith("n is ")
+        assert (first.file, first.line) == ("main.st", 10)
+        child.wait(debug_protocol.LogpointSaid, lambda said: "more were left out" in said.text)
+        counted = child.wait(debug_protocol.BreakpointsAre, lambda told: told.ref is None)
+        assert counted.verdicts[0].hits > 0
+
+
+def test_coverage_says_what_was_reached(tmp_path: Path, cache: Path) -> None:
+    source = "PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\n  IF n < 0 THEN\n    n := 0;\n  END_IF;\nEND_PROGRAM\n"
+    with Child(tmp_path / "a.run", source, cache) as child:
+        child.ask(lambda ref: debug_protocol.SetCoverage(ref, True, False, "Ann"), protocol.Ack)
+        found = child.wait(debug_protocol.Coverage, lambda told: any(each.reached for each in told.files[0].sites))
+        assert [(each.line, each.reached) for each in found.files[0].sites] == [(3, True), (4, True), (5, False)]
+        assert found.files[0].sites[1].outcomes == (("THEN", False), ("ELSE", True))
