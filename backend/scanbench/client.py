@@ -15,10 +15,12 @@ they are typed in the watch table: `TRUE`, `42`, `T#5s`, `'text'`.
 import json
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from time import monotonic_ns, sleep
+from threading import Event
 from urllib.error import HTTPError
 from urllib.parse import parse_qs, quote, urlencode, urlsplit
 from urllib.request import Request, urlopen
+
+from scanbench.runtime.clock import monotonic_ns
 
 Json = None | bool | int | float | str | list["Json"] | dict[str, "Json"]
 Value = str | int | float | bool
@@ -135,7 +137,7 @@ class Plc:
         while (state := self.state)["state"] in _GOES_ON:
             if monotonic_ns() > end:
                 raise TimeoutError(f"{said}: it still runs, at scan {state['scan']}")
-            sleep(_LOOK_S)
+            Event().wait(_LOOK_S)
         return str(state["message"])
 
     def pause(self) -> str:

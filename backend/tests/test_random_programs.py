@@ -9,6 +9,8 @@ from tests.programs.reduce import reduced
 PROGRAMS = 1000
 CONDITIONS = 200
 """Programs that a random condition is evaluated on."""
+BY_VALUE = 150
+"""Programs whose blocks take their in-outs by value."""
 BATCH = 50
 MOST_REFUSED = BATCH // 5
 """Programs of a batch with a constant that the checker must refuse."""
@@ -26,6 +28,20 @@ def test_engines_agree(first: int) -> None:
                 error.add_note(f"seed {seed} at O{level}:\n{source}")
                 raise
     assert compared >= BATCH - MOST_REFUSED
+
+
+@pytest.mark.parametrize("first", range(PROGRAMS, PROGRAMS + BY_VALUE, BATCH))
+def test_engines_agree_on_in_outs_by_value(first: int) -> None:
+    copied = 0
+    for seed in range(first, first + BATCH):
+        source = generate(seed)
+        for level in levels(seed):
+            try:
+                copied += compare(source, level, "value") and "VAR_IN_OUT" in source
+            except Exception as error:
+                error.add_note(f"seed {seed} at O{level}, in-outs by value:\n{source}")
+                raise
+    assert copied
 
 
 @pytest.mark.parametrize("first", range(0, CONDITIONS, BATCH))

@@ -23,7 +23,7 @@ export class Debug {
 
   /** The line that is next, in full width. */
   haltedLine(file: string): Locator {
-    return new Editor(this.page, file).region.locator('.haltline');
+    return new Editor(this.page, file).region.locator('.haltline').first();
   }
 
   /** What stands in the gutter of a file: `gl-bp`, `gl-bp-cond`, `gl-here` ... */

@@ -3,6 +3,7 @@ import { Debug } from './debug';
 import { Diagnostics } from './diagnostics';
 import { Editor } from './editor';
 import { Explorer } from './explorer';
+import { Forces } from './forces';
 import { InstanceList } from './instances';
 import { Problems } from './problems';
 import { Simulator } from './simulator';
@@ -16,6 +17,7 @@ export class Ide {
   readonly top: TopBar;
   readonly explorer: Explorer;
   readonly watch: Watch;
+  readonly forces: Forces;
   readonly simulator: Simulator;
   readonly sweeps: Sweeps;
   readonly problems: Problems;
@@ -28,6 +30,7 @@ export class Ide {
     this.top = new TopBar(page);
     this.explorer = new Explorer(page);
     this.watch = new Watch(page);
+    this.forces = new Forces(page);
     this.simulator = new Simulator(page);
     this.sweeps = new Sweeps(page);
     this.problems = new Problems(page);

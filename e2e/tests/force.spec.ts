@@ -24,6 +24,24 @@ test('a forced output stays as it is until it is released', async ({ openAs }) =
     await mika.watch.shows('motor', 'FALSE');
   });
 
+  await test.step('the panel of the forces says what the program wants, who forced and since when', async () => {
+    const jo = await openAs('Ada');
+    await jo.page.getByRole('button', { name: '1 forced' }).click();
+    await expect(jo.forces.row('motor')).toContainText('Mika');
+    await expect(jo.forces.row('motor').getByRole('gridcell').nth(1)).toHaveText('FALSE');
+    await expect(jo.page.getByTestId('now:motor')).toHaveText('FALSE');
+    await expect(jo.forces.cell('motor', 'After program')).toHaveText('TRUE');
+    await expect(jo.forces.cell('motor', 'After force')).toHaveText('FALSE');
+    await jo.page.getByRole('tab', { name: 'Watch', exact: true }).click();
+    await expect(jo.watch.row('motor')).toContainText('program writes TRUE');
+    await jo.watch.fromMenu('lamp', 'Force to FALSE');
+    await mika.page.getByRole('button', { name: '2 forced' }).click();
+    await expect(mika.forces.row('lamp')).toContainText('Ada');
+    await mika.forces.release('lamp');
+    await expect(jo.watch.releaseOf('lamp')).toBeHidden();
+    await mika.page.getByRole('tab', { name: 'Watch', exact: true }).click();
+  });
+
   await test.step('released, it follows the program', async () => {
     await mika.watch.releaseOf('motor').click();
     await mika.watch.shows('motor', 'TRUE');

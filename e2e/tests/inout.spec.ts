@@ -1,6 +1,8 @@
 import { expect, test } from '../fixtures/test';
 
-test('a change of an in-out goes to the variable that was passed, or to what another call passes', async ({ openAs }) => {
+test('a change of an in-out goes to the variable that was passed, or to what another call passes', async ({
+  openAs,
+}) => {
   const mika = await openAs('Mika');
   const jo = await openAs('Jo');
   await mika.runs();

@@ -105,7 +105,7 @@ test('addresses, ranges, parts, formats and what is refused', async ({ openAs })
   });
 });
 
-test('groups, order, filter, CSV and dragging', async ({ openAs }, { outputPath }) => {
+test('groups, order, filter, CSV and dragging', async ({ openAs }, info) => {
   const mika = await openAs('Mika');
   await mika.runs();
   const { watch, page } = mika;
@@ -162,7 +162,7 @@ test('groups, order, filter, CSV and dragging', async ({ openAs }, { outputPath 
   });
 
   await test.step('the list goes out as CSV and comes in again; lines that are wrong are named', async () => {
-    const file = outputPath('list.csv');
+    const file = info.outputPath('list.csv');
     const download = page.waitForEvent('download');
     await watch.more('Export CSV');
     await (await download).saveAs(file);

@@ -1,5 +1,8 @@
 """Runs a random program on both engines: whole images after every scan, and the same traps."""
 
+from dataclasses import replace
+from typing import Literal
+
 from scanbench.check.build import check_sources
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
@@ -28,9 +31,9 @@ class Refused(AssertionError):
     """The checker does not take a program that should be well-formed."""
 
 
-def checked(source: str) -> Program | None:
+def checked(source: str, in_out: Literal["reference", "value"] = "reference") -> Program | None:
     """The program; None where the checker saw a constant that it must refuse."""
-    found = check_sources({"random.st": source}, MODELS["GENERIC-IEC"])
+    found = check_sources({"random.st": source}, replace(MODELS["GENERIC-IEC"], in_out=in_out))
     errors = {problem.code for problem in found.problems if problem.severity is Severity.ERROR}
     if errors and errors <= KNOWN_TO_FAIL:
         return None
@@ -61,9 +64,9 @@ def difference(program: Program, opt_level: int) -> str:
     return ""
 
 
-def compare(source: str, opt_level: int) -> bool:
+def compare(source: str, opt_level: int, in_out: Literal["reference", "value"] = "reference") -> bool:
     """Whether the program could be compared; a difference is an AssertionError."""
-    program = checked(source)
+    program = checked(source, in_out)
     if program is None:
         return False
     found = difference(program, opt_level)

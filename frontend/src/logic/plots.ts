@@ -97,7 +97,7 @@ export function ticks({ from, to }: Range, count: number, whole = false): number
   let step = power * ([1, 2, 5, 10].find((factor) => factor * power >= raw) ?? 10);
   if (whole) step = Math.max(1, Math.round(step));
   const found: number[] = [];
-  for (let at = Math.ceil(from / step - 1e-9); at * step <= to + step * 1e-9; at += 1) found.push(at * step);
+  for (let at = Math.ceil(from / step - 1e-9); at * step <= to + step * 1e-9; at += 1) found.push(at * step + 0); // no -0
   return found;
 }
 

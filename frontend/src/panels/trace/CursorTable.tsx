@@ -81,7 +81,9 @@ export function CursorTable({ shown, samples }: Props) {
           >
             <span role="gridcell" className="row tight" title={signal.message || `${signal.text}: ${signal.type}`}>
               <Swatch color={color} dash={dash} bool={(signal.kind || "bool") === "bool"} />
-              <span className="mono cut">{signal.text}</span>
+              <span className="mono cut front">
+                <bdi>{signal.text}</bdi>
+              </span>
               {signal.message && <Icon name="warning" small />}
               {shown.trace && (
                 <IconButton

@@ -139,19 +139,20 @@ function steps(
   context.setLineDash([...dash]);
   context.beginPath();
   let last: number | null = null;
+  let high = 0; // where the stretch began that is TRUE
   for (let row = 0; row < xs.length; row += 1) {
     const value = ys[row] ?? null;
     const x = xOf((xs[row] as number) + shift, scale);
-    const next = row + 1 < xs.length ? xOf((xs[row + 1] as number) + shift, scale) : x;
-    if (value === null) {
-      last = null;
-      continue;
-    }
-    if (value) context.fillRect(x, top, Math.max(0.5, next - x), HIGH);
-    if (last === null) context.moveTo(x, y(value));
-    else context.lineTo(x, y(value));
-    context.lineTo(next, y(value));
+    if (last && !value) context.fillRect(high, top, Math.max(0.5, x - high), HIGH);
+    if (value && !last) high = x;
+    if (last !== null) context.lineTo(x, y(last));
+    if (value !== null && last === null) context.moveTo(x, y(value));
+    else if (value !== null) context.lineTo(x, y(value));
     last = value;
+  }
+  if (last && xs.length > 0) {
+    const end = xOf((xs.at(-1) as number) + shift, scale);
+    context.fillRect(high, top, Math.max(0.5, end - high), HIGH);
   }
   context.stroke();
   context.setLineDash([]);
