@@ -200,4 +200,6 @@ async function prepared(mika: Ide, project: string): Promise<void> {
   await expect(main.outcome).toContainText('Built');
   await mika.runs();
   for (const path of ['Main.go', 'Main.n', 'Main.a[3].count']) await mika.watch.add(path);
+  await main.text.focus();
+  await mika.page.keyboard.press('Control+Home');
 }

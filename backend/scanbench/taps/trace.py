@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from scanbench.check.condition import BadCondition, Signal, compile_signal
+from scanbench.check.condition import BadCondition, Signal, compile_signal, parsed
 from scanbench.check.program import Program
 from scanbench.check.types import BOOL, Elementary, Enumeration, Kind
 from scanbench.engines.sample import HEAD_WORDS, MAX_SIGNALS, Sampling
@@ -114,6 +114,9 @@ def trigger_signal(program: Program, trigger: TraceTrigger) -> Signal:
     if isinstance(given, BadCondition):
         raise BadTrace(f"Trigger: {given.message}", given.near)
     text, value = trigger.text.strip(), trigger.value.strip()
+    unreadable = parsed(value) if value else None  # what its names mean depends on what it is compared with
+    if isinstance(unreadable, BadCondition):
+        raise BadTrace(f"Trigger: the value `{value}` cannot be read: {unreadable.message}")
     if trigger.when in _COMPARED:
         text = f"({text}) {_COMPARED[trigger.when]} ({value})"
     elif value and trigger.when in ("rises", "falls", "changes"):

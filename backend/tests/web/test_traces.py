@@ -40,7 +40,9 @@ def run(server: Server, instance: int, scans: int) -> int:
     """So many scans, as fast as possible; the scan that is next."""
     with server.browser(instance) as browser:
         end = int(browser.ask(type="run", action="continue", speed=0, scans=scans)["scan"]) + scans
-        browser.wait(lambda: any(each["type"] == "state" and _stands(each["state"], end) for each in browser.messages), 30)
+        browser.wait(
+            lambda: any(each["type"] == "state" and _stands(each["state"], end) for each in browser.messages), 30
+        )
     return end
 
 
@@ -142,7 +144,10 @@ def test_what_cannot_be_recorded_is_refused(server: Server) -> None:
 
     assert refused(signals=["Main.rr"])["near"]
     assert "MiB" in refused(scans=10_000_000, signals=["Main.n"] + [f"Main.n + {k}" for k in range(40)])["message"]
-    assert "BOOL" in refused(trigger={"text": "Main.n"})["message"] or "TRUE" in refused(trigger={"text": "Main.n"})["message"]
+    assert (
+        "BOOL" in refused(trigger={"text": "Main.n"})["message"]
+        or "TRUE" in refused(trigger={"text": "Main.n"})["message"]
+    )
     assert "twice" in refused(signals=["Main.n", "Main.n"])["message"]
     assert "at most 64" in refused(signals=[f"Main.n + {k}" for k in range(65)])["message"]
     for number in range(8):
@@ -189,7 +194,9 @@ def test_scans_that_are_over_are_recorded_afterwards(server: Server) -> None:
         landed: list[Message] = []
 
         def over() -> bool:
-            landed.extend(each for each in browser.messages if each["type"] == "flight" and (each["record"] or each["message"]))
+            landed.extend(
+                each for each in browser.messages if each["type"] == "flight" and (each["record"] or each["message"])
+            )
             return bool(landed)
 
         browser.wait(over, timeout=60)

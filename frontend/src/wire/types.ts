@@ -34,14 +34,7 @@ export type FaultShape = Shapes["FaultShape"];
 export type FaultStart = Shapes["FaultStart"];
 export type FileInfo = Shapes["FileInfo"];
 export type FileText = Shapes["FileText"];
-/** The values of the last scan come as soon as one ran with the force. */
-export type ForceInfo = Shapes["ForceInfo"] & {
-  through?: string;
-  scan?: number | null;
-  before?: string;
-  after_program?: string;
-  after?: string;
-};
+export type ForceInfo = Shapes["ForceInfo"];
 export type GenerateOne = Shapes["GenerateOne"];
 export type HaltInfo = Shapes["HaltInfo"];
 export type HistoryOfVersion = Shapes["HistoryOfVersion"];

@@ -204,11 +204,15 @@ class Conversation:
         self._launching = True
         try:
             self._attach(await self._lender.launch(args, self._event))
+            self._event("initialized", {})
+            await self._configured.wait()
+            await self._lender.begin(self._needed().plc)
+        except BaseException:  # refused, or the client has cancelled it: it may launch again
+            await self._leave()
+            self._configured.clear()
+            raise
         finally:
-            self._launching = self._attached is not None
-        self._event("initialized", {})
-        await self._configured.wait()
-        await self._lender.begin(self._needed().plc)
+            self._launching = False
         self._respond(request.seq, request.command)
         self._event("process", {"name": self._needed().plc.session.name, "startMethod": "launch"})
         self._needed().events.start()

@@ -70,8 +70,10 @@ def test_a_tool_attaches_halts_steps_and_goes(server: Server, instance: int) -> 
         tool.halt("stepBack", threadId=1)
         assert tool.stack()[0]["line"] == COUNTS
         tool.ask("setBreakpoints", source={"path": "Main.st"}, breakpoints=[])
+        live = tool.halt("continue", threadId=1)  # out of the past, up to where the PLC stands
+        assert not live["scanbench"]["past"]
         assert tool.ask("continue", threadId=1) == {"allThreadsContinued": True}
-        assert tool.refused("stackTrace", threadId=1)
+        assert "not halted" in tool.refused("stackTrace", threadId=1)
         tool.ask("disconnect")
 
 

@@ -12,6 +12,15 @@ from tests.web.dap.test_socket import CALL_A, FIRST, PROGRAM
 from tests.web.server import Server
 
 
+TIMED = """PROGRAM Main
+VAR
+  t : TON;
+END_VAR
+t(IN := TRUE, PT := T#1h);
+END_PROGRAM
+"""
+
+
 @pytest.fixture
 def project(tmp_path: Path) -> Path:
     folder = tmp_path / "plant"
@@ -71,13 +80,29 @@ def test_arguments_are_checked(project: Path) -> None:
         assert "does not exist" in client.refused("launch", program=str(project / "no.st"))
 
 
+def test_a_launch_can_be_cancelled_and_tried_again(project: Path) -> None:
+    with StdioClient() as client:
+        client.ask("initialize", adapterID="scanbench")
+        seq = client.send("launch", program=str(project))
+        client.event("initialized")
+        client.ask("cancel", requestId=seq)
+        assert client.response(seq)["message"] == "cancelled"
+        assert "launch" in client.refused("threads")
+        seq = client.send("launch", program=str(project), stopOnEntry=True)
+        client.event("initialized")
+        client.ask("configurationDone")
+        assert client.response(seq)["success"]
+        client.event("stopped")
+
+
 def test_the_interval_counts(tmp_path: Path) -> None:
-    (tmp_path / "main.st").write_text(PROGRAM)
+    (tmp_path / "main.st").write_text(TIMED)
     with StdioClient(cwd=tmp_path) as client:
-        client.launch(Path("main.st"), interval="T#250ms", pace=0)
-        client.halt("pause", threadId=1)
-        scan = client.halt("scanbench/singleScan")["scanbench"]["scan"]
-        assert scan > 0
+        client.launch(Path("main.st"), interval="T#250ms", stopOnEntry=True)
+        client.event("stopped")
+        for _ in range(4):
+            client.halt("scanbench/singleScan")
+        assert client.value("Main.t.ET") == "T#750ms"
 
 
 def test_no_debug_runs_through(project: Path) -> None:

@@ -197,17 +197,14 @@ function ForceLine({ force, index, style, selected, onSelect, onMenu }: LineProp
       </span>
       <Text text={value} strong />
       <Text text={force.before} />
-      <Text
-        text={force.after_program}
-        differs={force.after_program !== undefined && force.after_program !== force.after}
-      />
+      <Text text={force.after_program} differs={force.after_program !== force.after} />
       <Text text={force.after} />
       <NowCell path={path} />
       <span role="gridcell" title={author}>
         {author}
       </span>
       <span className="num" role="gridcell">
-        {scan === undefined || scan === null ? "–" : grouped(scan)}
+        {grouped(scan)}
       </span>
       <span className="end" role="gridcell">
         <IconButton
@@ -222,7 +219,7 @@ function ForceLine({ force, index, style, selected, onSelect, onMenu }: LineProp
   );
 }
 
-function Text({ text, strong, differs }: { text: string | undefined; strong?: boolean; differs?: boolean }) {
+function Text({ text, strong, differs }: { text: string; strong?: boolean; differs?: boolean }) {
   const look = strong ? " forcedvalue" : differs ? " differs" : "";
   return (
     <span className={`num${look}`} role="gridcell" title={text}>

@@ -11,7 +11,7 @@ import { Field } from "../../ui/Field";
 
 /** The flight recorder: the last scans of any variables, found out from the journal. */
 export function FlightDialog({ onClose }: { onClose: () => void }) {
-  const shown = useTraces(shownOf);
+  const shown = shownOf(useTraces());
   const kept = useTimeline((run) => run.info?.first_scan ?? 0);
   const period = usePlc((plc) => plc.state?.interval_ns ?? 0);
   const [signals, setSignals] = useState(shown?.signals.map(({ text }) => text).join("\n") ?? "");
