@@ -3,12 +3,13 @@ import type { Ide } from '../pages/ide';
 
 const MAIN = `FUNCTION_BLOCK Counter
 VAR_INPUT run : BOOL; step : INT; END_VAR
-VAR count : INT; END_VAR
+VAR count : INT; done : BOOL; END_VAR
 VAR_TEMP next : INT; END_VAR
 next := count + step;
 IF run THEN
   count := next;
 END_IF;
+done := count > 0;
 END_FUNCTION_BLOCK
 
 PROGRAM Main
@@ -95,7 +96,7 @@ test('a breakpoint in one of three instances: look, change, step, go back, go on
     await debug.step('Step out');
     await expect(debug.frames).toHaveCount(1);
     await debug.fromGutter(FILE, 'a[i](run', 'Run to here');
-    await expect(top.state).toContainText('line 19');
+    await expect(top.state).toContainText('line 20');
     await debug.step('Step into');
     await expect(debug.frames).toHaveCount(2);
     await expect(debug.frames.first()).toContainText('a[1]');

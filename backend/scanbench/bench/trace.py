@@ -5,8 +5,9 @@
 """
 
 import argparse
+import json
 import time
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
@@ -127,9 +128,10 @@ def main() -> int:
     options = argparse.ArgumentParser(description=__doc__.splitlines()[0] if __doc__ else None)
     options.add_argument("--minutes", type=float, default=10)
     options.add_argument("--seconds", type=float, default=60)
+    options.add_argument("--json", action="store_true")
     given = options.parse_args()
     figures = run_trace_bench(given.minutes, given.seconds)
-    print(told(figures))
+    print(json.dumps({**asdict(figures), "ratio": figures.ratio}) if given.json else told(figures))
     return int(figures.lost > 0 or figures.paced_lost > 0)
 
 

@@ -148,16 +148,19 @@ class TraceRecords:
     # ---- the flight recorder --------------------------------------------------------------------------------------
 
     def fly(
-        self, session: Session, signals: tuple[str, ...], first: int, last: int, every: int, author: str
+        self, session: Session, signals: tuple[str, ...], scans: int, last: int | None, every: int, author: str
     ) -> FlightChanged:  # fmt: skip
-        """Begins to record scans that are over; how far it is comes as `FlightChanged` events."""
+        """Begins to record so many scans that are over, up to `last` (None: the newest); how far it is comes as
+        `FlightChanged` events."""
         live = max(session.state.scan, session.state.live_scan)
         if not 0 < len(signals) <= MAX_SIGNALS or len(set(signals)) < len(signals):
             raise Refused(f"{len(set(signals))} different signals: a record has 1 to {MAX_SIGNALS}")
-        if not 0 <= first <= last < live:
-            raise Refused(f"scans {first:,} to {last:,} are not over yet, or none: the PLC is at scan {live:,}")
-        if last - first >= MAX_FLIGHT:
-            raise Refused(f"{last - first + 1:,} scans are too many: {MAX_FLIGHT:,} at most")
+        if not 0 < scans <= MAX_FLIGHT:
+            raise Refused(f"{scans:,} scans cannot be recorded: from 1 to {MAX_FLIGHT:,}")
+        last = live - 1 if last is None else last
+        first = max(0, last - scans + 1)
+        if not 0 <= last < live:
+            raise Refused(f"scan {last:,} is not over yet: the PLC is at scan {live:,}")
         id, self._next = self._next, self._next + 1
         file = self._directory / f"flight-{fresh_token()}"
         changed = FlightChanged(id, author, 0, last - first + 1)

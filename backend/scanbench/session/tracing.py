@@ -54,9 +54,7 @@ class Tracing:
 
     async def define(self, number: int | None, definition: TraceDefinition, author: str, start: bool) -> TraceStatus:
         """A new trace, or another definition for one; `Refused` says why it cannot be."""
-        id = self._next if number is None else self.trace(number).id
-        if number is None:
-            self._next += 1
+        id = max(self._next, max(self._wanted, default=0) + 1) if number is None else self.trace(number).id
         before = self._wanted.get(id)
         self._wanted[id] = _Wanted(definition, author, start or (before is not None and before.on))
         try:
@@ -67,6 +65,7 @@ class Tracing:
             else:
                 self._wanted[id] = before
             raise
+        self._next = max(self._next, id + 1)
         self._changed()
         return self.trace(id)
 

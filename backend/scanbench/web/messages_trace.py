@@ -97,8 +97,8 @@ class NewFlight(Wire):
     """Scans that are over, to be recorded afterwards."""
 
     signals: list[SignalText] = Field(min_length=1, max_length=64)
-    first: Scan
-    last: Scan
+    scans: int = Field(ge=1, le=10_000_000)
+    last: Scan | None = Field(default=None, description="the last of them; null is the newest that is over")
     every: int = Field(default=1, ge=1, le=1_000_000)
 
 

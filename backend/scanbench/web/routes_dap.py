@@ -2,7 +2,6 @@
 
 import asyncio
 import json
-from collections import deque
 from contextlib import suppress
 
 from fastapi import APIRouter, WebSocket, WebSocketDisconnect
@@ -14,10 +13,9 @@ from scanbench.web.dap.conversation import Conversation
 from scanbench.web.dap.shapes import Body
 from scanbench.web.messages_base import Id
 from scanbench.web.reach import SocketBench
+from scanbench.web.waiting import Waiting
 
 router = APIRouter(prefix="/api", tags=["debug"])
-_WAITING = 20_000
-"""So many messages not yet sent: the client does not read."""
 
 
 @router.websocket("/instances/{instance}/dap")
@@ -43,10 +41,13 @@ async def on_dap(bench: SocketBench, socket: WebSocket, instance: Id) -> None:
             conversation.receive(message)
     except (WebSocketDisconnect, RuntimeError, KeyError):
         pass  # gone, or it sent bytes where only text is understood
+    except asyncio.CancelledError:
+        if not outbox.over:
+            raise
     finally:
-        await conversation.close()
         writer.cancel()
         await asyncio.gather(writer, return_exceptions=True)
+        await conversation.close()
 
 
 class Outbox:
@@ -54,18 +55,23 @@ class Outbox:
 
     def __init__(self, socket: WebSocket) -> None:
         self._socket = socket
-        self._texts: deque[str] = deque()
+        self._texts = Waiting()
         self._wake = asyncio.Event()
-        self._over = False
+        self._ended = False
+
+    @property
+    def over(self) -> bool:
+        """Whether so much waits that the connection ends: its client does not read."""
+        return self._texts.over
 
     def send(self, message: Body) -> None:
         """Soon."""
-        self._texts.append(json.dumps(message, ensure_ascii=False))
+        self._texts.add(json.dumps(message, ensure_ascii=False))
         self._wake.set()
 
     def end(self) -> None:
         """After what is to be sent, the connection is closed."""
-        self._over = True
+        self._ended = True
         self._wake.set()
 
     async def write(self) -> None:
@@ -74,11 +80,8 @@ class Outbox:
             while True:
                 await self._wake.wait()
                 self._wake.clear()
-                if len(self._texts) > _WAITING:
-                    await self._socket.close(1013, "too slow")
-                    return
                 while self._texts:
-                    await self._socket.send_text(self._texts.popleft())
-                if self._over:
+                    await self._socket.send_text(self._texts.take())
+                if self._ended:
                     await self._socket.close()
                     return

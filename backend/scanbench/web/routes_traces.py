@@ -131,7 +131,7 @@ async def on_new_flight(bench: Bench, request: Request, instance: Id, new: wire.
     """Records scans that are over, by running them again beside the PLC; progress comes by the instance's WebSocket."""
     signals = tuple(text.strip() for text in new.signals)
     begun = bench.trace_records.fly(
-        bench.session(instance), signals, new.first, new.last, new.every, user_of(request).name
+        bench.session(instance), signals, new.scans, new.last, new.every, user_of(request).name
     )
     return translate_trace.flight(begun)
 

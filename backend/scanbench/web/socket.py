@@ -30,10 +30,10 @@ from scanbench.web import messages_errors as simulator
 from scanbench.web import translate, translate_debug, translate_errors
 from scanbench.web.dap.attaching import ForBrowser
 from scanbench.web.dap.conversation import Conversation
+from scanbench.web.waiting import Waiting
 
 WAITING_FRAMES = 4
 """So many frames not yet sent: the browser is slow, and gets a snapshot instead."""
-WAITING_MESSAGES = 20_000
 ALIVE_AFTER_S = 5.0
 """So long without anything to tell: an `Alive` is sent. Browsers give up after 12 s of silence."""
 _Commanding = (
@@ -61,7 +61,7 @@ class Client:
         self._socket, self._session = socket, session
         self._id = 0
         self._ids: set[int] = set()
-        self._texts: deque[str] = deque()
+        self._texts = Waiting()
         self._state: events.StateChanged | None = None
         self._frames: deque[bytes] = deque()
         self._stale = False
@@ -83,7 +83,7 @@ class Client:
         elif isinstance(event, events.Watching):
             self._on_watching(event)
         else:
-            self._texts.append(translate.event(event).model_dump_json())
+            self._texts.add(translate.event(event).model_dump_json())
         self._wake.set()
 
     def on_frame(self, frame: bytes) -> None:
@@ -111,7 +111,7 @@ class Client:
             items = tuple(item for item in items if item.id in self._ids)
         self._ids.update(item.id for item in items if item.sent)
         if event.ref is not None or items:
-            self._texts.append(translate.event(events.Watching(event.ref, items)).model_dump_json())
+            self._texts.add(translate.event(events.Watching(event.ref, items)).model_dump_json())
 
     # ---- the socket -----------------------------------------------------------------------------------------------
 
@@ -132,21 +132,24 @@ class Client:
             breakpoints=list(map(translate_debug.breakpoint, self._session.debugging.verdicts)),
             coverage=translate_debug.coverage(covered) if (covered := self._session.debugging.coverage) else None,
         )
-        self._texts.appendleft(hello.model_dump_json())
+        self._texts.first(hello.model_dump_json())
         writer = asyncio.get_running_loop().create_task(self._write())
         try:
             while True:
                 await self._receive(await self._socket.receive_text())
         except (WebSocketDisconnect, RuntimeError, KeyError):
             pass  # gone, or it sent bytes where only text is understood
+        except asyncio.CancelledError:
+            if not self._texts.over:
+                raise
         finally:
             self._session.leave(self._id)
-            if self._dap is not None:
-                await self._dap.close()
             tasks = (writer, *self._slow)
             for task in tasks:
                 task.cancel()
             await asyncio.gather(*tasks, return_exceptions=True)
+            if self._dap is not None:
+                await self._dap.close()
 
     async def _write(self) -> None:
         while True:
@@ -157,11 +160,8 @@ class Client:
                 await self._socket.send_text(wire.Alive().model_dump_json())
                 continue
             self._wake.clear()
-            if len(self._texts) > WAITING_MESSAGES:
-                await self._socket.close(1013, "too slow")
-                return
             while self._texts:
-                await self._socket.send_text(self._texts.popleft())
+                await self._socket.send_text(self._texts.take())
             if self._state is not None:
                 state, self._state = self._state, None
                 await self._socket.send_text(translate.event(state).model_dump_json())
@@ -173,7 +173,7 @@ class Client:
 
     def _answer(self, ref: int, ok: bool, message: str, scan: int | None = None, near: tuple[str, ...] = ()) -> None:
         done = wire.Done(ref=ref, ok=ok, message=message, scan=scan, near=list(near))
-        self._texts.append(done.model_dump_json())
+        self._texts.add(done.model_dump_json())
         self._wake.set()
 
     # ---- from the browser -----------------------------------------------------------------------------------------
@@ -209,7 +209,7 @@ class Client:
         return self._dap
 
     def _say_dap(self, message: dict[str, object]) -> None:
-        self._texts.append(debugger.Dap.model_validate({"message": message}).model_dump_json())
+        self._texts.add(debugger.Dap.model_validate({"message": message}).model_dump_json())
         self._wake.set()
 
     def _end_dap(self) -> None:

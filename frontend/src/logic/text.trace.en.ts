@@ -35,8 +35,7 @@ export const traceEnglish = {
   "trace.fell": "fell",
   "trace.fit": "Whole buffer",
   "trace.flight": "Record of earlier scans",
-  "trace.flight.about":
-    "Runs these scans again from the journal, beside the PLC. The result is a record like any other.",
+  "trace.flight.about": "The journal has them: they are run again, beside the PLC.",
   "trace.flight.every": "Every so many scans",
   "trace.flight.menu": "Record earlier scans...",
   "trace.flight.noscans": "How many scans? Write a number.",

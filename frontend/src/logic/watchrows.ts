@@ -39,6 +39,8 @@ interface OfEntry {
 export interface ValueRow extends OfEntry {
   kind: "value";
   group: string;
+  /** Of its entry; a member may have another one. */
+  format: WatchEntry["format"];
   open: boolean;
   /** Known for members; for entries it comes with the watch's answer. */
   symbol: PlcSymbol | null;
@@ -101,9 +103,9 @@ export function watchRows(view: WatchListView): WatchRow[] {
       rows.push({ kind: "group", key: groupKey(group), name: group, open, count: entries.length });
       if (!open) continue;
     }
-    for (const { path } of entries) {
+    for (const { path, format } of entries) {
       const symbol = view.symbols.get(path) ?? null;
-      addRows(rows, view, { path, root: path, group, level: 0, symbol, inOut: inOutOf(symbol, path) });
+      addRows(rows, view, { path, root: path, group, format, level: 0, symbol, inOut: inOutOf(symbol, path) });
     }
   }
   return rows;
@@ -141,9 +143,9 @@ function shows(view: WatchListView, path: string, symbol: PlcSymbol | undefined,
 function addRows(
   rows: WatchRow[],
   view: WatchListView,
-  of: Pick<ValueRow, "path" | "root" | "group" | "level" | "symbol" | "inOut">,
+  of: Pick<ValueRow, "path" | "root" | "group" | "format" | "level" | "symbol" | "inOut">,
 ): void {
-  const { path, root, group, level, inOut } = of;
+  const { path, root, group, format, level, inOut } = of;
   const open = view.open.has(path);
   const named = { path, root, level };
   rows.push({ kind: "value", key: `value:${root}:${path}`, ...of, open });
@@ -155,7 +157,7 @@ function addRows(
   const shown = Math.max(PAGE, view.shown.get(path) ?? 0);
   for (const member of members.slice(0, shown)) {
     const below = inOutOf(member, member.path) ?? inOut;
-    addRows(rows, view, { path: member.path, root, group, level: level + 1, symbol: member, inOut: below });
+    addRows(rows, view, { path: member.path, root, group, format, level: level + 1, symbol: member, inOut: below });
   }
   if (members.length > shown) {
     rows.push({

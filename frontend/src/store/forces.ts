@@ -7,6 +7,9 @@ export interface WrittenBy {
   scan: number;
 }
 
+/** What a force did in the scan that ran last: it changes all the time, so it is kept apart. */
+export type ForceValues = Pick<ForceInfo, "before" | "after_program" | "after">;
+
 interface Forces {
   held: ReadonlyMap<string, ForceInfo>;
   written: ReadonlyMap<string, WrittenBy>;
@@ -23,8 +26,15 @@ export const forcedAt = (path: string): ForceInfo | undefined => forceOf(useForc
 
 export const useForcedAt = (path: string): ForceInfo | undefined => useForces((forces) => forceOf(forces, path));
 
+export const useForceValues = create<{ of: ReadonlyMap<string, ForceValues> }>(() => ({ of: new Map() }));
+
+const identity = ({ path, through, value, author, scan }: ForceInfo) => [path, through, value, author, scan].join("\n");
+
 /** All forces that hold now, as the PLC tells them. */
 export function onForces(forces: readonly ForceInfo[]): void {
+  useForceValues.setState({ of: new Map(forces.map((force) => [force.path, force])) });
+  const before = new Set(useForces.getState().held.values());
+  if ([...before].map(identity).join("\r") === forces.map(identity).join("\r")) return;
   const held = new Map<string, ForceInfo>();
   for (const force of forces) {
     // A force on an in-out holds what was passed: both rows are marked.

@@ -11,7 +11,6 @@ import { messageOf } from "./documents";
 import { saveFile } from "./download";
 import { keep, recall } from "./keep";
 import { showPanel } from "./navigate";
-import { liveScan } from "./timeline";
 
 export type Cursor = "a" | "b";
 
@@ -303,8 +302,7 @@ export async function compare(record: TraceRecordInfo | null, samples: Samples |
 export async function fly(signals: readonly string[], scans: number, every: number): Promise<void> {
   const instance = instanceId();
   if (instance === null) return;
-  const last = liveScan() - 1;
-  onFlight(await wire.fly(instance, signals, Math.max(0, last - scans + 1), last, every));
+  onFlight(await wire.fly(instance, signals, scans, every));
   set({ trouble: null });
 }
 

@@ -91,32 +91,37 @@ export async function refreshMembers(): Promise<void> {
 // ---- what is watched --------------------------------------------------------------------------------------------------
 
 const LINGER = 120;
-let release: () => void = () => undefined;
+let sight: () => void = () => undefined;
+let entries: { of: readonly WatchEntry[]; release: () => void } | null = null;
 let waiting: ReturnType<typeof setTimeout> | undefined;
-let watched = "";
 
 /** Watches what is in sight, and all entries where a sort or a filter looks at them. */
 export function watchInSight(paths: readonly string[]): void {
   clearTimeout(waiting);
   waiting = setTimeout(() => {
-    const { sort, filter } = get();
-    const entries = needsAll(sort, filter) ? useWatchLists.getState().content.entries.map(({ path }) => path) : [];
-    const wanted = [...new Set([...entries, ...paths])];
-    const key = wanted.join("\n");
-    if (key === watched) return;
-    watched = key;
-    const before = release;
-    release = watch(wanted);
+    watchEntries();
+    const before = sight;
+    sight = watch(paths);
     before();
   }, LINGER);
+}
+
+function watchEntries(): void {
+  const { sort, filter } = get();
+  const wanted = needsAll(sort, filter) ? useWatchLists.getState().content.entries : null;
+  if (wanted === (entries?.of ?? null)) return;
+  const before = entries;
+  entries = wanted && { of: wanted, release: watch(wanted.map(({ path }) => path)) };
+  before?.release();
 }
 
 /** Nothing is in sight any more. */
 export function watchNothing(): void {
   clearTimeout(waiting);
-  watched = "";
-  release();
-  release = () => undefined;
+  entries?.release();
+  entries = null;
+  sight();
+  sight = () => undefined;
 }
 
 // ---- the entries ------------------------------------------------------------------------------------------------------

@@ -2978,10 +2978,13 @@ export interface components {
              * @default 1
              */
             every: number;
-            /** First */
-            first: number;
-            /** Last */
-            last: number;
+            /**
+             * Last
+             * @description the last of them; null is the newest that is over
+             */
+            last?: number | null;
+            /** Scans */
+            scans: number;
             /** Signals */
             signals: string[];
         };

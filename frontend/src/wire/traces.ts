@@ -33,8 +33,8 @@ export const traces = {
   deleteRecord: async (record: number): Promise<void> => {
     await request("DELETE", `/trace-records/${record}`);
   },
-  fly: (instance: number, signals: readonly string[], first: number, last: number, every: number) =>
-    json<Flight>("POST", `/instances/${instance}/flights`, { signals, first, last, every }),
+  fly: (instance: number, signals: readonly string[], scans: number, every: number) =>
+    json<Flight>("POST", `/instances/${instance}/flights`, { signals, scans, every }),
   cancelFlight: async (flight: number): Promise<void> => {
     await request("DELETE", `/flights/${flight}`);
   },

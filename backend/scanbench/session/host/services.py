@@ -1,6 +1,6 @@
 """Phase 7, tool services: value frames, state, diagnostics, forces, marks; what the parent is told of the PLC."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from dataclasses import replace
 
 from scanbench.check.symbols import Symbol
@@ -10,7 +10,7 @@ from scanbench.faults.arm import ARMED, armed_faults
 from scanbench.faults.inject import ACTIVE
 from scanbench.faults.preview import preview
 from scanbench.runtime.clock import monotonic_ns
-from scanbench.runtime.forces import ForcedValue, forced_values
+from scanbench.runtime.forces import FORCED, Force, ForcedValue, forced_values
 from scanbench.runtime.recording import RecordingInfo
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.timeline import PAST, Timeline
@@ -52,6 +52,7 @@ class Services:
         self._state_at = self._counted_at = self._info_at = 0
         self._diagnosed: Violations | None = None
         self._standing: protocol.Standing | None = None
+        self._held: Mapping[str, Force] | None = None
         self._forces: tuple[ForcedValue, ...] = ()
         self._info: RecordingInfo | None = None
         timeline.new_entries()  # those of earlier lives were told by their hosts
@@ -137,6 +138,7 @@ class Services:
             self._last_state, self._state_at = state, now + COUNTING_NS
             self._link.post(state)
         self._tell_standing()
+        self._tell_forces(now >= self._counted_at)
         if now >= self._counted_at:
             self._counted_at = now + COUNTING_NS
             self._diagnose()
@@ -160,10 +162,17 @@ class Services:
         if standing != self._standing:
             self._standing = standing
             self._link.post(standing)
+
+    def _tell_forces(self, values: bool) -> None:
+        """Which forces hold at once, what they do a few times a second."""
+        held = self._resource.journal.derived(FORCED)
+        if held is self._held and not (values and held):
+            return
         forces = forced_values(self._resource.view)
         if forces != self._forces:
             self._forces = forces
             self._link.post(protocol.ForcesAre(forces))
+        self._held = held
 
     def _preview(self, asked: protocol.PreviewErrors) -> None:
         view = self._resource.view

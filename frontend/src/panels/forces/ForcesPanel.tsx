@@ -3,7 +3,7 @@ import { type CSSProperties, type KeyboardEvent, useEffect, useMemo, useRef, use
 import { grouped } from "../../logic/numbers";
 import { splitPath } from "../../logic/paths";
 import { t } from "../../logic/text";
-import { useForces } from "../../store/forces";
+import { useForces, useForceValues } from "../../store/forces";
 import { useForbidden } from "../../store/plc";
 import { watch } from "../../store/watches";
 import { addToWatch, releaseForce, useWatchList } from "../../store/watchlist";
@@ -164,6 +164,7 @@ function ForceLine({ force, index, style, selected, onSelect, onMenu }: LineProp
   const { path, value, author, through, scan } = force;
   const { own, name } = splitPath(path);
   const locked = useForbidden("force");
+  const did = useForceValues((values) => values.of.get(path)) ?? force;
   const refused = useWatchList((list) => list.notes.get(path)?.message);
   return (
     <div
@@ -196,9 +197,9 @@ function ForceLine({ force, index, style, selected, onSelect, onMenu }: LineProp
         </span>
       </span>
       <Text text={value} strong />
-      <Text text={force.before} />
-      <Text text={force.after_program} differs={force.after_program !== force.after} />
-      <Text text={force.after} />
+      <Text text={did.before} />
+      <Text text={did.after_program} differs={did.after_program !== did.after} />
+      <Text text={did.after} />
       <NowCell path={path} />
       <span role="gridcell" title={author}>
         {author}

@@ -5,8 +5,7 @@ import { memberName, type ValueRow } from "../../logic/watchrows";
 import { useForcedAt, useForces } from "../../store/forces";
 import { useForbidden } from "../../store/plc";
 import { useWatches } from "../../store/watches";
-import { formatOf, releaseForce, removeFromWatch, select, toggleOpen, useWatchList } from "../../store/watchlist";
-import { useWatchLists } from "../../store/watchlists";
+import { releaseForce, removeFromWatch, select, toggleOpen, useWatchList } from "../../store/watchlist";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import type { ForceInfo } from "../../wire/types";
@@ -31,8 +30,7 @@ export function ValueLine({ row, style, index, selected, target, onMenu }: Props
   const refusal = useWatches((state) => state.refusals.get(row.path));
   const forced = useForcedAt(row.path);
   const by = useForces((forces) => forces.written.get(row.path));
-  useWatchList((list) => list.formats.get(row.path));
-  useWatchLists((lists) => lists.content.entries);
+  const ownFormat = useWatchList((list) => list.formats.get(row.path));
   const symbol = row.symbol ?? answered ?? null;
   const { own, name } = row.level === 0 ? splitPath(row.path) : { own: "", name: memberName(row) };
   const title = [
@@ -94,7 +92,12 @@ export function ValueLine({ row, style, index, selected, target, onMenu }: Props
           {name}
         </span>
       </span>
-      <CurrentCell path={row.path} symbol={symbol} refusal={refusal ?? null} format={formatOf(row.path, row.root)} />
+      <CurrentCell
+        path={row.path}
+        symbol={symbol}
+        refusal={refusal ?? null}
+        format={(row.level > 0 && ownFormat) || row.format}
+      />
       <ChangeCell row={row} symbol={symbol} forced={forced !== undefined} />
       <span className="mono muted c-type" role="gridcell" title={symbol?.type}>
         {symbol?.type ?? ""}
