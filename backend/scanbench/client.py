@@ -2,7 +2,7 @@
 
     from scanbench.client import connect
 
-    plc = connect("http://127.0.0.1:8000/?token=...").plc("conveyor")
+    plc = connect("http://127.0.0.1:8700/?token=...").plc("conveyor")
     plc.write("Main.level", 7)            # an in-out goes to what it is bound to; the answer says where
     assert plc.read("Main.level") == "7"
     with plc.forced("D100", 5):
