@@ -6,6 +6,7 @@
 
 import argparse
 import json
+import sys
 import time
 from dataclasses import asdict, dataclass
 
@@ -131,7 +132,8 @@ def main() -> int:
     options.add_argument("--json", action="store_true")
     given = options.parse_args()
     figures = run_trace_bench(given.minutes, given.seconds)
-    print(json.dumps({**asdict(figures), "ratio": figures.ratio}) if given.json else told(figures))
+    text = json.dumps({**asdict(figures), "ratio": figures.ratio}) if given.json else told(figures)
+    sys.stdout.write(text + "\n")
     return int(figures.lost > 0 or figures.paced_lost > 0)
 
 

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from scanbench.check.local import Bad, locals_of
+from scanbench.check.local import Bad, Local, locals_of
 from scanbench.check.program import Pou, Program
 from scanbench.debug.message import Message
 from scanbench.engines.interpreter.evaluate import Evaluator
@@ -30,10 +30,14 @@ class Texts:
 
     def condition(self, pou: Pou | None, text: str) -> Holds:
         """A BOOL in the scope of a POU, or of the whole program. Raises `BadText`."""
+        return self.evaluator.condition(self.local(pou, text))
+
+    def local(self, pou: Pou | None, text: str) -> Local:
+        """The same, not made ready to run."""
         made = self.locals.condition(pou, text)
         if isinstance(made, Bad):
             raise BadText(f"condition: {made.message}")
-        return self.evaluator.condition(made)
+        return made
 
     def message(self, pou: Pou | None, text: str) -> Says:
         """A text with `{expression}` in it. Raises `BadText`."""

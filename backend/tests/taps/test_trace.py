@@ -97,7 +97,7 @@ def test_a_trigger_between_samples_is_still_exact(engine: EngineFactory) -> None
     bench.start()
     bench.run(400)
     assert (bench.trace.triggered, bench.trace.state) == (57, "complete")
-    assert bench.scans() == [scan for scan in range(0, 300) if scan % 10 == 0 and scan < 58 + 90]
+    assert bench.scans() == [scan for scan in range(300) if scan % 10 == 0 and scan < 58 + 90]
 
 
 @engines

@@ -9,7 +9,9 @@ def test_forces_are_told_to_everybody(server: Server) -> None:
     with server.browser(instance) as ada, server.browser(instance, "Aiko Sato") as aiko:
         ada.wait_state("running")
         assert ada.ask(type="force", path="Main.level", value="3")["ok"]
-        aiko.wait_for("forces", forces=[{"path": "Main.level", "value": "3", "author": "Ada Lovelace"}])
+        (force,) = aiko.wait_for("forces")["forces"]
+        assert (force["path"], force["value"], force["author"]) == ("Main.level", "3", "Ada Lovelace")
+        assert force["after"] == "3"
         with server.browser(instance, "Late Comer") as late:
             assert [force["path"] for force in late.hello["forces"]] == ["Main.level"]
         assert aiko.ask(type="release", path="main.LEVEL")["ok"]

@@ -2,6 +2,8 @@
 
 import csv
 import io
+import os
+import signal
 import struct
 from dataclasses import dataclass
 
@@ -131,6 +133,26 @@ def test_another_program_keeps_what_it_still_knows(server: Server) -> None:
     assert found.scans == list(range(found.first, found.first + 200))
     assert found.valid == [7] * 100 + [5] * 100
     assert found.values[2] == [2 * n for n in found.values[0]]
+
+
+def test_a_trace_outlives_the_process_of_its_plc(server: Server) -> None:
+    instance = paused(server, "trace killed")
+    trace = made(server, instance, trigger={"text": "Main.n", "when": "rises", "value": "900"}, scans=200)
+    run(server, instance, 300)
+    with server.browser(instance) as browser:
+        os.kill(int(server.state(instance)["pid"]), signal.SIGKILL)
+        browser.wait_state("restarting", 20)
+        browser.wait(lambda: any(_armed(each, trace["id"]) for each in browser.messages), 30)
+    run(server, instance, 1000)
+    done = trace_of(server, instance, trace["id"])
+    assert (done["state"], done["triggered"], done["by"]) == ("complete", 899, trace["by"])
+    found = samples(server, instance, trace["id"])
+    assert found.scans == list(range(799, 999))
+
+
+def _armed(message: Message, trace: int) -> bool:
+    told = message["traces"] if message["type"] == "traces" else []
+    return any(each["id"] == trace and each["state"] == "armed" and not each["note"] for each in told)
 
 
 def test_what_cannot_be_recorded_is_refused(server: Server) -> None:

@@ -11,7 +11,6 @@ from tests.web.dap.client import Closed, StdioClient
 from tests.web.dap.test_socket import CALL_A, FIRST, PROGRAM
 from tests.web.server import Server
 
-
 TIMED = """PROGRAM Main
 VAR
   t : TON;

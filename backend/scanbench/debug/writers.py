@@ -1,0 +1,191 @@
+"""Which statements may write a variable: more than do, never less. What cannot be told is taken for a writer."""
+
+from collections.abc import Iterator
+from dataclasses import fields, is_dataclass
+
+from scanbench.check.local import this_of
+from scanbench.check.program import (
+    Assign,
+    Base,
+    CallBlock,
+    CallFunction,
+    For,
+    Place,
+    Pou,
+    Program,
+    SetBytes,
+    Stmt,
+)
+from scanbench.check.sites import Sites
+from scanbench.check.symbols import Symbol, around, roots
+from scanbench.check.types import Elementary, Kind, Record, Type, base_of
+from scanbench.problems import Span
+
+
+def writers(program: Program, sites: Sites, symbol: Symbol) -> frozenset[int] | None:
+    """The sites; None when nothing can be said, as where it lies changes while the program runs."""
+    if symbol.slots or symbol.bit is not None:
+        return None
+    return _Search(program, sites, symbol).found()
+
+
+class _Search:
+    def __init__(self, program: Program, sites: Sites, symbol: Symbol) -> None:
+        self._program, self._sites, self._symbol = program, sites, symbol
+        self._begin, self._end = symbol.offset, symbol.offset + symbol.type.size
+        enclosing = list(_around(program, symbol.offset))
+        self._instances = [each for each in enclosing if isinstance(each.type, Record)]
+        mixed = any(each.type.kind is Kind.UNION for each in self._instances)
+        self._typed = symbol.address is None and not mixed
+
+    def found(self) -> frozenset[int]:
+        """All of them."""
+        found = {site for pou in self._sites.bodies for site in self._in_body(pou, pou.body)}
+        for task in self._program.tasks:
+            for each in task.programs:
+                for stmt in (*each.before, *each.after):
+                    number = self._sites.number(stmt)
+                    if number is not None and any(self._may_be(each.pou, place) for place in _written(stmt, self)):
+                        found.add(number)
+        return frozenset(found)
+
+    def _in_body(self, pou: Pou, body: tuple[Stmt, ...]) -> Iterator[int]:
+        for stmt in _numbered(body, self._sites):
+            if any(self._may_be(pou, place) for place in _written(stmt, self)):
+                number = self._sites.number(stmt)
+                assert number is not None
+                yield number
+
+    def number(self, stmt: object) -> int | None:
+        """The site of a statement."""
+        return self._sites.number(stmt)  # type: ignore[arg-type]
+
+    def has_sites(self, pou: Pou) -> bool:
+        """Whether its own statements tell what it writes."""
+        return pou in self._sites.bodies and not any(each.copied for each in pou.instance.members.values())
+
+    def _may_be(self, pou: Pou, place: Place | None) -> bool:
+        """Whether a place of a body may be, or hold, a part of the variable."""
+        if place is None:
+            return True
+        this = this_of(pou)
+        if place.reference is not None or place.slot is not None:
+            own = this is not None and place.slot is not None and place.slot.offset == this.offset
+            if own and place.slot is not None and place.slot.base is Base.FRAME and isinstance(this.type, Record):  # type: ignore[union-attr]
+                return self._in_instance(this.type, place)  # type: ignore[union-attr]
+            return self._fits(place.type)
+        if place.base is Base.IMAGE:
+            return self._reaches(place, 0)
+        return place.base is Base.SELF and self._in_instance(pou.instance, place)
+
+    def _in_instance(self, record: Record, place: Place) -> bool:
+        return any(_derived(each.type, record) and self._reaches(place, each.offset) for each in self._instances)
+
+    def _reaches(self, place: Place, base: int) -> bool:
+        first = last = base + place.offset
+        for index in place.indices:
+            low, high, stride = index.low, index.high, index.stride
+            if not (isinstance(low, int) and isinstance(high, int) and isinstance(stride, int)):
+                return True
+            last += (high - low) * stride
+        return first < self._end and self._begin < last + max(1, place.type.size)
+
+    def _fits(self, type: Type) -> bool:
+        """Whether something of this type, wherever it is, may have to do with the variable."""
+        own = self._symbol.type
+        if not self._typed or not (isinstance(type, Elementary) and isinstance(own, Elementary)):
+            return True
+        return _kind(type) == _kind(own)
+
+
+def _kind(type: Elementary) -> tuple[Kind, int]:
+    return base_of(type).kind, type.size
+
+
+def _numbered(body: object, sites: Sites) -> Iterator[Stmt]:
+    """The statements of a body that have a site, wherever they stand in it."""
+    for node in _nodes(body):
+        if sites.number(node) is not None:  # type: ignore[arg-type]
+            yield node  # type: ignore[misc]
+
+
+def _nodes(node: object) -> Iterator[object]:
+    if isinstance(node, tuple):
+        for each in node:
+            yield from _nodes(each)
+    elif is_dataclass(node) and not isinstance(node, Pou | Type | Span | type):
+        yield node
+        for field in fields(node):
+            yield from _nodes(getattr(node, field.name))
+
+
+def _of_statement(node: object, search: _Search, root: bool = True) -> Iterator[object]:
+    """A statement and what is in it, but for the statements in it that have a site of their own."""
+    if isinstance(node, tuple):
+        for each in node:
+            yield from _of_statement(each, search, False)
+    elif is_dataclass(node) and not isinstance(node, Pou | Type | Span | type):
+        if root or search.number(node) is None:
+            yield node
+            for field in fields(node):
+                yield from _of_statement(getattr(node, field.name), search, False)
+
+
+def _written(stmt: Stmt, search: _Search) -> Iterator[Place | None]:
+    """What a statement itself writes; None: who knows what."""
+    for node in _of_statement(stmt, search):
+        match node:
+            case Assign() | SetBytes():
+                yield node.target
+            case For():
+                yield node.variable
+            case CallBlock():
+                yield from _of_call(node, search)
+            case CallFunction():
+                known = search.has_sites(node.pou)
+                for name, arg in zip(node.pou.parameters, node.args, strict=False):
+                    member = node.pou.frame.members.get(name)
+                    passed = member is not None and member.bound
+                    if isinstance(arg, Place) and not (passed and known):
+                        yield arg
+
+
+def _of_call(call: CallBlock, search: _Search) -> Iterator[Place | None]:
+    yield from (target for _, target in call.outputs)
+    if not search.has_sites(call.pou):  # of a library, or with copies that are made around its body
+        yield call.instance
+        yield from (actual for _, actual in call.in_outs)
+        if any(each.copied for each in call.pou.instance.members.values()):
+            yield None
+    for place, _ in call.inputs:
+        if call.instance.slot is not None or call.instance.reference is not None:
+            yield None
+        else:
+            yield Place(
+                place.type, call.instance.base, call.instance.offset + place.offset,
+                (*call.instance.indices, *place.indices), variable=place.variable,
+            )  # fmt: skip
+
+
+def _derived(type: Type, record: Record) -> bool:
+    known: Record | None = type if isinstance(type, Record) else None
+    while known is not None:
+        if known is record or known.name.upper() == record.name.upper():
+            return True
+        known = known.base
+    return False
+
+
+def _around(program: Program, offset: int) -> Iterator[Symbol]:
+    """Everything that holds a byte of the image, from the outermost."""
+    ahead = list(roots(program))
+    while ahead:
+        inner = next((each for each in ahead if _holds(each, offset)), None)
+        if inner is None:
+            return
+        yield inner
+        ahead = around(inner, offset)
+
+
+def _holds(symbol: Symbol, offset: int) -> bool:
+    return not symbol.slots and symbol.address is None and symbol.offset <= offset < symbol.offset + symbol.type.size
