@@ -85,10 +85,12 @@ test('a breakpoint in one of three instances: look, change, step, go back, go on
 
   await test.step('a step back undoes, a step on does again', async () => {
     await debug.step('Step back');
-    await expect(top.state).toContainText('line 7');
+    await expect(top.state).toContainText('line 7, read-only');
+    await expect(page.getByRole('region', { name: 'In the past' })).toBeVisible();
     await expect(debug.variable('count')).toHaveText('30');
     await debug.step('Step over');
     await expect(debug.variable('count')).toHaveText('500');
+    await expect(top.state).toContainText('Halted');
   });
 
   await test.step('out of the block, and into it in the next scan', async () => {

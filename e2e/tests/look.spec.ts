@@ -108,7 +108,7 @@ test('by keyboard alone', async ({ openAs }) => {
 
   await test.step('a value is written from the watch table', async () => {
     await mika.goToPane('watch');
-    await mika.watch.row('start').click();
+    await mika.watch.name('start').click();
     await expect(mika.watch.table).toBeFocused();
     await press('Enter');
     await expect(mika.watch.entry('start')).toBeFocused();

@@ -3,8 +3,9 @@ import { Trace } from '../pages/trace';
 
 test('signals are recorded, a trigger catches an error, and earlier scans are recorded afterwards', async ({
   openAs,
+  server,
 }) => {
-  test.setTimeout(180_000);
+  test.setTimeout(300_000);
   const mika = await openAs('Mika');
   const trace = new Trace(mika.page);
   await mika.runs();
@@ -43,7 +44,9 @@ test('signals are recorded, a trigger catches an error, and earlier scans are re
     await expect(trace.pane).toContainText('280 of 400 scans');
     await expect(trace.state).toHaveText('Armed');
     await expect(others.state).toHaveText('Armed');
-    await mika.page.waitForTimeout(3500); // so that all that is wanted in front of the trigger is there
+    // all that is wanted in front of the trigger is there
+    const rows = async () => (await server.get<{ rows: number }[]>('/instances/1/traces'))[0]?.rows;
+    await expect.poll(rows).toBeGreaterThan(280);
     await mika.simulator.generate('Basic I/O Unit error');
     await expect(trace.state).toHaveText('Complete');
     await expect(others.state).toHaveText('Complete');
@@ -98,7 +101,7 @@ test('signals are recorded, a trigger catches an error, and earlier scans are re
     await dialog.getByLabel(/Last scans/).fill('1000');
     await dialog.getByRole('button', { name: 'Record' }).click();
     await expect(dialog).toBeHidden();
-    await expect(trace.pane).toContainText(/recorded afterwards by Mika/, { timeout: 60_000 });
+    await expect(trace.pane).toContainText(/recorded afterwards by Mika/, { timeout: 120_000 });
     await expect(trace.row('Main.uptime')).toBeVisible();
     const [head, ...rows] = await trace.csv();
     expect(head?.slice(2)).toEqual(['Main.uptime [s]', 'Main.belt.position', 'lamp']);

@@ -10,6 +10,7 @@ from scanbench.debug.halt import Halt
 from scanbench.debug.listener import Actions, Found, Listener, Position
 from scanbench.debug.past import Past
 from scanbench.debug.placed import Placing, error_names
+from scanbench.debug.probing import Prober
 from scanbench.debug.standing import halt_of
 from scanbench.engines.debug import NOTHING, Frame, Listen
 from scanbench.engines.engine import Pace, Reason, Stop
@@ -85,6 +86,15 @@ class Debugger:
     def flavour(self) -> str:
         """Which code runs."""
         return "" if self.resource.hook is None else "debug"
+
+    @property
+    def prober(self) -> Prober | None:
+        """Makes code with probes; without it long searches back take longer."""
+        return self._past.prober
+
+    @prober.setter
+    def prober(self, prober: Prober | None) -> None:
+        self._past.prober = prober
 
     @property
     def verdicts(self) -> tuple[Verdict, ...]:

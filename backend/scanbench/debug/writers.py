@@ -18,7 +18,7 @@ from scanbench.check.program import (
 )
 from scanbench.check.sites import Sites
 from scanbench.check.symbols import Symbol, around, roots
-from scanbench.check.types import Elementary, Kind, Record, Type, base_of
+from scanbench.check.types import Elementary, Kind, Record, Section, Type, base_of
 from scanbench.problems import Span
 
 
@@ -35,8 +35,9 @@ class _Search:
         self._begin, self._end = symbol.offset, symbol.offset + symbol.type.size
         enclosing = list(_around(program, symbol.offset))
         self._instances = [each for each in enclosing if isinstance(each.type, Record)]
-        mixed = any(each.type.kind is Kind.UNION for each in self._instances)
+        mixed = any(isinstance(each.type, Record) and each.type.overlaps for each in self._instances)
         self._typed = symbol.address is None and not mixed
+        self._passed: bool | None = None
 
     def found(self) -> frozenset[int]:
         """All of them."""
@@ -73,10 +74,24 @@ class _Search:
             own = this is not None and place.slot is not None and place.slot.offset == this.offset
             if own and place.slot is not None and place.slot.base is Base.FRAME and isinstance(this.type, Record):  # type: ignore[union-attr]
                 return self._in_instance(this.type, place)  # type: ignore[union-attr]
-            return self._fits(place.type)
+            return self._fits(place.type) and (not _behind_in_out(pou, place) or self.is_passed())
         if place.base is Base.IMAGE:
             return self._reaches(place, 0)
         return place.base is Base.SELF and self._in_instance(pou.instance, place)
+
+    def is_passed(self) -> bool:
+        """Whether any call passes it, or what it is a part of, to an in-out."""
+        if self._passed is None:
+            self._passed = False  # what is passed on was passed before
+            self._passed = any(
+                self._may_be(pou, place) for pou in self._program.pous for place in _passed(pou.body)
+            ) or any(
+                self._may_be(each.pou, place)
+                for task in self._program.tasks
+                for each in task.programs
+                for place in _passed((*each.before, *each.after))
+            )  # fmt: skip
+        return self._passed
 
     def _in_instance(self, record: Record, place: Place) -> bool:
         return any(_derived(each.type, record) and self._reaches(place, each.offset) for each in self._instances)
@@ -165,6 +180,24 @@ def _of_call(call: CallBlock, search: _Search) -> Iterator[Place | None]:
                 place.type, call.instance.base, call.instance.offset + place.offset,
                 (*call.instance.indices, *place.indices), variable=place.variable,
             )  # fmt: skip
+
+
+def _passed(body: tuple[Stmt, ...]) -> Iterator[Place]:
+    for node in _nodes(body):
+        if isinstance(node, CallBlock):
+            yield from (actual for _, actual in node.in_outs)
+        elif isinstance(node, CallFunction):
+            yield from (arg for arg in node.args if isinstance(arg, Place))
+
+
+def _behind_in_out(pou: Pou, place: Place) -> bool:
+    """Whether a place is what was passed to an in-out of the POU, or a part of that."""
+    slot = place.slot
+    if slot is None or slot.slot is not None or slot.reference is not None or slot.base is Base.IMAGE:
+        return False
+    record = pou.instance if slot.base is Base.SELF else pou.frame
+    members = record.members.values()
+    return any(each.section is Section.IN_OUT and each.offset == slot.offset for each in members)
 
 
 def _derived(type: Type, record: Record) -> bool:

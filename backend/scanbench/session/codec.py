@@ -62,7 +62,7 @@ _CLASSES: dict[str, type] = {
         debug_protocol.WantScopes, debug_protocol.WantVariables, debug_protocol.Evaluate, debug_protocol.SetExpression,
         debug_protocol.WantPlaces, debug_protocol.WantBinding, debug_protocol.SetCoverage, debug_protocol.WantCoverage,
         debug_protocol.BreakpointsAre, debug_protocol.LogpointSaid, debug_protocol.FrameInfo,
-        debug_protocol.Stack, debug_protocol.ScopeInfo, debug_protocol.Scopes, debug_protocol.VariableInfo,
+        debug_protocol.Stack, debug_protocol.WantTasks, debug_protocol.Tasks, debug_protocol.ScopeInfo, debug_protocol.Scopes, debug_protocol.VariableInfo,
         debug_protocol.Variables, debug_protocol.Evaluated, debug_protocol.PlaceInfo, debug_protocol.Places,
         debug_protocol.BoundTo, debug_protocol.Binding, CoveredSite, CoveredFile,
         debug_protocol.Coverage,

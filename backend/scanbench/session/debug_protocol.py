@@ -55,6 +55,13 @@ class WantStack:
 
 
 @dataclass(frozen=True, slots=True)
+class WantTasks:
+    """Answered with `Tasks`, whether it is halted or not."""
+
+    ref: int
+
+
+@dataclass(frozen=True, slots=True)
 class WantScopes:
     """The scopes of a frame (index into `Stack`); answered with `Scopes`."""
 
@@ -169,6 +176,15 @@ class Stack:
 
 
 @dataclass(frozen=True, slots=True)
+class Tasks:
+    """Answer to `WantTasks`."""
+
+    ref: int
+    names: tuple[str, ...]
+    """Of the program that is shown, in the order in which they run."""
+
+
+@dataclass(frozen=True, slots=True)
 class Scopes:
     ref: int
     scopes: tuple[ScopeInfo, ...]
@@ -232,8 +248,8 @@ class Coverage:
 
 
 DebugRequest = (
-    SetBreakpoints | Step | WantStack | WantScopes | WantVariables | Evaluate | SetExpression | WantPlaces | WantBinding
+    SetBreakpoints | Step | WantStack | WantTasks | WantScopes | WantVariables | Evaluate | SetExpression | WantPlaces | WantBinding
     | SetCoverage | WantCoverage
 )  # fmt: skip
-DebugAnswer = Stack | Scopes | Variables | Evaluated | Places | Binding | Coverage | BreakpointsAre
+DebugAnswer = Stack | Tasks | Scopes | Variables | Evaluated | Places | Binding | Coverage | BreakpointsAre
 __all__ = ["BoundTo", "FrameInfo", "ScopeInfo", "VariableInfo"]

@@ -220,7 +220,9 @@ def test_an_error_halts_in_front_of_the_first_statement_behind_it(walker: Walker
 
 
 def test_a_violation_halts_behind_the_statement(make: MakeDebug, tmp_path: Path) -> None:
-    source = STATIONS.replace("  sum := sum + total;", "  sum := sum + total;\n  small := DINT_TO_INT(total);\n  t := 1;")
+    source = STATIONS.replace(
+        "  sum := sum + total;", "  sum := sum + total;\n  small := DINT_TO_INT(total);\n  t := 1;"
+    )
     walker = Walker(tmp_path / "a.run", source, make)
     walker.set(Breakpoint(1, "violation", "Ann"))
     walker.run()

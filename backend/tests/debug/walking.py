@@ -1,18 +1,19 @@
 """PLCs to walk around in, for the tests of the debugger: what is seen at each position of a straight run."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
+from scanbench.check.program import Program
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.debugger import Debugger
 from scanbench.debug.halt import Halt
 from scanbench.engines.debug import DebugEngine
+from scanbench.engines.native.probed import ProbedBuilds
+from scanbench.engines.probe import Probe, ProbedEngine
 from scanbench.faults.inject import Generate
 from scanbench.problems import Span
 from scanbench.runtime.command import Command, Entry, Refusal
-from scanbench.runtime.timeline import Timeline
-from scanbench.check.program import Program
 from tests.runtime.recorded import begun
 
 MakeDebug = Callable[[Program, bytearray], DebugEngine]
@@ -65,12 +66,25 @@ class Heard:
         return tuple(each.id for each in entry.command.errors) if isinstance(entry.command, Generate) else ()
 
 
+class Counted:
+    """Makes probed engines, and counts them."""
+
+    def __init__(self) -> None:
+        self.made = 0
+        self._builds = ProbedBuilds()
+
+    def __call__(self, program: Program, memory: bytearray, probes: Sequence[Probe]) -> ProbedEngine:
+        self.made += 1
+        return self._builds.engine(program, memory, probes)
+
+
 class Walker:
     """A PLC with its debugger."""
 
     def __init__(self, path: Path, source: str = STATIONS, make: MakeDebug | None = None) -> None:
         self.timeline = begun(path, source)
         self.make = make
+        self.prober: Counted | None = None
         self.fit()
         self.heard = Heard()
         self.debugger = Debugger(self.timeline, self.heard)

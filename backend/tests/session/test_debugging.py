@@ -65,7 +65,8 @@ def test_what_is_set_while_the_plc_is_away_is_told_to_the_next_host() -> None:
     bench = Bench([Breakpoint(4, "line", "Ann", file="Main.st", line=2)])
     bench.host.away = True
     (verdict,) = bench.set(6, file="Belt.st")
-    assert not verdict.verified and "switch it on" in verdict.message
+    assert not verdict.verified
+    assert "switch it on" in verdict.message
     assert verdict.breakpoint.id == 5
     bench.host.away = False
     asyncio.run(bench.debugging.resend())

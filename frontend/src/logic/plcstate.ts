@@ -70,6 +70,7 @@ function detailOf(state: InstanceState): string {
     case "stopped":
       return t("state.noprogram");
     case "past":
+      if (state.halt && state.halt.file !== "") return t("debug.past", { line: state.halt.line });
       return t("state.readonly", { scan: grouped(state.scan) });
     case "off":
       return t("state.switchedoff");

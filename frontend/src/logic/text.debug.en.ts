@@ -115,6 +115,7 @@ export const debugEnglish = {
   "debug.next": "next statement",
   "debug.out": "Step out",
   "debug.over": "Step over",
+  "debug.past": "line {line}, read-only",
   "debug.reason.breakpoint": "at breakpoint",
   "debug.reason.data breakpoint": "at data breakpoint",
   "debug.reason.entry": "at entry",

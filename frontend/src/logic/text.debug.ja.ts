@@ -117,6 +117,7 @@ export const debugJapanese: Record<keyof typeof debugEnglish, string> = {
   "debug.next": "次の文",
   "debug.out": "ステップアウト",
   "debug.over": "ステップオーバー",
+  "debug.past": "{line} 行、読み出しのみ",
   "debug.reason.breakpoint": "ブレークポイント",
   "debug.reason.data breakpoint": "データブレークポイント",
   "debug.reason.entry": "開始時",

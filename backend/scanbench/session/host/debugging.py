@@ -113,6 +113,9 @@ class Debugging:
                     self._ack(request.ref, False, "the PLC is not halted: there are no calls to show")
                 else:
                     self._link.post(debug_protocol.Stack(request.ref, stack(self.scene())))
+            case debug_protocol.WantTasks():
+                tasks = self._resource.view.statements.tasks
+                self._link.post(debug_protocol.Tasks(request.ref, tuple(task.name for task in tasks)))
             case debug_protocol.WantScopes():
                 self._link.post(debug_protocol.Scopes(request.ref, scopes(self.scene(), request.frame)))
             case debug_protocol.WantVariables():

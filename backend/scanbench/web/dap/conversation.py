@@ -2,7 +2,7 @@
 
 import asyncio
 import logging
-from collections.abc import Awaitable, Callable
+from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import dataclass
 from typing import Protocol
 
@@ -12,6 +12,7 @@ from scanbench.session.events import Event, User
 from scanbench.session.instance import Unavailable
 from scanbench.session.refused import Refused
 from scanbench.web.dap import shapes
+from scanbench.web.dap.answers import fault, refusal, response
 from scanbench.web.dap.debuggee import Debuggee
 from scanbench.web.dap.events import Events
 from scanbench.web.dap.handlers import CAPABILITIES, HANDLERS
@@ -20,8 +21,6 @@ from scanbench.web.dap.shapes import Body
 log = logging.getLogger("scanbench")
 
 Send = Callable[[Body], None]
-Reply = Callable[[], None]
-"""Sends a response."""
 
 
 class Lender(Protocol):
@@ -70,6 +69,11 @@ class Conversation:
         self._running: dict[int, tuple[str, asyncio.Task[None]]] = {}
         self._launching = False
         self._over = False
+        self._own: dict[str, Callable[[shapes.Request], Awaitable[None]]] = {
+            "initialize": self._on_initialize, "launch": self._on_launch, "attach": self._on_attach,
+            "configurationDone": self._on_configuration_done, "disconnect": self._on_disconnect,
+            "terminate": self._on_terminate, "restart": self._on_restart, "cancel": self._on_cancel,
+        }  # fmt: skip
 
     # ---- from the transport ---------------------------------------------------------------------------------------
 
@@ -93,9 +97,9 @@ class Conversation:
             return  # nothing was asked of the client
         seq = message.get("seq") if isinstance(message, dict) else None
         command = message.get("command") if isinstance(message, dict) else None
-        self._respond(
+        self._refuse(
             seq if isinstance(seq, int) else 0, command if isinstance(command, str) else "",
-            failure=f"no request of DAP: {_first(error)}",
+            f"no request of DAP: {fault(error)}",
         )  # fmt: skip
 
     async def close(self) -> None:
@@ -129,29 +133,24 @@ class Conversation:
         try:
             await self._dispatch(request)
         except asyncio.CancelledError:
-            self._respond(request.seq, request.command, failure="cancelled")
+            self._refuse(request.seq, request.command, "cancelled")
             raise
         except (Refused, Unavailable) as error:
-            near = list(error.near) if isinstance(error, Refused) else []
-            self._respond(request.seq, request.command, failure=str(error), near=near)
+            near = error.near if isinstance(error, Refused) else ()
+            self._refuse(request.seq, request.command, str(error), near)
         except ValidationError as error:
-            self._respond(request.seq, request.command, failure=f"{request.command}: {_first(error)}")
+            self._refuse(request.seq, request.command, f"{request.command}: {fault(error)}")
         except Exception:
             log.exception("the DAP request %s could not be served", request.command)
-            self._respond(request.seq, request.command, failure=f"{request.command} failed: see the server's log")
+            self._refuse(request.seq, request.command, f"{request.command} failed: see the server's log")
 
     async def _dispatch(self, request: shapes.Request) -> None:
-        own: dict[str, Callable[[shapes.Request], Awaitable[None]]] = {
-            "initialize": self._on_initialize, "launch": self._on_launch, "attach": self._on_attach,
-            "configurationDone": self._on_configuration_done, "disconnect": self._on_disconnect,
-            "terminate": self._on_terminate, "restart": self._on_restart, "cancel": self._on_cancel,
-        }  # fmt: skip
-        if request.command in own:
-            await own[request.command](request)
+        if request.command in self._own:
+            await self._own[request.command](request)
             return
         handler = HANDLERS.get(request.command)
         if handler is None:
-            raise Refused(f"there is no request {request.command!r} here", tuple(sorted({*own, *HANDLERS})))
+            raise Refused(f"there is no request {request.command!r} here", tuple(sorted({*self._own, *HANDLERS})))
         attached = self._needed()
         if not attached.plc.breaks and request.command.endswith("Breakpoints"):
             self._respond(request.seq, request.command, _ignored(request.arguments))
@@ -294,16 +293,11 @@ class Conversation:
 
     # ---- to the client --------------------------------------------------------------------------------------------
 
-    def _respond(
-        self, request_seq: int, command: str, body: Body | None = None, failure: str = "", near: list[str] | None = None
-    ) -> None:
-        message: Body = {"type": "response", "request_seq": request_seq, "command": command, "success": not failure}
-        if failure:
-            error: Body = {"id": 1, "format": failure, "showUser": True}
-            message |= {"message": failure, "body": {"error": error, "near": near or []}}
-        elif body:
-            message["body"] = body
-        self._say(message)
+    def _respond(self, request_seq: int, command: str, body: Body | None = None) -> None:
+        self._say(response(request_seq, command, body))
+
+    def _refuse(self, request_seq: int, command: str, text: str, near: Sequence[str] = ()) -> None:
+        self._say(refusal(request_seq, command, text, near))
 
     def _event(self, event: str, body: Body) -> None:
         message: Body = {"type": "event", "event": event}
@@ -326,10 +320,3 @@ def _ignored(arguments: Body) -> Body:
     wanted = arguments.get("breakpoints")
     count = len(wanted) if isinstance(wanted, list) else 0
     return {"breakpoints": [{"verified": False, "message": "launched without debugging"}] * count}
-
-
-def _first(error: ValidationError) -> str:
-    """What is wrong, where."""
-    first = error.errors()[0]
-    place = ".".join(map(str, first["loc"]))
-    return f"{place}: {first['msg']}" if place else first["msg"]

@@ -67,10 +67,6 @@ class Attach(Args):
     local_root: str | None = None
 
 
-class Restart(Args):
-    arguments: Body = Field(default_factory=dict)
-
-
 class Disconnect(Args):
     restart: bool = False
     terminate_debuggee: bool | None = None

@@ -1,6 +1,6 @@
 """Threads of DAP are the tasks of the program; they stop together, as one PLC."""
 
-from collections.abc import Iterable
+from collections.abc import Sequence
 
 from scanbench.web.dap.shapes import Body
 
@@ -9,7 +9,8 @@ PLC = 1
 
 
 class Threads:
-    """Numbers for tasks, by name, in the order in which they become known."""
+    """Numbers for tasks, by name, in the order in which they become known. A task keeps its number, also while another
+    program runs that has none of this name."""
 
     def __init__(self) -> None:
         self._tasks: list[str] = []
@@ -20,15 +21,14 @@ class Threads:
             return PLC
         if task not in self._tasks:
             self._tasks.append(task)
-        return self._tasks.index(task) + 1
+        return self._tasks.index(task) + PLC
 
-    def learn(self, tasks: Iterable[str]) -> None:
-        """The tasks of the program, as far as somebody said."""
-        for task in tasks:
-            self.id(task)
+    def is_other(self, id: int, task: str) -> bool:
+        """Whether this is the number of a task, and not of this one."""
+        return PLC <= id < PLC + len(self._tasks) and id != self.id(task)
 
-    @property
-    def body(self) -> Body:
-        """As DAP lists them."""
-        names = self._tasks or ["PLC"]
-        return {"threads": [{"id": number, "name": name} for number, name in enumerate(names, PLC)]}
+    def listed(self, tasks: Sequence[str]) -> Body:
+        """The tasks of the program as DAP lists them; with none given, those that were known last."""
+        names = tasks or self._tasks
+        threads = [{"id": self.id(name), "name": name} for name in names]
+        return {"threads": threads or [{"id": PLC, "name": "PLC"}]}

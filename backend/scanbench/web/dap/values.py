@@ -19,16 +19,22 @@ _WORD = re.compile(r"[\w.\[\]^%]*\Z")
 
 async def on_threads(plc: Debuggee, _args: shapes.Nothing) -> Body:
     """A thread for each task."""
-    return plc.threads.body
+    try:
+        tasks = (await plc.ask(host.Tasks, host.WantTasks)).names
+    except Refused:  # it is away for a moment, or for good: who debugs it still wants to know what there was
+        tasks = ()
+    return plc.threads.listed(tasks)
 
 
 async def on_stack_trace(plc: Debuggee, args: shapes.StackTrace) -> Body:
-    """The frames, innermost first; none in the seam."""
+    """The frames, innermost first; none in the seam, and none of a task that does not run just now."""
     stack = await plc.ask(host.Stack, host.WantStack)
-    plc.threads.learn(frame.task for frame in stack.frames if frame.task)
+    frames = stack.frames
+    if frames and plc.threads.is_other(args.thread_id, frames[-1].task):
+        frames = ()
     end = args.start_frame + args.levels if args.levels else None
-    shown = stack.frames[args.start_frame : end]
-    return {"stackFrames": [_frame(plc, each) for each in shown], "totalFrames": len(stack.frames)}
+    shown = frames[args.start_frame : end]
+    return {"stackFrames": [_frame(plc, each) for each in shown], "totalFrames": len(frames)}
 
 
 def _frame(plc: Debuggee, frame: host.FrameInfo) -> Body:

@@ -9,6 +9,7 @@ import { isDirty, useDocuments } from "../../store/documents";
 import { loadMembers, useMembers } from "../../store/members";
 import { openFile } from "../../store/navigate";
 import { usePlc } from "../../store/plc";
+import { addToTrace } from "../../store/traces";
 import { openUserErrors } from "../../store/userErrors";
 import { addToWatch } from "../../store/watchlist";
 import type { IconName } from "../../ui/Icon";
@@ -176,7 +177,16 @@ function symbolRows(
       drag: symbol.path,
       onToggle: symbol.expandable ? toggle : undefined,
       onActivate: symbol.expandable ? toggle : add,
-      onMenu: (at) => openMenu([{ label: t("watch.addone"), icon: "eye", onSelect: add }], at),
+      onMenu: (at) =>
+        openMenu(
+          [
+            { label: t("watch.addone"), icon: "eye", onSelect: add },
+            ...(symbol.expandable
+              ? []
+              : [{ label: t("watch.totrace"), icon: "trigger" as const, onSelect: () => addToTrace(symbol.path) }]),
+          ],
+          at,
+        ),
       actions: <AddButton path={symbol.path} onAdd={add} />,
     };
     return open ? [row, ...symbolRows(symbol.path, level + 1, members, folding, openMenu)] : [row];

@@ -6,6 +6,7 @@ import { actualOf, type GroupRow, type ValueRow } from "../../logic/watchrows";
 import { useBindings } from "../../store/bindings";
 import { forcedAt } from "../../store/forces";
 import { usePlc } from "../../store/plc";
+import { addToTrace } from "../../store/traces";
 import { useWatches } from "../../store/watches";
 import {
   addToWatch,
@@ -29,6 +30,9 @@ export function rowMenu(row: ValueRow, onNewGroup: (path: string) => void): Menu
   return [
     ...forceItems(row, symbol),
     ...formatItems(row, symbol),
+    ...(symbol && !symbol.expandable
+      ? [{ label: t("watch.totrace"), icon: "trigger" as const, separated: true, onSelect: () => addToTrace(row.path) }]
+      : []),
     ...copyItems(row, symbol),
     ...(row.level === 0 ? groupItems(row, onNewGroup) : []),
     ...actualItems(row),

@@ -1,0 +1,65 @@
+"""Back to where something happened last, however long ago: the same with probes as statement by statement."""
+
+from pathlib import Path
+
+import pytest
+
+from scanbench.debug.breakpoint import Breakpoint
+from scanbench.runtime import checkpoints
+from scanbench.runtime.write import Write
+from tests.debug.test_walks import BUILDS
+from tests.debug.walking import STATIONS, Counted, Walker
+from tests.runtime.bench import value
+
+SELDOM = STATIONS.replace("VAR n, i,", "VAR rare, n, i,").replace(
+    "  motor :=", "  IF n MOD 700 = 0 THEN\n    rare := 7;\n    list[4] := n;\n  END_IF;\n  motor :="
+)
+
+
+@pytest.fixture(params=["probes", "statements"])
+def walker(request: pytest.FixtureRequest, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Walker:
+    monkeypatch.setattr(checkpoints, "EVERY_NS", 5_000_000)
+    walker = Walker(tmp_path / "a.run", SELDOM, BUILDS.engine)
+    walker.prober = Counted() if request.param == "probes" else None
+    walker.debugger.prober = walker.prober
+    assert walker.run(3000) is None
+    return walker
+
+
+@pytest.mark.parametrize(("path", "line"), [("Main.list[4]", 32), ("Main.rare", 31), ("Main.list", 32)])
+def test_the_last_write_of_a_variable(walker: Walker, path: str, line: int) -> None:
+    scans = [2799, 2099, 1399, 699] if path != "Main.list" else [2999, 2999, 2999, 2998]
+    for scan in scans:
+        walker.step("reverse", path=path)
+        assert walker.halt.past
+        assert walker.halt.scan == scan
+        assert (walker.line == line) == (path != "Main.list")
+        assert value(walker.timeline.resource, "Main.n") == scan + 1
+    if path != "Main.list":
+        refusal = walker.debugger.step("reverse", "Ann", path=path)
+        assert refusal is not None
+        assert "did not happen since scan 0" in refusal.message
+        assert walker.halt.scan == 699, "where nothing is found nothing moves"
+        if walker.prober is not None:
+            assert walker.prober.made > 0
+
+
+def test_a_breakpoint_that_held_long_ago(walker: Walker) -> None:
+    walker.set(
+        Breakpoint(1, "line", "Ann", file="main.st", line=14, instance="Main.a", condition="Main.n = 611"),
+        Breakpoint(2, "line", "Ann", file="main.st", line=32, enabled=False),
+    )
+    walker.step("reverse")
+    assert (walker.halt.scan, walker.halt.instance, walker.line) == (610, "Main.a", 14)
+    walker.step("continue")
+    assert not walker.halt.past
+    assert walker.halt.scan == 3000
+
+
+def test_what_was_written_from_outside_inside_of_a_scan_is_followed(walker: Walker) -> None:
+    walker.step("in")
+    walker.submit(Write("Ann", "Main.n", "699"))
+    walker.debugger.step("continue", "Ann")
+    assert walker.run(2000) is None
+    walker.step("reverse", path="Main.list[4]")
+    assert (walker.halt.scan, value(walker.timeline.resource, "Main.n")) == (4400, 2100)
