@@ -1,5 +1,6 @@
 """The debugger of one PLC: breakpoints, halts, steps, forward and back. In the thread that runs the scans."""
 
+from collections.abc import Callable
 from typing import Protocol
 
 from scanbench.debug.assign import Assign
@@ -10,13 +11,15 @@ from scanbench.debug.halt import Halt
 from scanbench.debug.listener import Actions, Found, Listener, Position
 from scanbench.debug.past import Past
 from scanbench.debug.placed import Placing, error_names
-from scanbench.debug.probing import Prober
+from scanbench.debug.probing import Prober, Probes
 from scanbench.debug.standing import halt_of
 from scanbench.engines.debug import NOTHING, Frame, Listen
 from scanbench.engines.engine import Pace, Reason, Stop
+from scanbench.engines.probe import Probe, ProbedEngine
 from scanbench.problems import Span
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.inside import HaltAt
+from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.timeline import Timeline
 
@@ -56,7 +59,13 @@ class Debugger:
         self._stood: Position = (-1, 0)
         """Where it was halted in the scan that is next: up to there nothing halts it."""
         self._past = Past(timeline, self.breakpoints)
+        self._probes = Probes()
+        self.want_probes: Callable[[Loaded, tuple[Probe, ...]], None] = lambda loaded, probes: None
+        """Asks somebody to make code with these probes, for `take_probed`; until that is there the debug flavour runs."""
+        self._exact: int | None = None
+        """The scan in which a probe was reached: it is run statement by statement."""
         timeline.resource.on_trap = self._on_trap
+        timeline.resource.on_probe = self._on_probe
         self._note_entries()
 
     # ---- what there is --------------------------------------------------------------------------------------------
@@ -85,7 +94,9 @@ class Debugger:
     @property
     def flavour(self) -> str:
         """Which code runs."""
-        return "" if self.resource.hook is None else "debug"
+        if self.resource.hook is not None:
+            return "debug"
+        return "" if self.resource.probed is None else "probed"
 
     @property
     def prober(self) -> Prober | None:
@@ -99,8 +110,10 @@ class Debugger:
     @property
     def verdicts(self) -> tuple[Verdict, ...]:
         """All breakpoints, and what became of each."""
-        sites = self._placing.sites if self.breakpoints.placed else None
-        return () if sites is None else tuple(each.verdict(sites) for each in self.breakpoints.placed)
+        if not self.breakpoints.placed:
+            return ()
+        sites = self.breakpoints.placing(self._timeline.live).sites
+        return tuple(each.verdict(sites) for each in self.breakpoints.placed)
 
     @property
     def placing(self) -> Placing:
@@ -120,14 +133,27 @@ class Debugger:
         placing = self.breakpoints.placing(self._timeline.live)
         made = self.breakpoints.set(group, kind, file, breakpoints, placing, self._timeline.live_scan)
         self._listener = None
+        self._find_probes()
         return tuple(each.verdict(placing.sites) for each in made)
 
     def moved(self) -> None:
         """Another program runs: each breakpoint has to find its place in it."""
         self.breakpoints.place_again(self._timeline.live, self._timeline.live_scan)
         self._listener, self.changed = None, True
+        self._find_probes()
         if not self._timeline.past:
             self._goal = None
+
+    def take_probed(self, loaded: Loaded, engine: ProbedEngine) -> None:
+        """Code that was asked for; it runs from the next scan on that nobody has to listen to."""
+        if loaded is self._timeline.live:
+            self._probes.take(engine)
+
+    def _find_probes(self) -> None:
+        loaded = self._timeline.live
+        wanted = self._probes.want(self.breakpoints, loaded)
+        if wanted is not None:
+            self.want_probes(loaded, wanted)
 
     # ---- running --------------------------------------------------------------------------------------------------
 
@@ -140,6 +166,8 @@ class Debugger:
         listener = self._arm()
         if listener is not None:
             listener.begin()
+            if self._probes.engine is not None:
+                scans = 1  # then the faster code goes on
         stop = self._timeline.run(scans, pace)
         self._look_for_errors()
         if stop.reason is Reason.HALTED:
@@ -160,7 +188,8 @@ class Debugger:
         """As `Timeline.submit`; what needs the seam lets a halted scan run to its end."""
         if self._timeline.past:
             return self._timeline.submit(command)
-        halt, listener = self._live_halt, self._listener
+        halt, hook = self._live_halt, self.resource.hook
+        listener = hook if isinstance(hook, Listener) else None
         if halt is not None and self.resource.inside is not None and listener is not None:
             listener.goal, listener.finishing = None, True
             listener.passed.begin = halt.scan, halt.count
@@ -227,11 +256,14 @@ class Debugger:
         if listener is None:
             listener = self._listener = Listener(resource, self._placing, placed, _Acting(self, resource))
         due = self._until_scan_breakpoint(0) == 0
-        wanted = listener.needed or self._goal is not None or self._pending is not None or self.covering or due
+        wanted = self._goal is not None or self._pending is not None or self.covering or due
+        probed = self._probes.engine
+        if not wanted and listener.needed:
+            wanted = probed is None or resource.begun or self._exact == resource.header.scan
         if not wanted:
             if resource.hook is not None:
                 resource.look()
-            resource.hook = None
+            resource.hook, resource.probed = None, probed if listener.needed else None
             return None
         listener.goal, listener.pending = self._goal, self._pending or listener.pending
         inside, scan = resource.inside, resource.header.scan
@@ -279,6 +311,11 @@ class Debugger:
             index -= 1
         self._last_entry = journal[-1] if journal else None
         return journal[index:] if index or last is None else []
+
+    def _on_probe(self) -> None:
+        """The scan in which a probe was reached is run again, statement by statement."""
+        self._timeline.rewind()
+        self._exact = self.resource.header.scan
 
     # ---- traps ----------------------------------------------------------------------------------------------------
 

@@ -4,12 +4,36 @@ from collections.abc import Callable, Iterable, Sequence
 
 from scanbench.check.program import Program
 from scanbench.debug.breakpoint import Breakpoint
+from scanbench.debug.breakpoints import Breakpoints
 from scanbench.debug.placed import Placed, Placing
 from scanbench.debug.writers import writers
 from scanbench.engines.probe import Probe, ProbedEngine
+from scanbench.runtime.programs import Loaded
 
 Prober = Callable[[Program, bytearray, Sequence[Probe]], ProbedEngine]
 """Makes an engine with probes. Raises `BadProbe`."""
+
+
+class Probes:
+    """The probes that stand for the breakpoints of a program, and code that has them."""
+
+    def __init__(self) -> None:
+        self._wanted: tuple[Probe, ...] | None = None
+        self.engine: ProbedEngine | None = None
+
+    def want(self, breakpoints: Breakpoints, loaded: Loaded) -> tuple[Probe, ...] | None:
+        """The probes, when code has to be made for them; None: there is code, or none can do."""
+        placed = breakpoints.placed
+        wanted = probes_of(placed, breakpoints.placing(loaded)) if placed else None
+        if self.engine is not None and wanted == self.engine.probes:
+            return None
+        self._wanted, self.engine = wanted, None
+        return wanted
+
+    def take(self, engine: ProbedEngine) -> None:
+        """Takes it, if it is still what is wanted."""
+        if engine.probes == self._wanted:
+            self.engine = engine
 
 
 def probes_of(placed: Iterable[Placed], placing: Placing) -> tuple[Probe, ...] | None:

@@ -71,6 +71,10 @@ class Resource:
         """Who listens to the debug flavour: while somebody does, it runs."""
         self.on_seen: Callable[[Seen], None] | None = None
         """Who is told what observed code or the debug flavour notes."""
+        self.probed: Engine | None = None
+        """Code with probes (`engines.probe`), which runs the live program instead of the ordinary one while nobody listens."""
+        self.on_probe: Callable[[], None] | None = None
+        """Called when a probe was reached: whoever it is goes back to where the scan began."""
         self.on_trap: Callable[[], bool] | None = None
         """Asked before a trap stops the program: true says that the scan was gone back to and is halted now."""
         loaded.memory[:] = fresh_image(loaded.program, mode)
@@ -99,6 +103,8 @@ class Resource:
         if self.hook is not None:
             return self.loaded.debugged()
         observed = self._observed
+        if self.probed is not None and observed is None:
+            return self.probed
         return self.loaded.engine if observed is None else observed.engine
 
     @engine.setter
@@ -169,6 +175,9 @@ class Resource:
         self._observe(waits)
         stop = self._run(self.engine, min(scans, 1) if waits.sites else scans, pace, self._conditions(waits))
         if stop.reason is Reason.HALTED:
+            if self.inside is None and self.on_probe is not None:
+                self.on_probe()
+                return Stop(Reason.KNOCKED)
             return stop
         if stop.reason is Reason.TRAP and self.on_trap is not None and self.on_trap():
             return Stop(Reason.HALTED)
@@ -389,7 +398,7 @@ class Resource:
         self.journal.append(entry)
 
     def _load(self, loaded: Loaded) -> None:
-        self.loaded, self.inside = loaded, None
+        self.loaded, self.inside, self.probed = loaded, None, None
         self.header = Header(loaded.memory)
         self.measured = Measured()
 

@@ -191,3 +191,22 @@ def test_a_subrange_is_kept(program: Program, ran: Evaluator) -> None:
 def test_made_once_for_a_program(program: Program) -> None:
     assert locals_of(program) is locals_of(program)
     assert locals_of(checked("PROGRAM Main VAR a : INT; END_VAR a := 1; END_PROGRAM")) is not locals_of(program)
+
+
+def test_a_function_that_does_not_come_to_an_end_is_given_up() -> None:
+    """Whoever looks at it must not hold up the PLC, however long the program itself may take."""
+    program = checked(
+        "FUNCTION forever : INT VAR_INPUT x : INT; END_VAR WHILE x > 0 DO forever := forever + 1; END_WHILE; END_FUNCTION\n"
+        "PROGRAM Main VAR v : INT; END_VAR v := forever(0); END_PROGRAM"
+    )
+    evaluator = Evaluator(program, bytearray(program.initial_image))
+    endless = locals_of(program).value(None, "forever(9)")
+    assert isinstance(endless, Local)
+    with pytest.raises(NoValue, match="loop"):
+        evaluator.value(endless, 0)
+    held = locals_of(program).condition(None, "forever(9) = 0")
+    assert isinstance(held, Local)
+    assert not evaluator.condition(held)(0)
+    ends = locals_of(program).value(None, "forever(0)")
+    assert isinstance(ends, Local)
+    assert evaluator.text(ends, 0) == "0"

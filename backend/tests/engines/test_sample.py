@@ -9,8 +9,11 @@ from scanbench.check.condition import BadCondition, Signal, compile_signal
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
 from scanbench.engines.engine import Engine, Reason, Stop
+from scanbench.engines.interpreter.debugged import debug_engine
 from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.native.debugged import DebugBuilds
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.engines.native.probed import ProbedBuilds
 from scanbench.engines.pair import PairEngine
 from scanbench.engines.sample import Sampling
 from tests.engines.native.plc import check
@@ -30,8 +33,13 @@ SIGNALS = [
     "Main.n", "Main.back", "Main.far", "Main.r", "Main.l", "Main.on", "Main.t", "Main.m.level", "Main.a + Main.b",
     "Main.list[Main.i]", "Main.p^", "Main.n > 5 AND Main.on", "D100",
 ]  # fmt: skip
-ENGINES: list[Callable[[Program, bytearray], Engine]] = [NativeEngine, ReferenceEngine, PairEngine]
-engines = pytest.mark.parametrize("make", ENGINES, ids=["native", "reference", "both"])
+ENGINES: list[Callable[[Program, bytearray], Engine]] = [
+    NativeEngine, ReferenceEngine, PairEngine, DebugBuilds().engine, debug_engine,
+    lambda program, memory: ProbedBuilds().engine(program, memory, ()),
+]  # fmt: skip
+engines = pytest.mark.parametrize(
+    "make", ENGINES, ids=["native", "reference", "both", "native debug", "reference debug", "probed"]
+)
 
 
 def signal(program: Program, text: str) -> Signal:

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar, cast
 
+from scanbench.check.layout import Layout
 from scanbench.check.local import Local, LocalAssignment, LocalAssignments, LocalPlace
 from scanbench.check.program import Expr, Place, Pou, Program, TrapSite
 from scanbench.check.types import Elementary, Kind, Record, StringType, Subrange, Type
@@ -18,6 +19,8 @@ from scanbench.engines.interpreter.violations import recorder
 from scanbench.problems import Span
 
 T = TypeVar("T")
+ROUNDS = 50_000
+"""Of loops in the functions that a text calls: the PLC waits for them, and this is some tenth of a second."""
 Spot = tuple[int, int | None]
 """Byte offset in the image, and a bit of that byte for a BOOL that is one."""
 _NOBODY = Pou("", "function", Record("", Kind.STRUCT), Record("", Kind.STRUCT), (), None, Span("", 0, 0, 0, 0))
@@ -102,6 +105,7 @@ class Evaluator:
             self._copy = Evaluator(self.program, bytearray(self.memory))
         else:
             self._copy.memory[:] = self.memory
+        self._copy.memory[Layout.BUDGET : Layout.BUDGET + 8] = ROUNDS.to_bytes(8, "little")
         return self._copy
 
     def _statements(self, pou: Pou | None) -> Statements:
