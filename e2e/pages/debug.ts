@@ -50,7 +50,7 @@ export class Debug {
   async fromGutter(file: string, part: string, item: string): Promise<void> {
     const { x, y } = await this.gutterAt(file, part);
     await this.page.mouse.click(x, y, { button: 'right' });
-    await this.page.getByRole('menuitem', { name: item, exact: true }).click();
+    await this.page.getByRole('menuitem', { name: item }).click();
   }
 
   /** The form below a line. */

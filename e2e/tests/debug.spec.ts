@@ -151,12 +151,12 @@ test('logpoint, execution point, data breakpoint, and coverage', async ({ openAs
     await page.getByRole('menuitem', { name: 'Break at a variable…' }).click();
     const dialog = page.getByRole('dialog', { name: 'Break at a variable…' });
     await dialog.getByRole('textbox', { name: 'Variable or address' }).fill('Main.a[2].count');
-    await dialog.getByRole('textbox', { name: 'Condition' }).fill('Main.a[2].count > 5000');
+    await dialog.getByRole('textbox', { name: 'Condition' }).fill('Main.a[2].count MOD 100 = 0');
     await dialog.getByRole('button', { name: 'Set' }).click();
     await expect(top.state).toContainText('at data breakpoint');
-    // Behind the statement that wrote: the first count of steps of two that is beyond.
+    // Behind the statement that wrote.
     await debug.evaluate('Main.a[2].count');
-    await expect(await debug.showConsole()).toContainText('5002');
+    await expect(await debug.showConsole()).toContainText(/\d00/);
     await debug.removeAll();
     await debug.step('Continue');
     await expect(top.state).toContainText('Running');

@@ -6,9 +6,10 @@ import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.check.symbols import resolve
+from scanbench.debug.assign import Assign
 from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Reason
-from scanbench.runtime.command import Entry
+from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.forces import Force
 from scanbench.runtime.inside import HaltAt
 from scanbench.runtime.programs import EngineFactory, Loaded
@@ -89,3 +90,74 @@ def test_bits_and_forces(convention: str) -> None:
     went_on(resource)
     assert value(resource, "Main.pump.valve.first") == 80
     assert resolve(resource.program, "Main.pump.valve.level").locate(resource.memory) is not None
+
+
+OVERLAPS = """
+TYPE Both : UNION word : WORD; bytes : ARRAY[0..1] OF BYTE; END_UNION; Part : STRUCT a, b : INT; END_STRUCT; END_TYPE
+FUNCTION_BLOCK Look
+VAR_IN_OUT on, fixed : BOOL; low : BYTE; part : Part; x : INT; END_VAR
+VAR saw_on : BOOL; saw_low : BYTE; saw_b, saw_x : INT; END_VAR
+saw_x := 0;
+saw_on := on; saw_low := low; saw_b := part.b; saw_x := x;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR look : Look; word AT D100 : WORD; bit AT D100.3 : BOOL; both : Both; parts : ARRAY[0..1] OF Part; x AT D200 : INT;
+  wide AT D200 : DINT; error AT A402.12 : BOOL; END_VAR
+look(on := bit, fixed := error, low := both.bytes[1], part := parts[1], x := x);
+END_PROGRAM
+"""
+
+
+def looking(engine: EngineFactory, convention: str) -> Resource:
+    """Halted in front of the statements of Look that copy what they see."""
+    checked = check_sources({"main.st": OVERLAPS}, replace(model(), in_out=convention))  # type: ignore[arg-type]
+    assert checked.program is not None, checked.problems
+    resource = Resource(Loaded.make(checked.program, engine))
+    assert isinstance(resource.submit(Write("Ada", "D100", "16#FFF7")), Entry)
+    resource.hook = HaltAt(3)
+    resource.listen(Listen(count=3))
+    assert resource.run(1).reason is Reason.HALTED
+    return resource
+
+
+def assigned(resource: Resource, text: str) -> Entry | Refusal:
+    """As an execution point in Look does."""
+    return resource.submit(Assign("Ada", "Look", resolve(resource.program, "Main.look").offset, text))
+
+
+@pytest.mark.parametrize("convention", ["reference", "value"])
+@pytest.mark.parametrize("engine", ENGINES)
+def test_what_overlaps_the_variable_is_seen_too(engine: EngineFactory, convention: str) -> None:
+    resource = looking(engine, convention)
+    for path, text in (("D100", "16#1008"), ("Main.both.word", "16#4321"), ("Main.wide", "9"), ("Main.parts[1].b", "5")):
+        assert isinstance(resource.submit(Write("Ada", path, text)), Entry)
+    went_on(resource)
+    assert value(resource, "Main.look.saw_on") is True
+    assert (value(resource, "D100"), value(resource, "Main.both.word")) == (0x1008, 0x4321)
+    assert (value(resource, "Main.look.saw_low"), value(resource, "Main.look.saw_b")) == (0x43, 5)
+    assert (value(resource, "Main.look.saw_x"), value(resource, "Main.wide")) == (9, 9)
+
+
+@pytest.mark.parametrize("convention", ["reference", "value"])
+@pytest.mark.parametrize("engine", ENGINES)
+def test_an_assignment_to_an_in_out_that_is_a_bit_leaves_the_other_bits(engine: EngineFactory, convention: str) -> None:
+    resource = looking(engine, convention)
+    entry = assigned(resource, "on := TRUE; part.b := part.b + 7")
+    assert isinstance(entry, Entry), entry
+    assert entry.plan.message == "Main.word.3 (D100.03) := TRUE; Main.parts[1].b := 7"
+    assert value(resource, "D100") == 0xFFFF
+    went_on(resource)
+    assert (value(resource, "D100"), value(resource, "Main.look.saw_on")) == (0xFFFF, True)
+    assert (value(resource, "Main.parts[1].b"), value(resource, "Main.look.saw_b")) == (7, 7)
+
+
+@pytest.mark.parametrize("convention", ["reference", "value"])
+def test_an_assignment_is_refused_where_a_write_is(convention: str) -> None:
+    resource = looking(ENGINES[0], convention)
+    said = assigned(resource, "fixed := TRUE")
+    assert isinstance(said, Refusal)
+    assert "read-only" in said.message
+    assert isinstance(resource.submit(Force("Ada", "Main.bit", "TRUE")), Entry)
+    said = assigned(resource, "on := FALSE")
+    assert isinstance(said, Refusal)
+    assert "forced" in said.message

@@ -146,9 +146,35 @@ def test_a_logpoint_that_speaks_all_the_time_does_not_flood(tmp_path: Path, cach
 
 
 def test_coverage_says_what_was_reached(tmp_path: Path, cache: Path) -> None:
-    source = "PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\n  IF n < 0 THEN\n    n := 0;\n  END_IF;\nEND_PROGRAM\n"
+    source = (
+        "PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\n  IF n < 0 THEN\n    n := 0;\n  END_IF;\nEND_PROGRAM\n"
+    )
     with Child(tmp_path / "a.run", source, cache) as child:
         child.ask(lambda ref: debug_protocol.SetCoverage(ref, True, False, "Ann"), protocol.Ack)
         found = child.wait(debug_protocol.Coverage, lambda told: any(each.reached for each in told.files[0].sites))
         assert [(each.line, each.reached) for each in found.files[0].sites] == [(3, True), (4, True), (5, False)]
         assert found.files[0].sites[1].outcomes == (("THEN", False), ("ELSE", True))
+
+
+def test_a_plain_breakpoint_runs_on_fast_code_once_that_is_built(tmp_path: Path, cache: Path) -> None:
+    with Child(tmp_path / "a.run", STATIONS, cache, speed=0) as child:
+        set_breakpoints(child, at_line(6, instance="", condition="total > 4000000 AND total < 0"))
+        child.wait(protocol.HostState, lambda state: state.flavour == "probed")
+        child.send(protocol.Drive(0, "speed", 1.0, "Ann"))
+        n = int(child.value("Main.n"))
+        set_breakpoints(child, at_line(11, condition=f"n = {n + 500}"))
+        child.wait(protocol.HostState, lambda state: state.flavour == "probed")
+        halt = child.halted()
+        assert (halt.reason, halt.instance, child.value("n", 0)) == ("breakpoint", "Main", str(n + 500))
+
+
+def test_back_to_the_last_write(tmp_path: Path, cache: Path) -> None:
+    source = STATIONS.replace("VAR n :", "VAR mark, n :").replace(
+        "  a(up := 1);", "  IF n = 1000 THEN\n    mark := 7;\n  END_IF;\n  a(up := 1);"
+    )
+    with Child(tmp_path / "a.run", source, cache, speed=0) as child:
+        child.wait(protocol.HostState, lambda state: state.scan > 100_000)
+        assert child.step("reverse", path="Main.mark").ok
+        halt = child.halted()
+        assert (halt.past, halt.scan, halt.span and halt.span.line) == (True, 999, 12)
+        assert child.value("n", 0) == "1000"

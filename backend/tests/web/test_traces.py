@@ -135,6 +135,34 @@ def test_another_program_keeps_what_it_still_knows(server: Server) -> None:
     assert found.values[2] == [2 * n for n in found.values[0]]
 
 
+def test_a_look_at_the_past_leaves_no_trace(server: Server) -> None:
+    instance = paused(server, "trace past")
+    trace = made(server, instance, scans=30_000)
+    start = int(server.state(instance)["scan"])
+    run(server, instance, 500)
+    with server.browser(instance) as browser:
+        assert browser.ask(type="travel", scan=start + 100)["ok"]
+        assert len(samples(server, instance, trace["id"]).scans) == 500
+        assert browser.ask(type="travel", scan=None)["ok"]
+    end = run(server, instance, 100)
+    assert samples(server, instance, trace["id"]).scans == list(range(start, end))
+
+
+def test_single_scans_and_writes_are_recorded(server: Server) -> None:
+    instance = paused(server, "trace halted")
+    trace = made(server, instance, scans=30_000)
+    start = int(server.state(instance)["scan"])
+    with server.browser(instance) as browser:
+        for _ in range(3):
+            assert browser.ask(type="run", action="scan", speed=None)["ok"]
+        wrote = browser.ask(type="write", path="Main.n", value="7000")
+        assert wrote["ok"], wrote
+    end = run(server, instance, 20)
+    found = samples(server, instance, trace["id"])
+    assert found.scans == list(range(start, end))
+    assert found.values[0][3:5] == [7001, 7002]
+
+
 def test_a_trace_outlives_the_process_of_its_plc(server: Server) -> None:
     instance = paused(server, "trace killed")
     trace = made(server, instance, trigger={"text": "Main.n", "when": "rises", "value": "900"}, scans=200)

@@ -4,11 +4,12 @@ import logging
 import threading
 from collections.abc import Callable
 
+from scanbench.engines.probe import Probe
 from scanbench.runtime.carry_over import NEW, REMOVED, Change, changes
 from scanbench.runtime.programs import Loaded
 from scanbench.session import protocol
 from scanbench.session.host.build import Builder
-from scanbench.session.host.debugcode import Debuggable
+from scanbench.session.host.debugcode import Debuggable, Probed
 from scanbench.session.host.limits import MemoryLimit
 from scanbench.session.host.link import Link
 from scanbench.session.host.loop import Loop
@@ -54,6 +55,13 @@ class Builds:
         ready, self._ready = self._ready, True
         if not ready or loop.timeline.live.debug is None:
             _behind("prepare", lambda: self._prepare(loop, not ready))
+
+    def serve_debugger(self, loop: Loop) -> None:
+        """Builds what the debugger asks for from now on."""
+        loop.debugging.build = lambda: self.debug(loop)
+        debugger = loop.debugging.debugger
+        debugger.want_probes = lambda loaded, probes: self.probe(loop, loaded, probes)
+        debugger.prober = self._builder.debug.prober
 
     def debug(self, loop: Loop) -> None:
         """Builds debugged code of what runs; the loop gets it."""
@@ -124,6 +132,22 @@ class Builds:
                 why = f"no code could be built that can be halted: {self._why(error)}"
                 code = Debuggable(loaded, None, None, why)
         loop.give(code)
+
+    def probe(self, loop: Loop, loaded: Loaded, probes: tuple[Probe, ...]) -> None:
+        """Builds code with probes, in whose place the debug flavour runs meanwhile."""
+        _behind("probe", lambda: self._probe(loop, loaded, probes))
+
+    def _probe(self, loop: Loop, loaded: Loaded, probes: tuple[Probe, ...]) -> None:
+        with self._building:
+            if loop.timeline.live is not loaded:
+                return
+            try:
+                engine = self._builder.debug.probed(loaded, probes)
+            except Exception as error:  # as above: it is slower without
+                log.warning("breakpoints stay slow: %s", self._why(error))
+                return
+        if engine is not None:
+            loop.give(Probed(loaded, engine))
 
     def _debuggable(self, loaded: Loaded) -> Debuggable:
         if loaded.debug is not None:

@@ -68,7 +68,7 @@ class Host:
         try:
             self._memory.hold(start.memory_mib)
             loop = open_loop(start, self._builder, self._link)
-            loop.debugging.build = lambda: self._builds.debug(loop)
+            self._builds.serve_debugger(loop)
             self._builds.optimise(loop)
             with self._handover:
                 self._loop = loop

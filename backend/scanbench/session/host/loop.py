@@ -25,7 +25,7 @@ from scanbench.session.codec import pack_body
 from scanbench.session.debug_protocol import DebugRequest
 from scanbench.session.host.course import MAX_SPEED, Course
 from scanbench.session.host.covering import Covering
-from scanbench.session.host.debugcode import Debuggable
+from scanbench.session.host.debugcode import Debuggable, Probed
 from scanbench.session.host.debugging import Debugging
 from scanbench.session.host.link import Link
 from scanbench.session.host.observed import Observable
@@ -173,7 +173,7 @@ class Loop:
                 self._entered(message.ref, self._debugger.submit(message.command))
             case protocol.Drive():
                 self._drive(message)
-            case _ if isinstance(message, DebugRequest | Debuggable):
+            case _ if isinstance(message, DebugRequest | Debuggable | Probed):
                 self._debug(message)
             case protocol.Travel():
                 self._travel(message)
@@ -274,9 +274,11 @@ class Loop:
 
     # ---- the debugger ---------------------------------------------------------------------------------------------
 
-    def _debug(self, message: DebugRequest | Debuggable) -> None:
+    def _debug(self, message: DebugRequest | Debuggable | Probed) -> None:
         self._tick = True
-        if isinstance(message, Debuggable):
+        if isinstance(message, Probed):
+            self._debugger.take_probed(message.loaded, message.engine)
+        elif isinstance(message, Debuggable):
             for waiting in self.debugging.on_ready(message):
                 self._serve(waiting)
         elif self.debugging.ready(message):

@@ -82,7 +82,10 @@ class Conversation:
         try:
             request = shapes.Request.model_validate(_without_nulls(message))
         except ValidationError as error:
-            self._on_nonsense(message, error)
+            self._on_nonsense(message, fault(error))
+            return
+        except RecursionError:
+            self._on_nonsense(message, "it is nested too deeply")
             return
         task = asyncio.get_running_loop().create_task(self._serve(request))
         self._running[request.seq] = request.command, task
@@ -92,14 +95,14 @@ class Conversation:
         if seq in self._running and self._running[seq][1] is task:
             del self._running[seq]
 
-    def _on_nonsense(self, message: object, error: ValidationError) -> None:
+    def _on_nonsense(self, message: object, text: str) -> None:
         if isinstance(message, dict) and message.get("type") in ("response", "event"):
             return  # nothing was asked of the client
         seq = message.get("seq") if isinstance(message, dict) else None
         command = message.get("command") if isinstance(message, dict) else None
         self._refuse(
             seq if isinstance(seq, int) else 0, command if isinstance(command, str) else "",
-            f"no request of DAP: {fault(error)}",
+            f"no request of DAP: {text}",
         )  # fmt: skip
 
     async def close(self) -> None:
@@ -278,7 +281,12 @@ class Conversation:
             return
         plc = attached.plc
         plc.session.leave(attached.number)
-        if await self._lender.end(plc):
+        try:
+            ended = await self._lender.end(plc)
+        except Exception:  # a client that goes is let go
+            log.exception("a debug session at %s did not end as it should", plc.session.name)
+            return
+        if ended:
             self._event("exited", {"exitCode": 0})
 
     def _on_gone(self, text: str) -> None:

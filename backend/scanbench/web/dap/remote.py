@@ -1,6 +1,7 @@
 """`attach` of `scanbench dap`: everything goes on to the WebSocket of a server, and comes back from there."""
 
 import asyncio
+import http.client
 import json
 import urllib.error
 import urllib.request
@@ -10,7 +11,7 @@ from dataclasses import dataclass
 from urllib.parse import parse_qs, quote, urlsplit
 
 from websockets.asyncio.client import ClientConnection, connect
-from websockets.exceptions import InvalidStatus, WebSocketException
+from websockets.exceptions import WebSocketException
 
 from scanbench.session.refused import Refused
 from scanbench.web.auth import USER
@@ -33,9 +34,14 @@ class Server:
     def of(args: shapes.Attach) -> "Server":
         """From the address as the server prints it, or host and port alone."""
         address = args.address or DEFAULT_ADDRESS
-        parts = urlsplit(address if "://" in address else f"http://{address}")
+        hint = "write http://HOST:PORT, as the server prints it"
+        try:
+            parts = urlsplit(address if "://" in address else f"http://{address}")
+            _ = parts.port  # is looked at only now
+        except ValueError as error:
+            raise Refused(f"address {address!r}: {error}; {hint}") from error
         if parts.scheme not in ("http", "https") or not parts.hostname:
-            raise Refused(f"address {address!r}: write http://HOST:PORT, as the server prints it")
+            raise Refused(f"address {address!r}: {hint}")
         token = args.token or next(iter(parse_qs(parts.query).get("token", [])), "")
         return Server(f"{parts.scheme}://{parts.netloc}", token)
 
@@ -54,7 +60,7 @@ class Server:
         except urllib.error.HTTPError as error:
             hint = "the token is missing or wrong: it is in the address that the server printed"
             raise Refused(hint if error.code == 401 else f"{self.base} answers {error.code}") from error
-        except (OSError, ValueError, KeyError, TypeError) as error:
+        except (OSError, ValueError, KeyError, TypeError, RecursionError, http.client.HTTPException) as error:
             reason = getattr(error, "reason", None) or error
             raise Refused(f"there is no Scanbench server at {self.base} ({reason})") from error
 
@@ -92,7 +98,7 @@ class Remote:
             connection = await connect(
                 address, additional_headers=server.headers, max_size=LARGEST, open_timeout=_WAIT_S, compression=None
             )
-        except (OSError, TimeoutError, InvalidStatus, WebSocketException) as error:
+        except (OSError, ValueError, WebSocketException) as error:
             raise Refused(f"{server.base} cannot be attached to: {error}") from error
         return Remote(connection, send, on_end)
 
@@ -112,9 +118,11 @@ class Remote:
         try:
             async for text in self._connection:
                 message = json.loads(text)
+                if not isinstance(message, dict):
+                    break  # no server of ours
                 if message.get("command") != "initialize" or message.get("request_seq") != self._initialize:
                     self._send(message)
-        except (WebSocketException, ValueError):
+        except (WebSocketException, ValueError, RecursionError):
             pass
         self._on_end()
 

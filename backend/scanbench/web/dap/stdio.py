@@ -1,50 +1,47 @@
 """`scanbench dap`: the adapter on standard input and output, as editors start it."""
 
 import asyncio
+import logging
 import os
 import queue
 import signal
 import sys
 import threading
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine, Sequence
 from contextlib import suppress
 
 from pydantic import ValidationError
 
 from scanbench.session.events import User
+from scanbench.session.nursery import nursery
 from scanbench.session.refused import Refused
 from scanbench.web.dap import shapes
+from scanbench.web.dap.answers import fault, refusal
 from scanbench.web.dap.conversation import Conversation
 from scanbench.web.dap.framing import BadFrame, Framing, framed
 from scanbench.web.dap.launching import Launcher
 from scanbench.web.dap.remote import Remote
 from scanbench.web.dap.shapes import Body
+from scanbench.web.dap.streams import own_streams
 
+log = logging.getLogger("scanbench")
 _CHUNK = 1 << 16
+_UNREAD = 20_000
+"""Messages that wait for a client; one that reads none of so many is gone."""
 
 
 def serve_stdio(author: str) -> None:
     """Speaks DAP until the client disconnects or closes the stream."""
     with suppress(KeyboardInterrupt):
-        asyncio.run(_serve(*_own_streams(), author))
-
-
-def _own_streams() -> tuple[int, int]:
-    """Standard input and output for us alone: what a library or a child prints must not get between the messages."""
-    ours = os.dup(0), os.dup(1)
-    nothing = os.open(os.devnull, os.O_RDONLY)
-    os.dup2(nothing, 0)
-    os.close(nothing)
-    os.dup2(2, 1)
-    return ours
+        asyncio.run(_serve(*own_streams(), author))
 
 
 async def _serve(incoming: int, outgoing: int, author: str) -> None:
     loop = asyncio.get_running_loop()
     chunks: asyncio.Queue[bytes] = asyncio.Queue()
     threading.Thread(target=_read, args=(incoming, loop, chunks), daemon=True).start()
-    writer = Writer(outgoing)
     over = asyncio.Event()
+    writer = Writer(outgoing, over.set)
     loop.add_signal_handler(signal.SIGTERM, over.set)  # as at the end of the stream: nothing is left behind
     front = Front(writer.send, author, over.set)
     framing = Framing()
@@ -84,15 +81,19 @@ def _read(stream: int, loop: asyncio.AbstractEventLoop, chunks: "asyncio.Queue[b
 class Writer:
     """Writes in a thread of its own, so that a client that does not read keeps nobody."""
 
-    def __init__(self, stream: int) -> None:
-        self._stream = stream
+    def __init__(self, stream: int, on_full: Callable[[], None]) -> None:
+        """`on_full` is called when the client does not read at all."""
+        self._stream, self._on_full = stream, on_full
         self._queue: queue.SimpleQueue[bytes | None] = queue.SimpleQueue()
         self._thread = threading.Thread(target=self._work, daemon=True)
         self._thread.start()
 
     def send(self, message: Body) -> None:
         """Soon."""
-        self._queue.put(framed(message))
+        if self._queue.qsize() < _UNREAD:
+            self._queue.put(framed(message))
+        else:
+            self._on_full()
 
     def close(self) -> None:
         """Writes the rest."""
@@ -116,6 +117,8 @@ class Front:
         self._conversation = Conversation(self._send, Launcher(author), User(author), on_end)
         self._initialize: Body = {}
         self._remote: Remote | None = None
+        self._attaching: tuple[object, asyncio.Task[None]] | None = None
+        """Number of the request, and what serves it."""
         self._waiting: list[object] | None = None
         self._tasks: set[asyncio.Task[None]] = set()
         self._last = ""
@@ -130,41 +133,52 @@ class Front:
         self._last = command if isinstance(command, str) else self._last
         if self._waiting is not None:
             self._waiting.append(message)
+            if self._attaching is not None and _ends(message, self._attaching[0]):
+                self._attaching[1].cancel()
         elif self._remote is not None:
             self._waiting = [message]
             self._begin(self._forward())
         elif command == "attach" and isinstance(message, dict) and self._initialize:
             self._waiting = []
-            self._begin(self._attach(message))
+            self._attaching = message.get("seq"), self._begin(self._attach(message))
         else:
             if command == "initialize" and isinstance(message, dict) and not self._initialize:
                 self._initialize = message
             self._conversation.receive(message)
 
-    def _begin(self, work: "asyncio.Future[None] | object") -> None:
-        assert asyncio.iscoroutine(work)
+    def _begin(self, work: Coroutine[None, None, None]) -> asyncio.Task[None]:
         task = asyncio.get_running_loop().create_task(work)
         self._tasks.add(task)
         task.add_done_callback(self._tasks.discard)
+        return task
 
     async def _attach(self, message: Body) -> None:
         try:
             args = shapes.Attach.model_validate(message.get("arguments") or {})
-            remote = await Remote.reach(args, args.user or self._author, self._send, self._on_remote_end)
-        except (Refused, ValidationError) as error:
-            text = str(error) if isinstance(error, Refused) else f"attach: {error.errors()[0]['msg']}"
-            self._send({
-                "type": "response", "request_seq": message.get("seq", 0), "command": "attach", "success": False,
-                "message": text, "body": {"error": {"id": 1, "format": text, "showUser": True}},
-            })  # fmt: skip
-            waiting, self._waiting = self._waiting or [], None
-            for each in waiting:
-                self.receive(each)
-            return
-        self._remote = remote
-        await remote.begin(self._initialize)
-        await remote.forward(message)
-        await self._forward()
+            self._remote = await Remote.reach(args, args.user or self._author, self._send, self._on_remote_end)
+        except Refused as error:
+            self._stay(message, str(error), error.near)
+        except ValidationError as error:
+            self._stay(message, f"attach: {fault(error)}")
+        except asyncio.CancelledError:
+            self._stay(message, "cancelled")
+        except Exception as error:  # whatever happened, the client waits for an answer
+            log.exception("attaching failed")
+            self._stay(message, f"attach failed: {error}")
+        else:
+            self._attaching = None
+            await asyncio.to_thread(nursery().close)  # nothing is launched any more
+            await self._remote.begin(self._initialize)
+            await self._remote.forward(message)
+            await self._forward()
+
+    def _stay(self, message: Body, text: str, near: Sequence[str] = ()) -> None:
+        """There is no server: we serve what came meanwhile."""
+        self._send(refusal(message.get("seq", 0), "attach", text, near))
+        self._attaching = None
+        waiting, self._waiting = self._waiting or [], None
+        for each in waiting:
+            self.receive(each)
 
     async def _forward(self) -> None:
         """What came meanwhile, in order."""
@@ -189,3 +203,12 @@ class Front:
         if self._remote is not None:
             await self._remote.close()
         await self._conversation.close()
+
+
+def _ends(message: object, attach: object) -> bool:
+    """Whether the client does not want to wait for `attach` any more."""
+    if not isinstance(message, dict):
+        return False
+    arguments = message.get("arguments")
+    wanted = arguments.get("requestId") if isinstance(arguments, dict) else None
+    return message.get("command") == "disconnect" or (message.get("command") == "cancel" and wanted == attach)
