@@ -155,8 +155,9 @@ test('logpoint, execution point, data breakpoint, and coverage', async ({ openAs
     await dialog.getByRole('button', { name: 'Set' }).click();
     await expect(top.state).toContainText('at data breakpoint');
     // Behind the statement that wrote.
+    const console_ = await debug.showConsole();
     await debug.evaluate('Main.a[2].count');
-    await expect(await debug.showConsole()).toContainText(/\d00/);
+    await expect(console_).toContainText(/\d00/);
     await debug.removeAll();
     await debug.step('Continue');
     await expect(top.state).toContainText('Running');

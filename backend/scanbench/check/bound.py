@@ -11,6 +11,8 @@ _DEEPEST = 256
 """Blocks that pass an in-out on to each other; an image from a file may hold a circle."""
 
 Image = bytes | bytearray | memoryview
+Spot = tuple[int, int | None]
+"""A place of the image: byte offset, and the bit of that byte for a BOOL that is one."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -35,12 +37,12 @@ class Copies:
         index = bisect_right(self.all, offset, key=lambda each: each.start) - 1
         return self.all[index] if index >= 0 and offset < self.all[index].end else None
 
-    def actual(self, memory: Image, offset: int, bit: int | None) -> tuple[int, int | None] | None:
+    def actual(self, memory: Image, offset: int, bit: int | None) -> Spot | None:
         """The variable that this byte, or bit, is a copy of in the end; it itself where it is no copy. None where the block
         was never called, or is not connected any more."""
         return [*self.chain(memory, offset, bit)][-1] if self.all else (offset, bit)
 
-    def chain(self, memory: Image, offset: int, bit: int | None) -> Iterator[tuple[int, int | None] | None]:
+    def chain(self, memory: Image, offset: int, bit: int | None) -> Iterator[Spot | None]:
         """It, and what it is a copy of, and so on up to the variable itself; ends with None where a block is not connected."""
         yield offset, bit
         for _ in range(_DEEPEST):

@@ -257,13 +257,20 @@ def _calls(statements: Iterable[Stmt]) -> Iterator[CallBlock]:
 
 
 def in_every_run(pou: Pou, call: CallBlock) -> bool:
-    """Whether the body of `pou` never ends without this call: it stands in no branch or loop, and nothing leaves before."""
+    """Whether the body of `pou` never ends without this call of this instance: it stands in no branch or loop, nothing
+    leaves before, and neither an index nor a reference picks the instance anew each time."""
+    if not _is_one(call.instance):
+        return False
     for stmt in pou.body:
         if stmt is call or (_is_always(stmt) and any(each is call for each in bodies(stmt)[0])):
             return True
         if _leaves(stmt):
             return False
     return False
+
+
+def _is_one(place: Place) -> bool:
+    return not place.indices and place.reference is None and (place.slot is None or _is_one(place.slot))
 
 
 def _is_always(stmt: Stmt) -> bool:

@@ -2,15 +2,12 @@
 
 from collections.abc import Iterator
 
+from scanbench.check.bound import Spot
 from scanbench.check.program import Pou, Program
 from scanbench.check.symbols import Symbol, UnknownPath, around, members, resolve, roots, roots_at
 from scanbench.check.types import BOOL, ArrayType, Elementary, Record, Type
 
-Place = tuple[int, int | None]
-"""Byte offset, and the bit of a BOOL."""
-
-
-def variable_at(program: Program, place: Place, type: Type) -> Symbol | None:
+def variable_at(program: Program, place: Spot, type: Type) -> Symbol | None:
     """The variable, or part of one, or address; None where nothing of this type is there, as behind a stray pointer."""
     for path in _paths(program, place, type):
         try:
@@ -22,7 +19,7 @@ def variable_at(program: Program, place: Place, type: Type) -> Symbol | None:
     return None
 
 
-def same_place(one: Place, other: Place) -> bool:
+def same_place(one: Spot, other: Spot) -> bool:
     """Whether two places are one; a BOOL that has its byte for itself is bit 0 of that."""
     return one[0] == other[0] and (one[1] or 0) == (other[1] or 0)
 
@@ -55,7 +52,7 @@ def _open(found: Type, wanted: Type) -> bool:
     return isinstance(found, ArrayType) and wanted.size == 0 and found.element.name in wanted.name
 
 
-def _paths(program: Program, place: Place, type: Type) -> Iterator[str]:
+def _paths(program: Program, place: Spot, type: Type) -> Iterator[str]:
     offset, bit = place
     found = program.layout.area_at(offset)
     if found is not None:
@@ -73,7 +70,7 @@ def _paths(program: Program, place: Place, type: Type) -> Iterator[str]:
             return
 
 
-def _below(symbol: Symbol, place: Place, type: Type) -> Iterator[str]:
+def _below(symbol: Symbol, place: Spot, type: Type) -> Iterator[str]:
     """Down to what begins there, from the outermost of the type."""
     offset, bit = place
     if symbol.offset == offset and _fits(symbol.type, type):

@@ -38,6 +38,8 @@ class Assign(Command):
             stored = Evaluator(program, bytearray(view.memory)).assigned(local, self.instance)
         except NoValue as error:
             return Refusal(str(error))
+        actual = program.layout.copies.actual
+        stored = [(each, actual(view.memory, *spot) or spot, data) for each, spot, data in stored]
         for each, spot, _ in stored:
             refusal = refused(view, spot, each.target.type, each.shown)
             if refusal is not None:

@@ -1,6 +1,6 @@
 """What an in-out is bound to: who passes what to it, and which of them ran last."""
 
-from scanbench.check.bound import referred
+from scanbench.check.bound import Spot, referred
 from scanbench.check.call_sites import (
     Calls,
     CallSite,
@@ -11,7 +11,7 @@ from scanbench.check.call_sites import (
     in_every_run,
     slot_value,
 )
-from scanbench.check.named import Place, same_place, temporary_at, variable_at
+from scanbench.check.named import same_place, temporary_at, variable_at
 from scanbench.check.program import Program, Task
 from scanbench.check.symbols import Symbol, resolve
 from scanbench.check.types import Elementary, StringType
@@ -56,7 +56,7 @@ class Bindings:
         return self._shown(view, symbol, place, site, last, scan)
 
     def _shown(
-        self, view: View, symbol: Symbol, place: Place | None, site: CallSite | None, last: bool, scan: int | None
+        self, view: View, symbol: Symbol, place: Spot | None, site: CallSite | None, last: bool, scan: int | None
     ) -> BoundTo:
         actual, address, message = "", "", ""
         if place is None:

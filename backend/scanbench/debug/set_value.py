@@ -37,6 +37,7 @@ class SetLocal(Command):
             return Refusal(local.message, local.near)
         try:
             spot = Evaluator(program, bytearray(view.memory)).locate(local, self.instance)
+            spot = program.layout.copies.actual(view.memory, *spot) or spot
             data = parsed_value(local.place.type, self.value, self.expression)
         except NoValue as error:
             return Refusal(str(error))

@@ -92,10 +92,11 @@ class Twin:
 
 
 def run_twin(
-    point: Point, commands: Sequence[tuple[int, Command]], window: int, programs: ObservedPrograms,
+    point: Point, commands: Sequence[tuple[int, Command | Entry]], window: int, programs: ObservedPrograms,
     limit: int,
 ) -> Twin:  # fmt: skip
-    """Runs from a point with these commands, each in front of a scan; what is refused now is left out."""
+    """Runs from a point with these commands, each in front of a scan; what is refused now is left out. An entry is one that
+    was made inside of its scan."""
     resource = _standing(point, programs)
     observer = programs.observer(point.version)
     observer.watch(())
@@ -104,7 +105,7 @@ def run_twin(
     waiting = list(commands)
     while len(trace) < window and not trace.full and resource.trap is None:
         while waiting and waiting[0][0] <= resource.header.scan:
-            resource.submit(waiting.pop(0)[1])
+            _give(resource, waiting.pop(0)[1])
         _advance(resource)
         trace.add(state_words(resource))
     return Twin(trace, observer.take().reached, resource.trap)
@@ -145,7 +146,7 @@ class Comparison:
         resource = _standing(self._point, self._programs)
         could_run = resource.runnable
         present = [id for id in resource.journal.derived(ACTIVE) if id != ref.id]
-        resource.reenter(generate)
+        _reenter(resource, generate)
         if resource.header.halt & Halt.FATAL_ERROR and chosen.error.severity == "fatal":
             return Reaction("stopped", 0, note="" if could_run else "the program did not run before either")
         own = [generate, *(each.entry for each in given if _is_about(each.entry.command, ref.id))]
@@ -307,12 +308,28 @@ def _standing(point: Point, programs: ObservedPrograms) -> Resource:
     loaded = programs.get(point.version)
     resource = Resource(loaded, programs=programs, detect=Detection())
     resource.restore(loaded, point.state, point.journal.prefix(len(point.journal)))
+    resource.lenient = True
     return resource
+
+
+def _reenter(resource: Resource, entry: Entry) -> None:
+    """As it was recorded: in the seam, or inside of the scan that is next."""
+    if entry.step:
+        resource.await_step(entry)
+    else:
+        resource.reenter(entry)
+
+
+def _give(resource: Resource, command: Command | Entry) -> None:
+    if isinstance(command, Entry):
+        resource.await_step(command)
+    else:
+        resource.submit(command)
 
 
 def _enter(resource: Resource, waiting: list[Given]) -> None:
     while waiting and waiting[0].scan <= resource.header.scan:
-        resource.reenter(waiting.pop(0).entry)
+        _reenter(resource, waiting.pop(0).entry)
 
 
 def _advance(resource: Resource) -> None:
@@ -344,7 +361,7 @@ def _following(
 ) -> _Following:
     """Runs it once more as it was: what is entered again by itself came from the PLC or its program, the rest from outside."""
     resource = _standing(point, programs)
-    resource.reenter(generate)
+    _reenter(resource, generate)
     begin = resource.header.scan
     end, note = begin + window, ""
     left: list[Entry] = []
@@ -360,7 +377,7 @@ def _following(
     while resource.header.scan < end and resource.trap is None:
         while left and left[0].scan <= resource.header.scan:
             given.append(Given(left[0].scan, left.pop(0)))
-            resource.reenter(given[-1].entry)
+            _reenter(resource, given[-1].entry)
         entered = len(resource.journal)
         _advance(resource)
         for made in resource.journal[entered:]:
@@ -370,10 +387,16 @@ def _following(
     return _Following(tuple(given), end - begin, note)
 
 
-def _without(generate: Entry, given: Iterable[Given], errors: Collection[str]) -> list[tuple[int, Command]]:
-    """The commands that the run without these errors gets."""
-    every = [(generate.scan, generate.command), *((each.scan, each.entry.command) for each in given)]
-    return [(scan, left) for scan, command in every if (left := _spared(command, errors)) is not None]
+def _without(generate: Entry, given: Iterable[Given], errors: Collection[str]) -> list[tuple[int, Command | Entry]]:
+    """The commands that the run without these errors gets. What is left of one inside of a scan comes behind that."""
+    found: list[tuple[int, Command | Entry]] = []
+    for scan, entry in ((generate.scan, generate), *given):
+        left = _spared(entry.command, errors)
+        if left is not None and entry.step:
+            found.append((scan, entry) if left is entry.command else (scan + 1, left))
+        elif left is not None:
+            found.append((scan, left))
+    return found
 
 
 def _spared(command: Command, errors: Collection[str]) -> Command | None:

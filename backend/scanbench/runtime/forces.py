@@ -6,10 +6,12 @@ there are the same bytes, and whoever releases one of them would release the oth
 """
 
 import struct
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
+from typing import TypeVar
 
 from scanbench.check.layout import Layout
+from scanbench.check.symbols import Symbol
 from scanbench.check.types import Elementary
 from scanbench.check.values import format_value
 from scanbench.runtime.command import Command, Entry, Patch, Plan, Refusal, Restarted, Swapped, View
@@ -19,6 +21,7 @@ from scanbench.runtime.target import Meant, everywhere, find, meant, writable_ta
 
 _ENTRY = struct.Struct("<IBBBB")
 _COUNT = struct.Struct("<I")
+Known = TypeVar("Known")
 
 
 @dataclass(frozen=True, slots=True)
@@ -69,20 +72,43 @@ class Force(Command):
 
     def _held_as(self, view: View, patch: Patch) -> "Force | None":
         """Another force of some of these bits."""
-        mine = set(_bits(patch))
-        table = read_table(view.memory)
-        if not any(table.get(at, (0, 0))[0] >> bit & 1 for at, bit in mine):
-            return None
-        for key, force in view.derived(FORCED).items():
-            theirs = force.bits(view) if key != _key(self.path) else None
-            if isinstance(theirs, Patch) and not mine.isdisjoint(_bits(theirs)):
-                return force
-        return None
+        others = (force for force in view.derived(FORCED).values() if _key(force.path) != _key(self.path))
+        first = 8 * patch.offset
+        mine = range(first, first + 8 * len(patch.mask))
+        if patch.mask[0] != 0xFF:
+            bit = patch.mask[0].bit_length() - 1
+            mine = range(first + bit, first + bit + 1)
+        return next((force for force, bits in _held(view, others) if _overlap(mine, bits)), None)
 
 
-def _bits(patch: Patch) -> Iterator[tuple[int, int]]:
-    for at, mask in enumerate(patch.mask, patch.offset):
-        yield from ((at, bit) for bit in range(8) if mask >> bit & 1)
+def _held(view: View, forces: Iterable[Force]) -> Iterator[tuple[Force, range]]:
+    """With the bits that each holds."""
+    for force in forces:
+        symbol = find(view, force.path)
+        if not isinstance(symbol, Refusal):
+            yield force, _bits(view, symbol)
+
+
+def _bits(view: View, symbol: Symbol) -> range:
+    """Where it is now, counted in bits of the image."""
+    place = symbol.locate(view.memory)
+    if place is None:
+        return range(0)
+    offset, bit = place
+    return range(8 * offset, 8 * (offset + symbol.type.size)) if bit is None else range(8 * offset + bit, 8 * offset + bit + 1)
+
+
+def _overlap(one: range, other: range) -> bool:
+    return max(one.start, other.start) < min(one.stop, other.stop)
+
+
+def _not_forced(path: str, bits: range, held: list[tuple[Force, range]]) -> Refusal:
+    """Nothing is released by the name of something larger or smaller: who forced it goes by the list of forces."""
+    others = [force for force, theirs in held if _overlap(bits, theirs)]
+    if not others:
+        return Refusal(f"{path} is not forced", tuple(force.path for force, _ in held))
+    shown = ", ".join(f"{force.path} by {force.author}" for force in others[:3]) + (", ..." if len(others) > 3 else "")
+    return Refusal(f"{path} is forced as {shown}: release that", tuple(force.path for force in others))
 
 
 @dataclass(frozen=True, slots=True)
@@ -100,7 +126,12 @@ class Release(Command):
         if isinstance(now, Meant) and _key(now.path) in forces:
             return replace(self, path=now.path)
         once = [force for force in forces.values() if _key(force.through) == _key(self.path)]
-        return replace(self, path=once[-1].path) if once else self
+        if once:
+            return replace(self, path=once[-1].path)
+        symbol = find(view, self.path)
+        mine = range(0) if isinstance(symbol, Refusal) else _bits(view, symbol)
+        same = next((force for force, bits in _held(view, forces.values()) if bits == mine), None)
+        return self if same is None else replace(self, path=same.path)
 
     def plan(self, view: View) -> Plan | Refusal:
         """The force table without these bits."""
@@ -114,19 +145,15 @@ class Release(Command):
         symbol = find(view, self.path)
         if isinstance(symbol, Refusal):
             return symbol
-        place = symbol.locate(view.memory)
+        mine = _bits(view, symbol)
+        if _key(self.path) not in forces:
+            return _not_forced(symbol.path, mine, [*_held(view, forces.values())])
         table = read_table(view.memory)
-        held = False
-        if place is not None:
-            offset, bit = place
-            for index in range(offset, offset + (1 if bit is not None else symbol.type.size)):
-                mask, value = table.pop(index, (0, 0))
-                keep = mask & ~(0xFF if bit is None else 1 << bit)
-                held = held or keep != mask
-                if keep:
-                    table[index] = (keep, value & keep)
-        if not held:
-            return Refusal(f"{symbol.path} is not forced", tuple(forces))
+        for at, bit in (divmod(each, 8) for each in mine):
+            mask, value = table.pop(at, (0, 0))
+            keep = mask & ~(1 << bit)
+            if keep:
+                table[at] = (keep, value & keep)
         return Plan(table_patches(view, table), f"{symbol.path} released")
 
 
@@ -153,13 +180,10 @@ def forced_values(view: View) -> tuple[ForcedValue, ...]:
     """All forces that hold, in the order in which they were entered."""
     since, notes, found = view.derived(FORCED_SINCE), _notes(view.memory), []
     for key, force in view.derived(FORCED).items():
-        target = writable_target(View(view.program, view.memory), force.path, Right.FORCE)
         symbol = find(view, force.path)
         place = None if isinstance(symbol, Refusal) else symbol.locate(view.memory)
-        if isinstance(target, Refusal) and place is None:
+        if isinstance(symbol, Refusal) or place is None:
             continue
-        assert not isinstance(symbol, Refusal)
-        assert place is not None
         offset, bit = place
         now = bytes(view.memory[offset : offset + symbol.type.size])
         texts = []
@@ -168,9 +192,7 @@ def forced_values(view: View) -> tuple[ForcedValue, ...]:
                 notes.get(at, (byte, byte))[which] if which < 2 else byte for at, byte in enumerate(now, offset)
             )
             texts.append(format_value(symbol.type, data if bit is None else bytes((data[0] >> bit & 1,))))
-        found.append(
-            ForcedValue(force.path, force.through, force.value, force.author, since.get(key, 0), *texts)
-        )  # fmt: skip
+        found.append(ForcedValue(force.path, force.through, force.value, force.author, since.get(key, 0), *texts))
     return tuple(found)
 
 
@@ -208,11 +230,20 @@ def table_patches(view: View, table: dict[int, tuple[int, int]]) -> tuple[Patch,
 
 
 def _step(held: Mapping[str, Force], entry: Entry) -> Mapping[str, Force]:
+    kept = _kept(held, entry)
+    return {**kept, _key(entry.command.path): entry.command} if isinstance(entry.command, Force) else kept
+
+
+def _since(known: Mapping[str, int], entry: Entry) -> Mapping[str, int]:
+    kept = _kept(known, entry)
+    return {**kept, _key(entry.command.path): entry.scan} if isinstance(entry.command, Force) else kept
+
+
+def _kept(held: Mapping[str, Known], entry: Entry) -> Mapping[str, Known]:
+    """Without what the entry releases."""
     command, effect = entry.command, entry.plan.effect
     if isinstance(effect, Restarted) and effect.kind != "warm":
         return {}
-    if isinstance(command, Force):
-        return {**held, _key(command.path): command}
     gone: tuple[str, ...] = ()
     if isinstance(effect, Swapped):
         gone = effect.released
@@ -221,7 +252,7 @@ def _step(held: Mapping[str, Force], entry: Entry) -> Mapping[str, Force]:
             return {}
         gone = (command.path,)
     keys = {_key(path) for path in gone}
-    return {key: force for key, force in held.items() if key not in keys} if keys else held
+    return {key: each for key, each in held.items() if key not in keys} if keys else held
 
 
 def _key(path: str) -> str:
@@ -231,10 +262,5 @@ def _key(path: str) -> str:
 FORCED: Fold[Mapping[str, Force]] = Fold({}, _step)
 """The forces that hold, by path in upper case."""
 
-
-def _since(known: Mapping[str, int], entry: Entry) -> Mapping[str, int]:
-    return {**known, _key(entry.command.path): entry.scan} if isinstance(entry.command, Force) else known
-
-
 FORCED_SINCE: Fold[Mapping[str, int]] = Fold({}, _since)
-"""In front of which scan each path was forced last, in upper case: also of those that were released."""
+"""In front of which scan each of them was entered last."""

@@ -70,12 +70,16 @@ class Passage:
         self.engine.hook(self)
         self._tell(0)
 
-    def end(self, ended: bool) -> None:
-        """Behind `engine.run`; `ended`: the scan went to its end. What could not be entered is an error then."""
+    def end(self, ended: bool, lenient: bool) -> None:
+        """Behind `engine.run`; `ended`: the scan went to its end. What could not be entered is an error then, or is entered
+        now."""
         self.engine.hook(None)
         self._inner = None
         waiting, self._waiting = self._waiting, []
-        if ended and waiting:
+        if ended and lenient:
+            for entry in waiting:
+                self._apply(entry)
+        elif ended and waiting:
             raise Diverged(
                 f"scan {waiting[0].scan} has {self.engine.count} statements, and something was entered in front of "
                 f"statement {waiting[0].step} when it was recorded"

@@ -7,6 +7,7 @@ from pathlib import Path
 
 from scanbench.runtime.command import Entry
 from scanbench.runtime.contents import Codec
+from scanbench.runtime.inside import front
 from scanbench.runtime.recording import Recording
 from scanbench.runtime.replay import Diverged, replay
 from scanbench.runtime.resource import Resource
@@ -54,7 +55,8 @@ def replay_file(path: Path, programs_of: ProgramsOf, codec: Codec, until: int | 
         try:
             resource = open_at(recording, programs, recording.checkpoints[0], entries)
             agreed = _compare(recording, resource, entries, end)
-            replay(resource, [entry for entry in entries[len(resource.journal) :] if entry.scan <= end], end)
+            left = [entry for entry in entries[len(resource.journal) :] if entry.scan <= end]
+            replay(resource, left[: front(left, end)], end)
         except NOT_AS_RECORDED as error:
             raise RunFileError(f"{path.name} cannot be replayed: {error}") from error
         digest = hashlib.sha256(resource.state).hexdigest()

@@ -67,6 +67,9 @@ class Resource:
         self._reached: set[int] = set()
         self.inside: Inside | None = None
         """Where the scan is halted that is next; the image stands there."""
+        self.lenient = False
+        """The run need not go as it did when it was recorded: what was entered inside of a scan that does not get so far now
+        is entered behind it."""
         self.hook: Hook | None = None
         """Who listens to the debug flavour: while somebody does, it runs."""
         self.on_seen: Callable[[Seen], None] | None = None
@@ -324,7 +327,7 @@ class Resource:
             stop = passage.engine.run(scans, pace)
             ended = stop.reason is Reason.TRAP or self.header.scan > scan
         finally:
-            passage.end(ended)
+            passage.end(ended, self.lenient)
         if stop.reason is Reason.HALTED:
             engine = passage.engine
             self.inside = Inside(engine.begin, engine.count, engine.frames())

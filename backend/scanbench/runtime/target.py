@@ -6,8 +6,9 @@ execution was given, so that is what a command names in the journal.
 
 from dataclasses import dataclass
 
+from scanbench.check.bound import Copies, Copy, Image, Spot
 from scanbench.check.call_sites import Calls, CallSite, Formal, address, formal_of
-from scanbench.check.named import same_place, temporary_at, variable_at
+from scanbench.check.named import temporary_at, variable_at
 from scanbench.check.program import Pou
 from scanbench.check.symbols import Symbol, UnknownPath, resolve
 from scanbench.check.types import Elementary, StringType, Subrange
@@ -91,7 +92,7 @@ def meant(view: View, path: str, site: str) -> Meant | Refusal:
     return Meant(named.path, symbol.path)
 
 
-def _at_site(view: View, path: str, site: str) -> tuple[int, int | None] | Refusal | None:
+def _at_site(view: View, path: str, site: str) -> Spot | Refusal | None:
     """What another call would pass now."""
     formal = formal_of(view.program, path)
     if formal is None:
@@ -104,7 +105,7 @@ def _at_site(view: View, path: str, site: str) -> tuple[int, int | None] | Refus
     return passed_by(view, formal, path, wanted[0])
 
 
-def passed_by(view: View, formal: Formal, path: str, site: CallSite) -> tuple[int, int | None] | None:
+def passed_by(view: View, formal: Formal, path: str, site: CallSite) -> Spot | None:
     """What this call would pass now for an in-out, and of it what `path` means: the variable itself in the end."""
     actual = site.passes(formal)
     found = None if actual is None else address(site.caller, actual, site.offset, view.memory)
@@ -117,7 +118,7 @@ def passed_by(view: View, formal: Formal, path: str, site: CallSite) -> tuple[in
     return view.program.layout.copies.actual(view.memory, offset, bit)
 
 
-def _nowhere(view: View, path: str, site: str, place: tuple[int, int | None] | None) -> str:
+def _nowhere(view: View, path: str, site: str, place: Spot | None) -> str:
     temporary = None if place is None else temporary_at(view.statements, place[0])
     if temporary is not None:
         return _gone(path, *temporary)
@@ -185,28 +186,42 @@ def read_only_reason(view: View, symbol: Symbol, offset: int, bit: int | None) -
 
 
 def everywhere(view: View, patch: Patch) -> tuple[Patch, ...]:
-    """A patch of a variable, and the same of the copies that blocks with in-outs by value made of it last: a block that a
-    debugger halts goes on with its copy. A patch of such a copy is one of the variable."""
+    """A patch of a variable, and the same of the copies that blocks with in-outs by value made of it last, or of a part of
+    it, or of what it is a part of: a block that a debugger halts goes on with its copy. A patch of such a copy is one of
+    the variable."""
     copies = view.program.layout.copies
-    bit = patch.mask[0].bit_length() - 1 if len(patch.mask) == 1 and patch.mask != b"\xff" else None
-    found = copies.actual(view.memory, patch.offset, bit) if copies.all else None
-    if found is None:
+    real = _of_variable(copies, view.memory, patch) if copies.all else None
+    if real is None:
         return (patch,)
-    made = [_moved(patch, bit, *found)]
-    end = found[0] + len(patch.data)
-    for each in copies.all:
-        begin = copies.actual(view.memory, each.start, 0 if each.boolean else None)
-        if begin is None:
-            continue
-        if each.boolean and same_place(begin, found) and len(patch.data) == 1:
-            made.append(_moved(made[0], found[1] or 0, each.start, 0))
-        elif not each.boolean and begin[0] <= found[0] and end <= begin[0] + each.end - each.start:
-            made.append(_moved(made[0], found[1], each.start + found[0] - begin[0], found[1]))
-    return tuple(made)
+    shared = (_of_copy(real, each, copies.actual(view.memory, each.start, None)) for each in copies.all)
+    return (real, *(each for each in shared if each is not None))
 
 
-def _moved(patch: Patch, bit: int | None, offset: int, to_bit: int | None) -> Patch:
-    """The same value elsewhere."""
-    if bit is not None and to_bit is not None:
-        return Patch.of_bit(offset, to_bit, bool(patch.data[0] >> bit & 1))
-    return Patch(offset, patch.mask, patch.data)
+def _of_variable(copies: Copies, memory: Image, patch: Patch) -> Patch | None:
+    """A patch of a copy as one of what it is a copy of; None where that is nothing."""
+    single = len(patch.mask) == 1 and patch.mask != b"\xff"
+    bit = patch.mask[0].bit_length() - 1 if single else None
+    found = copies.actual(memory, patch.offset, bit)
+    if found is None:
+        return None
+    offset, to_bit = found
+    if to_bit is None:
+        return Patch(offset, patch.mask, patch.data)
+    return Patch.of_bit(offset, to_bit, bool(patch.data[0] >> (bit or 0) & 1))
+
+
+def _of_copy(patch: Patch, copy: Copy, actual: Spot | None) -> Patch | None:
+    """What a patch means for a copy of `actual`; None where they have nothing in common."""
+    if actual is None:
+        return None
+    at, bit = actual[0], actual[1] or 0
+    begin, end = patch.offset, patch.offset + len(patch.data)
+    if copy.boolean:
+        if not begin <= at < end or not patch.mask[at - begin] >> bit & 1:
+            return None
+        return Patch.whole(copy.start, bytes((patch.data[at - begin] >> bit & 1,)))
+    low, high = max(at, begin), min(at + copy.end - copy.start, end)
+    if low >= high:
+        return None
+    cut = slice(low - begin, high - begin)
+    return Patch(copy.start + low - at, patch.mask[cut], patch.data[cut])

@@ -29,9 +29,10 @@ class Solo:
         self._store, self._keeper, self._reactions, self._remove = store, keeper, reactions, close
 
     @staticmethod
-    async def start(name: str, sources: Sources, model: Model, speed: float) -> "Solo":
-        """A PLC that stands in front of its first scan; `Refused` says why it cannot."""
-        solo = await asyncio.to_thread(Solo._make, name, sources, model, speed)
+    async def start(name: str, sources: Sources, model: Model, speed: float, cache: Path | None = None) -> "Solo":
+        """A PLC that stands in front of its first scan; `Refused` says why it cannot. What is built for it is kept in
+        `cache`; without one it is gone with the PLC."""
+        solo = await asyncio.to_thread(Solo._make, name, sources, model, speed, cache)
         try:
             solo._keeper.start()
             await asyncio.to_thread(nursery().start)
@@ -43,17 +44,18 @@ class Solo:
         return solo
 
     @staticmethod
-    def _make(name: str, sources: Sources, model: Model, speed: float) -> "Solo":
+    def _make(name: str, sources: Sources, model: Model, speed: float, cache: Path | None) -> "Solo":
         folder = TemporaryDirectory(prefix="scanbench-")
         data = Path(folder.name)
+        cache = cache or data / "cache"
         try:
             store = Store(f"sqlite:///{data / 'scanbench.db'}")
             row = store.create_instance(store.create_project(name, model.name).id, name)
-            keeper, reactions = Keeper(store), Reactions(data / "cache")
+            keeper, reactions = Keeper(store), Reactions(cache)
             memory = Remembered(name, sources, run_path(data, row.id), row.limits, speed, paused=True)
             session = Session(
                 row, model, memory, keeper, rows=(), lines=(), loads=Loads(), reactions=reactions, breakpoints=(),
-                traces={}, cache=data / "cache",
+                traces={}, cache=cache,
             )  # fmt: skip
         except BaseException:
             folder.cleanup()

@@ -21,6 +21,7 @@ from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.header import Halt, Mode
+from scanbench.runtime.inside import front
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import NoProgram
 from scanbench.runtime.recording import Recording
@@ -116,6 +117,7 @@ def point_in(path: Path, scan: int | None, sources: Sources, program_of: Program
                 f"{path.name} has scans {recording.first_scan} to {recording.last_scan}: scan {until} is none of them"
             )
         entries = [each for each in entries if each.scan <= until]
+        entries = entries[: front(entries, until)]
         resource = _replayed(recording, programs, checkpoint, entries, until)
         running = sources_in(recording.programs[resource.version])
         if replace(running, version=sources.version) != sources:

@@ -36,7 +36,7 @@ async def on_dap(bench: SocketBench, socket: WebSocket, instance: Id) -> None:
             text = await socket.receive_text()
             try:
                 message = json.loads(text)
-            except ValueError:
+            except (ValueError, RecursionError):
                 message = text
             conversation.receive(message)
     except (WebSocketDisconnect, RuntimeError, KeyError):
@@ -66,7 +66,7 @@ class Outbox:
 
     def send(self, message: Body) -> None:
         """Soon."""
-        self._texts.add(json.dumps(message, ensure_ascii=False))
+        self._texts.add(json.dumps(message))
         self._wake.set()
 
     def end(self) -> None:

@@ -10,7 +10,7 @@ from xml.etree import ElementTree
 import pytest
 from typer.testing import CliRunner
 
-from scanbench.cli import app
+from scanbench.cli.commands import app
 from scanbench.session import starting
 from scanbench.session.protocol import Sources
 

@@ -7,7 +7,7 @@ import pytest
 import typer
 from typer.testing import CliRunner, Result
 
-from scanbench.cli import app
+from scanbench.cli.commands import app
 from scanbench.cli.raising import read_raise
 from scanbench.faults.arm import Arm
 from scanbench.faults.inject import Generate

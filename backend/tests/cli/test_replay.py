@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 from typer.testing import CliRunner, Result
 
-from scanbench.cli import app
+from scanbench.cli.commands import app
 from scanbench.faults.inject import ACTIVE
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.runtime import checkpoints, runfile

@@ -4,7 +4,7 @@ from pathlib import Path
 
 from typer.testing import CliRunner, Result
 
-from scanbench.cli import app
+from scanbench.cli.commands import app
 
 GOOD = (Path(__file__).parents[1] / "plcmodel" / "broken_user_errors" / "GOOD.xml").read_text("utf-8")
 MAIN = """PROGRAM Main

@@ -252,6 +252,27 @@ def test_the_same_bytes_are_not_forced_under_two_names(plc: Resource) -> None:
     done(plc, Force("Bob", "Main.word.8", "TRUE"))
 
 
+def test_a_release_by_another_name(plc: Resource) -> None:
+    """Of the very same bits it is one; of others it is told who holds them, and nothing changes."""
+    plc.run(1)
+    done(plc, Force("Ada", "Main.here.level", "1"))
+    assert done(plc, Release("Bob", "D120")).command == Release("Bob", "located")
+    assert (forced_values(plc.view), plc.header.force_count) == ((), 0)
+    done(plc, Force("Ada", "located", "7"))
+    for path in ("located.0", "D120.00", "located.%B1"):
+        assert "forced as located by Ada: release that" in refused(plc, Release("Bob", path))
+    done(plc, Force("Ada", "Main.word.9", "TRUE"))
+    assert "forced as Main.word.9 by Ada" in refused(plc, Release("Bob", "Main.word"))
+    assert "not forced" in refused(plc, Release("Bob", "Main.word.8"))
+    done(plc, Force("Ada", "Main.tank[1].level", "7"))
+    for path in ("Main.tank", "Main.tank[1]", "Main"):
+        assert "Main.tank[1].level" in refused(plc, Release("Bob", path))
+    assert [each.path for each in forced_values(plc.view)] == ["located", "Main.word.9", "Main.tank[1].level"]
+    done(plc, Release("Bob", "D120"))
+    done(plc, Force("Bob", "D120", "3"))
+    assert done(plc, Release("Ada", "Main.here.level")).command == Release("Ada", "D120")
+
+
 @pytest.mark.parametrize("convention", CONVENTIONS)
 def test_bindings(convention: str) -> None:
     plc = Resource(Loaded.make(program(convention), ENGINES[0]))
@@ -276,3 +297,46 @@ def test_bindings(convention: str) -> None:
     assert "no in-out" in bound(plc, "Main.a").message
     with pytest.raises(UnknownPath):
         bound(plc, "Main.nix")
+
+
+TURNS = """
+FUNCTION_BLOCK Valve
+VAR_IN_OUT level : INT; END_VAR
+level := level;
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK Group
+VAR_IN_OUT level : INT; END_VAR
+VAR valve : Valve; valves : ARRAY[0..1] OF Valve; i : INT; END_VAR
+valve(level := level);
+i := 1 - i;
+valves[i](level := level);
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR n, i : INT; fbs : ARRAY[0..2] OF Valve; groups : ARRAY[0..1] OF Group; one : Group; link : REF_TO Valve; two : ARRAY[0..1] OF Valve; END_VAR
+i := (i + 1) MOD 3;
+fbs[i](level := n);
+groups[i MOD 2](level := n);
+one(level := n);
+link := REF(two[i MOD 2]);
+link^(level := n);
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize("convention", CONVENTIONS)
+def test_the_scan_is_told_only_of_calls_that_reach_the_instance_each_time(convention: str) -> None:
+    made = replace(model(), in_out=convention)  # type: ignore[arg-type]
+    checked = check_sources({"main.st": TURNS}, made)
+    assert checked.program is not None, checked.problems
+    plc = Resource(Loaded.make(checked.program, ENGINES[0]))
+    plc.run(6)
+    scans = {
+        path: {each.scan for each in bound(plc, path).sites if each.last}
+        for path in (
+            "Main.fbs[0].level", "Main.fbs[1].level", "Main.groups[1].level", "Main.groups[0].valve.level",
+            "Main.one.level", "Main.one.valve.level", "Main.one.valves[0].level", "Main.two[0].level",
+        )
+    }  # fmt: skip
+    known = {path for path, found in scans.items() if found == {5}}
+    assert known == {"Main.one.level", "Main.one.valve.level"}
+    assert all(found == {None} for path, found in scans.items() if path not in known)

@@ -14,6 +14,7 @@ from scanbench.session.from_disk import DEFAULT_MODEL, program_files, project_mo
 from scanbench.session.protocol import Sources
 from scanbench.session.refused import Refused
 from scanbench.session.solo import Solo
+from scanbench.session.user_cache import user_cache
 from scanbench.syntax.literals import duration
 from scanbench.web.dap import shapes
 from scanbench.web.dap.debuggee import Debuggee
@@ -54,7 +55,8 @@ class Launcher:
         self._args = args
         found = await asyncio.to_thread(find, args)
         await _check(found, say)
-        self._solo = await Solo.start(found.root.name, found.sources, found.model, args.pace)
+        cache = await asyncio.to_thread(user_cache)
+        self._solo = await Solo.start(found.root.name, found.sources, found.model, args.pace, cache)
         session = self._solo.session
         paths = FolderPaths(lambda: session.sources.files, str(found.root), found.real)
         return Debuggee(session, self._author, "launched", paths, breaks=not args.no_debug)

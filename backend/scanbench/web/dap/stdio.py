@@ -167,7 +167,7 @@ class Front:
             self._stay(message, f"attach failed: {error}")
         else:
             self._attaching = None
-            await asyncio.to_thread(nursery().close)  # nothing is launched any more
+            self._begin(asyncio.to_thread(nursery().close))  # nothing is launched any more
             await self._remote.begin(self._initialize)
             await self._remote.forward(message)
             await self._forward()
@@ -197,6 +197,8 @@ class Front:
 
     async def close(self) -> None:
         """The client is gone."""
+        if self._waiting is not None:
+            self._waiting.clear()
         for task in self._tasks:
             task.cancel()
         await asyncio.gather(*self._tasks, return_exceptions=True)

@@ -5,6 +5,7 @@ import os
 import queue
 import subprocess
 import sys
+import tempfile
 import threading
 from abc import ABC, abstractmethod
 from collections.abc import Callable
@@ -153,7 +154,9 @@ class StdioClient(Client):
 
     def __init__(self, *arguments: str, cwd: Path | None = None, temporary: Path | None = None) -> None:
         super().__init__()
-        environment = os.environ | ({} if temporary is None else {"TMPDIR": str(temporary)})
+        cache = Path(tempfile.gettempdir()) / f"scanbench-tests-{os.getuid()}"  # not the user's own
+        environment = os.environ | {"XDG_CACHE_HOME": str(cache)}
+        environment |= {} if temporary is None else {"TMPDIR": str(temporary)}
         self.process = subprocess.Popen(
             [COMMAND, "dap", *arguments], stdin=subprocess.PIPE, stdout=subprocess.PIPE, cwd=cwd, env=environment
         )  # fmt: skip

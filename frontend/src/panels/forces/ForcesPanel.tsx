@@ -74,6 +74,7 @@ function ForceGrid({ forces }: { forces: readonly ForceInfo[] }) {
     scrollPaddingStart: ROW,
   });
   const now = Math.min(selected, forces.length - 1);
+  const items = virtual.getVirtualItems();
   useEffect(() => watch(forces.map(({ path }) => path)), [forces]);
 
   function go(to: number): void {
@@ -103,7 +104,7 @@ function ForceGrid({ forces }: { forces: readonly ForceInfo[] }) {
       role="grid"
       aria-label={t("forces.label")}
       aria-rowcount={forces.length + 1}
-      aria-activedescendant={`force-${now}`}
+      aria-activedescendant={items.some(({ index }) => index === now) ? `force-${now}` : undefined}
       tabIndex={0}
       onKeyDown={onKeyDown}
     >
@@ -123,7 +124,7 @@ function ForceGrid({ forces }: { forces: readonly ForceInfo[] }) {
         <span role="columnheader" aria-label={t("force.release")} />
       </div>
       <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
-        {virtual.getVirtualItems().map(({ index, start }) => {
+        {items.map(({ index, start }) => {
           const force = forces[index];
           if (!force) return null;
           return (

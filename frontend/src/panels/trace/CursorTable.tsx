@@ -177,7 +177,7 @@ function Value({ at, index, signal }: { at: At | null; index: number; signal: Tr
   const text = at ? textAt(at.samples, at.row, index, signal) : "";
   const lamp = signal.kind === "bool" && text !== "";
   return (
-    <span role="gridcell" className="num mono">
+    <span role="gridcell" className="num mono cut" title={text}>
       {lamp ? (
         <span className="lampv">
           <span className={`lamp${text === "TRUE" ? " on" : ""}`} />

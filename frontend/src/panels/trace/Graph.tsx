@@ -125,9 +125,13 @@ function PlotArea({ plot, width, height, ...view }: AreaProps) {
     drawing.current = made;
     return () => made.destroy();
   }, [width === 0]);
-  useLayoutEffect(() => {
-    drawing.current?.resize(width, height);
-    drawing.current?.show(view);
+  // Once a frame, however often what is shown changes meanwhile.
+  useEffect(() => {
+    const frame = requestAnimationFrame(() => {
+      drawing.current?.resize(width, height);
+      drawing.current?.show(view);
+    });
+    return () => cancelAnimationFrame(frame);
   });
   return (
     <div

@@ -34,7 +34,7 @@ export function Settings({ trace }: { trace: TraceInfo }) {
   const number = signalIsNumber(trace, trigger?.text ?? "");
   return (
     <div className="trset">
-      <h3>{t("trace.trigger")}</h3>
+      <h2>{t("trace.trigger")}</h2>
       <div className="frow wide">
         <label htmlFor={`${id}-when`}>{t("trace.when")}</label>
         <Entry
@@ -109,7 +109,7 @@ export function Settings({ trace }: { trace: TraceInfo }) {
         />
         {t("trace.repeat")}
       </label>
-      <h3>{t("trace.sampling")}</h3>
+      <h2>{t("trace.sampling")}</h2>
       <div className="frow">
         <label htmlFor={`${id}-every`}>{t("trace.every")}</label>
         <Entry

@@ -52,10 +52,10 @@ export function TracePanel() {
             layout={layoutOf(shown.signals, state.moved)}
             compared={state.compared}
           />
-          <aside className="trside">
+          <div className="trside">
             <CursorTable shown={shown} samples={samples} />
             {shown.trace && <Settings trace={shown.trace} key={shown.trace.id} />}
-          </aside>
+          </div>
         </div>
       ) : (
         <EmptyTrace />

@@ -43,3 +43,15 @@ function Actual({ path, inOut }: { path: string; inOut: string }) {
     </span>
   );
 }
+
+/** Where the value lives; of an in-out, where that of the variable that was passed does. */
+export function AddressCell({ row, symbol }: { row: ValueRow; symbol: PlcSymbol | null }) {
+  const binding = useBindings((bindings) => (row.inOut === row.path ? bindings.of.get(row.path) : undefined));
+  const chosen = useWatchList((list) => list.sites.get(row.path));
+  const address = symbol?.address ?? ((binding && siteShown(binding, chosen)?.address) || null);
+  return (
+    <span className="mono muted" role="gridcell" title={address ?? undefined}>
+      {symbol ? (address ?? "–") : ""}
+    </span>
+  );
+}

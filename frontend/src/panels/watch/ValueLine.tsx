@@ -9,7 +9,7 @@ import { releaseForce, removeFromWatch, select, toggleOpen, useWatchList } from 
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import type { ForceInfo } from "../../wire/types";
-import { BoundCell } from "./BoundCell";
+import { AddressCell, BoundCell } from "./BoundCell";
 import { ChangeCell } from "./ChangeCell";
 import { CurrentCell } from "./CurrentCell";
 import { ROW_DRAG } from "./useRowDrop";
@@ -102,9 +102,7 @@ export function ValueLine({ row, style, index, selected, target, onMenu }: Props
       <span className="mono muted c-type" role="gridcell" title={symbol?.type}>
         {symbol?.type ?? ""}
       </span>
-      <span className="mono muted" role="gridcell" title={symbol?.address ?? undefined}>
-        {symbol ? (symbol.address ?? "–") : ""}
-      </span>
+      <AddressCell row={row} symbol={symbol} />
       <BoundCell row={row} symbol={symbol} />
       <span className="end" role="gridcell">
         {row.level === 0 && (

@@ -87,7 +87,7 @@ export function WatchGrid({ rows, onNewGroup, onRenameGroup }: Props) {
       aria-label={t("watch.table")}
       style={columns}
       aria-rowcount={rows.length + 1}
-      aria-activedescendant={now >= 0 ? `watch-${now}` : undefined}
+      aria-activedescendant={items.some(({ index }) => index === now) ? `watch-${now}` : undefined}
       tabIndex={0}
       onKeyDown={onKeyDown}
       onPaste={paste}

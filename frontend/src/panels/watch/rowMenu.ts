@@ -4,6 +4,7 @@ import { t } from "../../logic/text";
 import { moveEntry, removeGroup } from "../../logic/watchlist";
 import { actualOf, type GroupRow, type ValueRow } from "../../logic/watchrows";
 import { useBindings } from "../../store/bindings";
+import { type Access, addDataBreakpoint } from "../../store/debug";
 import { forcedAt } from "../../store/forces";
 import { usePlc } from "../../store/plc";
 import { addToTrace } from "../../store/traces";
@@ -36,6 +37,7 @@ export function rowMenu(row: ValueRow, onNewGroup: (path: string) => void): Menu
     ...copyItems(row, symbol),
     ...(row.level === 0 ? groupItems(row, onNewGroup) : []),
     ...actualItems(row),
+    ...breakItems(row, symbol),
     { label: t("watch.remove"), hint: "Del", separated: true, onSelect: () => removeFromWatch(row.root) },
   ];
 }
@@ -109,6 +111,16 @@ function groupItems({ path, group }: ValueRow, onNewGroup: (path: string) => voi
         onSelect: move(name),
       })),
     { label: t("watch.group.new"), separated: groups.length === 0, onSelect: () => onNewGroup(path) },
+  ];
+}
+
+function breakItems({ path }: ValueRow, symbol: PlcSymbol | null): MenuItem[] {
+  if (!symbol) return [];
+  const on = (access: Access) => () => void addDataBreakpoint(path, access);
+  return [
+    { label: t("debug.break.change"), icon: "bp-data", separated: true, onSelect: on("change") },
+    { label: t("debug.break.write"), onSelect: on("write") },
+    { label: t("debug.break.read"), onSelect: on("read") },
   ];
 }
 

@@ -1,0 +1,35 @@
+"""All commands of `scanbench`."""
+
+import typer
+
+from scanbench import __version__
+from scanbench.cli.bench import bench
+from scanbench.cli.check import check
+from scanbench.cli.dap import dap
+from scanbench.cli.errors import errors
+from scanbench.cli.model import model
+from scanbench.cli.replay import replay
+from scanbench.cli.run import run
+from scanbench.cli.serve import serve
+
+app = typer.Typer(
+    no_args_is_help=True,
+    add_completion=False,
+    rich_markup_mode=None,
+    pretty_exceptions_enable=False,
+    help="A bench for debugging PLC programs (IEC 61131-3) on virtual PLCs of real models.",
+)
+for command in (serve, check, run, replay, dap):
+    app.command()(command)
+# its subjects have options of their own
+app.command(context_settings={"allow_extra_args": True, "ignore_unknown_options": True})(bench)
+app.add_typer(model, name="model")
+app.add_typer(errors, name="errors")
+
+
+@app.callback(invoke_without_command=True)
+def version(show: bool = typer.Option(False, "--version", help="Print the version.")) -> None:
+    """Options of the command itself."""
+    if show:
+        typer.echo(f"scanbench {__version__}")
+        raise typer.Exit
