@@ -147,10 +147,13 @@ def main() -> None:
     parser = argparse.ArgumentParser(description=__doc__)
     parser.add_argument("--scans", type=int, default=SCANS)
     result = run_reverse(parser.parse_args().scans)
-    print(f"{result.scans} scans ran in {result.run_ms:.0f} ms, with {result.checkpoints} checkpoints")
-    print(f"last write of a variable, {result.back} scans back: {result.last_write_ms:.0f} ms")
-    print(f"the write before that: {result.again_ms:.0f} ms")
-    print(f"a step back: {result.step_ms:.2f} ms")
+    lines = (
+        f"{result.scans:,} scans ran in {result.run_ms:.0f} ms, with {result.checkpoints} checkpoints",
+        f"last write of a variable, {result.back:,} scans back: {result.last_write_ms:.0f} ms",
+        f"the write before that: {result.again_ms:.0f} ms",
+        f"a step back: {result.step_ms:.2f} ms",
+    )
+    print("\n".join(lines))  # noqa: T201
 
 
 if __name__ == "__main__":

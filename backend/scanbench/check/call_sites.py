@@ -125,14 +125,24 @@ class Calls:
         ]
         return sorted(found, key=lambda each: (each.span.file, each.span.line, each.span.column))
 
+    def passing(self, record: Record, slot: int) -> Iterator[tuple[Pou, Place, Place]]:
+        """All calls of a block that bind this slot: caller, instance and what is passed, as the caller sees them."""
+        for pou, call in self._of(record):
+            yield from ((pou, call.instance, actual) for formal, actual in call.in_outs if formal.offset == slot)
+
+    def callers(self, pou: Pou, instance: Place, at: int) -> list[int]:
+        """Where the instances of `pou` begin for which `instance` may be what lives at a byte of the image, at some time."""
+        return [offset for _, offset in self._callers(pou, instance, at, None)]
+
     def _of(self, record: Record) -> Iterator[tuple[Pou, CallBlock]]:
         known: Record | None = record
         while known is not None:
             yield from self._by_block.get(known.name, ())
             known = known.base
 
-    def _callers(self, pou: Pou, instance: Place, at: int, memory: Image) -> Iterator[tuple[str, int]]:
-        """The instances of `pou` for which `instance` is what lives at a byte of the image: path, and where they begin."""
+    def _callers(self, pou: Pou, instance: Place, at: int, memory: Image | None) -> Iterator[tuple[str, int]]:
+        """The instances of `pou` for which `instance` is what lives at a byte of the image: path, and where they begin.
+        Without an image: for which it may be."""
         this = pou.frame.members.get("THIS") if pou.kind == "function" else None
         own = this.type if this is not None else pou.instance
         behind_this = this is not None and instance.slot is not None and instance.slot.offset == this.offset
@@ -151,7 +161,7 @@ class Calls:
             callers = [(each.path, each.offset) for each in instances_of(self._program, name)]
         through = instance.reference is not None or instance.slot is not None
         for path, offset in callers:
-            found = address(pou, instance, offset, memory) if through else (at, 0)
+            found = address(pou, instance, offset, memory) if through and memory is not None else (at, 0)
             if found is not None and found[0] == at:
                 yield path, offset
 
@@ -248,12 +258,16 @@ def bodies(stmt: Stmt) -> tuple[tuple[Stmt, ...], ...]:
             return ()
 
 
-def _calls(statements: Iterable[Stmt]) -> Iterator[CallBlock]:
+def every(statements: Iterable[Stmt]) -> Iterator[Stmt]:
+    """Each statement, and those inside of it."""
     for stmt in statements:
-        if isinstance(stmt, CallBlock):
-            yield stmt
+        yield stmt
         for body in bodies(stmt):
-            yield from _calls(body)
+            yield from every(body)
+
+
+def _calls(statements: Iterable[Stmt]) -> Iterator[CallBlock]:
+    return (each for each in every(statements) if isinstance(each, CallBlock))
 
 
 def in_every_run(pou: Pou, call: CallBlock) -> bool:

@@ -7,11 +7,14 @@ A condition looks, and changes nothing: no calls but of standard functions, no r
 
 import re
 from dataclasses import dataclass, replace
+from functools import cached_property
 
+from scanbench.check.call_sites import Calls
 from scanbench.check.calls import CallChecker
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare import Declarations
 from scanbench.check.objects import dotted
+from scanbench.check.passed_on import Unclear, behind_copies, passed_on
 from scanbench.check.places import Found
 from scanbench.check.program import Base, Const, Convert, Expr, Load, Place, Program, Stmt
 from scanbench.check.scopes import Pous, Scope
@@ -31,6 +34,7 @@ from scanbench.check.types import (
     Subrange,
     Type,
     base_of,
+    has_instance,
 )
 from scanbench.check.untyped import settle
 from scanbench.plcmodel.model import Location
@@ -171,6 +175,11 @@ class Visible:
                 _collect(member.type, types)
         self.enumerations = tuple(type for type in types.values() if isinstance(type, Enumeration))
 
+    @cached_property
+    def calls(self) -> Calls:
+        """Who calls what, for in-outs by value."""
+        return Calls(self.program)
+
 
 class ProgramChecker(CallChecker):
     """The checker of expressions, in a scope that is made of a whole program: all of it can be seen, nothing changed."""
@@ -183,6 +192,7 @@ class ProgramChecker(CallChecker):
             declarations.values.add_inline("GLOBAL", type)
         super().__init__(report, declarations, Pous(), scope or visible.scope, None)
         self.program = visible.program
+        self.visible = visible
 
     def condition(self, node: tree.Expression) -> Expr:
         """The whole condition."""
@@ -227,6 +237,26 @@ class ProgramChecker(CallChecker):
             if located is not None and self.scope.find(name) is None:
                 return self._at(located), None
         return super().raw_place(node)
+
+    def inside(self, place: Place, record: Record, member: Member, span: Span) -> Place:
+        """Of an in-out the variable itself, as everywhere in tools: also where blocks passed on their copies."""
+        inner = super().inside(place, record, member, span)
+        copies = self.program.layout.copies.all
+        if member.section is not Section.IN_OUT or inner.slot is None or not copies or has_instance(member.type):
+            return inner
+        known = place.base is Base.IMAGE and place.slot is None and place.reference is None and not place.indices
+        try:
+            found = passed_on(self.program, self.visible.calls, place.offset if known else None, record, member)
+        except Unclear as error:
+            return self.unclear(inner, member, str(error), span)
+        return behind_copies(inner.slot, member, found) if found else inner
+
+    def unclear(self, inner: Place, member: Member, reason: str, span: Span) -> Place:
+        """Where an in-out may have been passed on, and nobody knows by whom; `inner` is what its own call passed."""
+        raise self.report.reject(
+            "X001", f"Which variable the in-out `{member.name}` is cannot be told here: {reason}. Name the variable itself, or "
+            "the instance with its path and numbers as indices.", span,
+        )  # fmt: skip
 
     def part(self, place: Place, size: str, index: int, span: Span) -> Place:
         return super().part(place, size.upper(), index, span)

@@ -296,6 +296,10 @@ class _LocalChecker(ProgramChecker, AssignmentChecker):
             return super().unknown(name, span)
         return self.report.reject("T001", f"There is no `{name}` here.{hint}", span)
 
+    def unclear(self, inner: Place, member: Member, reason: str, span: Span) -> Place:
+        """As the statements of the POU see it."""
+        return inner
+
     def assignable(self, place: Place, member: Member | None, span: Span) -> None:
         """Anything but constants: what a tool may write, whoever stores the value looks at."""
         if member is not None and member.constant:

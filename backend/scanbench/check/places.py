@@ -145,13 +145,17 @@ class PlaceChecker(SubrangeChecker):
             hint = did_you_mean(node.name, [each.name for each in record.members.values() if not each.hidden])
             raise self.report.reject("T001", f"`{record.name}` has no member `{node.name}`.{hint}", node.span)
         self._may_use(record, member, node.span)
-        inner = inside(place, record, member)
-        if inner.slot is not place.slot:
+        inner = self.inside(place, record, member, node.span)
+        if inner.slot is not place.slot or inner.reference is not place.reference:
             inner = replace(
                 inner, null_trap=self.trap(TrapKind.NULL, node.span, f"the in-out {member.name} is not connected")
             )
         keep = outer is not None and (outer.constant or record.kind is not Kind.BLOCK)
         return inner, outer if keep else member
+
+    def inside(self, place: Place, record: Record, member: Member, span: Span) -> Place:
+        """The place of a member of what lives at `place`."""
+        return inside(place, record, member)
 
     def _may_use(self, record: Record, member: Member, span: Span) -> None:
         if record.kind is not Kind.BLOCK or member.section in (Section.INPUT, Section.OUTPUT):

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from scanbench.check.condition import BadCondition
-from scanbench.check.local import locals_of
+from scanbench.check.local import LocalAssignments, locals_of
 from scanbench.check.program import Pou, Program
 from scanbench.check.types import ArrayType, OpenArray, Record, Type
 from scanbench.check.values import format_value
@@ -13,6 +13,9 @@ from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import read_table
 from scanbench.runtime.rights import Right, may
 from scanbench.runtime.target import everywhere
+
+_NAMES = 10_000
+"""Places whose names are kept, as they take long to find."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -34,19 +37,47 @@ class Assign(Command):
         local = locals_of(program).assignments(pou, self.text)
         if isinstance(local, BadCondition):
             return Refusal(local.message, local.near)
+        return Assigning(Evaluator(program, bytearray(view.memory)), local).plan(view, self.instance)
+
+
+class Assigning:
+    """Assignments in one scope, made ready to be planned many times on one image."""
+
+    def __init__(self, evaluator: Evaluator, local: LocalAssignments) -> None:
+        self._program, self._text = evaluator.program, local.text
+        self._run = evaluator.assigning(local)
+        self._names: dict[Spot, str] = {}
+
+    def plan(self, view: View, instance: int) -> Plan | Refusal:
+        """See `Assign.plan`; the view is of the evaluator's image as it is now."""
         try:
-            stored = Evaluator(program, bytearray(view.memory)).assigned(local, self.instance)
+            stored = self._run(instance)
         except NoValue as error:
             return Refusal(str(error))
-        actual = program.layout.copies.actual
+        actual = self._program.layout.copies.actual
         stored = [(each, actual(view.memory, *spot) or spot, data) for each, spot, data in stored]
         for each, spot, _ in stored:
             refusal = refused(view, spot, each.target.type, each.shown)
             if refusal is not None:
                 return refusal
         patches = tuple(each for _, spot, data in stored for each in everywhere(view, patch(spot, data)))
-        said = "; ".join(_said(program, spot, each.target.type, data) for each, spot, data in stored)
-        return Plan(patches, said or f"{self.text}: nothing to do")
+        said = "; ".join(self._said(spot, each.target.type, data) for each, spot, data in stored)
+        return Plan(patches, said or f"{self._text}: nothing to do")
+
+    def _said(self, spot: Spot, type: Type, data: bytes) -> str:
+        if spot not in self._names:
+            if len(self._names) >= _NAMES:
+                self._names.clear()
+            self._names[spot] = called(self._program, *spot, type)
+        whole = isinstance(type, ArrayType | OpenArray | Record)
+        value = (
+            f"({type.name})"
+            if whole
+            else ("TRUE" if data[0] else "FALSE")
+            if spot[1] is not None
+            else format_value(type, data)
+        )
+        return f"{self._names[spot]} := {value}"
 
 
 def pou_of(program: Program, name: str) -> Pou | Refusal | None:
@@ -76,15 +107,3 @@ def refused(view: View, spot: Spot, type: Type, shown: str) -> Refusal | None:
     if any(table.get(at, (0, 0))[0] & one for at in range(offset, offset + size)):
         return Refusal(f"{shown} is forced, so a write would be lost: release the force first")
     return may(view.header.mode, Right.WRITE, shown)
-
-
-def _said(program: Program, spot: Spot, type: Type, data: bytes) -> str:
-    whole = isinstance(type, ArrayType | OpenArray | Record)
-    value = (
-        f"({type.name})"
-        if whole
-        else ("TRUE" if data[0] else "FALSE")
-        if spot[1] is not None
-        else format_value(type, data)
-    )
-    return f"{called(program, *spot, type)} := {value}"

@@ -44,6 +44,11 @@ class Breakpoint:
     task: str = ""
     """Only while this task runs; empty is any."""
 
+    def is_of(self, group: str, kind: str | None, file: str | None) -> bool:
+        """Whether a new list of the group replaces it; `kind` narrows that, `file` to line breakpoints in it."""
+        in_file = file is None or (self.kind == "line" and self.file == file)
+        return self.group == group and kind in (None, self.kind) and in_file
+
 
 @dataclass(frozen=True, slots=True)
 class Verdict:

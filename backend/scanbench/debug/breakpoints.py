@@ -1,5 +1,6 @@
 """All breakpoints of one PLC, group by group, as they stand in the program that runs."""
 
+from scanbench.check.sites import sites_of
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.debug.placed import Placed, Placing
 from scanbench.debug.texts import Texts
@@ -20,7 +21,8 @@ class Breakpoints:
         """Places breakpoints in this program."""
         found = next((placing for known, placing in self._placings if known is loaded), None)
         if found is None or found.program is not loaded.statements:
-            sites, program = loaded.debugged().sites, loaded.statements
+            program = loaded.settled()  # of which debugged code is made, too
+            sites = loaded.debug.sites if loaded.debug is not None else sites_of(program)
             found = Placing(program, sites, Texts(program, loaded.memory))
             rest = [each for each in self._placings if each[0] is not loaded]
             self._placings = [*rest[1 - _KEPT :], (loaded, found)]
@@ -32,14 +34,10 @@ class Breakpoints:
     ) -> list[Placed]:  # fmt: skip
         """Puts these in the place of those of the group, of a kind and a file only where these are given. What stays
         as it was goes on counting."""
-
-        def replaced(each: Breakpoint) -> bool:
-            same_file = file is None or (each.kind == "line" and each.file == file)
-            return each.group == group and (kind is None or each.kind == kind) and same_file
-
         known = {each.breakpoint: each for each in self.placed}
         made = [known.get(each) or placing.place(each, scan) for each in breakpoints]
-        self.placed = (*(each for each in self.placed if not replaced(each.breakpoint)), *made)
+        others = (each for each in self.placed if not each.breakpoint.is_of(group, kind, file))
+        self.placed = (*others, *made)
         return made
 
     def place_again(self, loaded: Loaded, scan: int) -> None:

@@ -3,7 +3,7 @@
 from collections.abc import Callable
 from typing import Protocol
 
-from scanbench.debug.assign import Assign
+from scanbench.debug.assign import Assign, Assigning
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.breakpoints import Breakpoints
 from scanbench.debug.goals import Goal
@@ -17,13 +17,16 @@ from scanbench.engines.debug import NOTHING, Frame, Listen
 from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.probe import Probe, ProbedEngine
 from scanbench.problems import Span
-from scanbench.runtime.command import Command, Entry, Refusal
+from scanbench.runtime.command import Command, Entry, Plan, Refusal
 from scanbench.runtime.inside import HaltAt
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.timeline import Timeline
 
 STEPS = ("continue", "in", "over", "out", "statement", "scan", "to", "pause", "entry")
+
+MOST_ASSIGNED = 1_000
+"""In one scan: each time is an entry of the journal, and nobody is served meanwhile."""
 
 
 class Told(Protocol):
@@ -59,6 +62,7 @@ class Debugger:
         self._stood: Position = (-1, 0)
         """Where it was halted in the scan that is next: up to there nothing halts it."""
         self._past = Past(timeline, self.breakpoints)
+        self._past.raised = told.raised
         self._probes = Probes()
         self.want_probes: Callable[[Loaded, tuple[Probe, ...]], None] = lambda loaded, probes: None
         """Asks somebody to make code with these probes, for `take_probed`; until that is there the debug flavour runs."""
@@ -172,9 +176,13 @@ class Debugger:
         self._look_for_errors()
         if stop.reason is Reason.HALTED:
             found = self._trap_found or (listener.found if listener is not None else None)
+            if self._trap_found is not None and listener is not None:
+                listener.pending = None  # of the statement that is in front of it again
             self._trap_found = None
             assert found is not None
             self._halted(found)
+        elif listener is not None and stop.reason is Reason.TRAP:
+            listener.pending = None
         elif listener is not None and not resource.begun:
             found = listener.behind_scan()
             if found is not None:
@@ -188,19 +196,26 @@ class Debugger:
         """As `Timeline.submit`; what needs the seam lets a halted scan run to its end."""
         if self._timeline.past:
             return self._timeline.submit(command)
-        halt, hook = self._live_halt, self.resource.hook
-        listener = hook if isinstance(hook, Listener) else None
-        if halt is not None and self.resource.inside is not None and listener is not None:
-            listener.goal, listener.finishing = None, True
-            listener.passed.begin = halt.scan, halt.count
-            listener.begin()
+        halt, resource, scan = self._live_halt, self.resource, self.resource.header.scan
+        if halt is not None and resource.begun:
+            listener = self._arm()
+            if listener is not None:
+                listener.begin()
         outcome = self._timeline.submit(command)
-        if listener is not None:
-            listener.finishing = False
         self._look_for_errors()
-        if halt is not None and not self.resource.begun and halt.count:
-            self._halted(Found(halt.reason, f"{halt.text}; the scan ran to its end", halt.by, halt.breakpoints))
+        if halt is not None and halt.count and not resource.begun:
+            self._finished(halt, scan)
         return outcome
+
+    def _finished(self, halt: Halt, scan: int) -> None:
+        """The scan ran to its end in which it was halted, as something was to be entered behind it."""
+        self._trap_seen = None
+        if self._listener is not None:
+            self._listener.pending = None
+        if self.resource.header.scan == scan:  # it trapped
+            self._live_halt = None
+        else:
+            self._halted(Found(halt.reason, f"{halt.text}; the scan ran to its end", halt.by, halt.breakpoints))
 
     def step(self, action: str, author: str, file: str = "", line: int = 0, path: str = "") -> Refusal | None:
         """Begins a step: it is over when `halt` is another. Steps back are done at once."""
@@ -392,17 +407,32 @@ class _Acting(Actions):
 
     def __init__(self, debugger: Debugger, resource: Resource) -> None:
         self._debugger, self._resource = debugger, resource
+        self._scan = -1
+        self._assigned = 0
+        """How often something was assigned in this scan."""
 
     def say(self, breakpoint: Breakpoint, text: str, span: Span | None) -> None:
         self._debugger._told.said(breakpoint, text, self._resource.header.scan, span)
 
-    def assign(self, breakpoint: Breakpoint, frame: Frame, count: int) -> None:
-        command = Assign(breakpoint.author, frame.pou.name, frame.instance, breakpoint.assign)
-        outcome = self._resource.enter_here(command, count)
+    def assign(self, breakpoint: Breakpoint, frame: Frame, assigning: Assigning, instance: int, count: int) -> None:
+        resource, scan = self._resource, self._resource.header.scan
+        self._assigned = self._assigned + 1 if scan == self._scan else 1
+        self._scan = scan
+        if self._assigned > MOST_ASSIGNED + 1:
+            return
+        outcome: Plan | Entry | Refusal = Refusal(
+            f"{MOST_ASSIGNED:,} times is all that execution points may assign in one scan: give it a condition"
+        )
+        if self._assigned <= MOST_ASSIGNED:
+            outcome = assigning.plan(resource.view, instance)
+        if isinstance(outcome, Plan):
+            command = Assign(breakpoint.author, frame.pou.name, frame.instance, breakpoint.assign)
+            outcome = resource.enter_here(command, outcome, count)
         if isinstance(outcome, Refusal):
-            span = self._debugger._placing.sites.statements[frame.site].span
-            self._debugger._told.said(
-                breakpoint, f"nothing was assigned: {outcome.message}", self._resource.header.scan, span
+            self.say(
+                breakpoint,
+                f"nothing was assigned: {outcome.message}",
+                self._debugger._placing.sites.statements[frame.site].span,
             )
 
     def counted(self) -> None:

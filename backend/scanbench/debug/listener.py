@@ -6,6 +6,7 @@ from typing import TypeVar
 
 from scanbench.check.layout import Layout
 from scanbench.check.program import Pou
+from scanbench.debug.assign import Assigning
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.debug.goals import Goal
 from scanbench.debug.halt import HaltReason
@@ -36,8 +37,8 @@ class Actions:
     def say(self, breakpoint: Breakpoint, text: str, span: Span | None) -> None:
         """A logpoint's message."""
 
-    def assign(self, breakpoint: Breakpoint, frame: Frame, count: int) -> None:
-        """An execution point."""
+    def assign(self, breakpoint: Breakpoint, frame: Frame, assigning: Assigning, instance: int, count: int) -> None:
+        """An execution point: these assignments, for this instance."""
 
     def counted(self) -> None:
         """A breakpoint was hit."""
@@ -69,13 +70,13 @@ class Listener:
                 self._at.setdefault(site, []).append(each)
         self._watching = Watching((each for each in every if each.symbol is not None), resource.memory)
         self._violations = [each for each in every if each.breakpoint.kind == "violation"]
-        self._scans = {each.breakpoint.scan: each for each in every if each.breakpoint.kind == "scan"}
+        self._scans = [each for each in every if each.breakpoint.kind == "scan"]
+        self._due: list[Placed] = []
+        """Those of the scan that runs which have not acted yet."""
         self._first = frozenset(numbers[0] for numbers in placing.sites.bodies.values() if self._watching.moving)
         self.needed = bool(self._at or self._violations or any(each.symbol is not None for each in every))
         """Whether it has to listen although no step is under way."""
         self.goal: Goal | None = None
-        self.finishing = False
-        """Acts, but halts nowhere."""
         self.passed = Passed()
         self.pending: Found | None = None
         """Halts in front of the next statement."""
@@ -95,7 +96,7 @@ class Listener:
         """`in_scan`: its first statement has begun."""
         goal, end = self.goal, self.passed.end
         listens = goal.listens if goal is not None and goal.action != "continue" else frozenset[int]()
-        every = self.pending is not None or bool(self._violations) or listens is None
+        every = self.pending is not None or bool(self._violations or self._due) or listens is None
         count = 1 if end is not None or self._watching.bytes or self._first or self._scans else 0
         if in_scan and end is not None and end[0] == self._resource.header.scan:
             count = end[1]  # the last scan that is kept: it ends in the middle
@@ -110,6 +111,7 @@ class Listener:
         here = scan, count
         if count == 1:
             self._watching.follow()
+            self._due = [each for each in self._scans if each.breakpoint.scan == scan]
             self._tell(in_scan=True)
         elif site in self._first and self._watching.follow():
             self._tell(in_scan=True)
@@ -118,22 +120,35 @@ class Listener:
             return True
         if here <= self.passed.begin:
             self._violated = self._violation_count()
+            self._take_due()
             return False
         found = self._behind() or self._acting(site, count, scan)
         if found is None and self.goal is not None:
             if self.goal.reached(site, count, depth, self._frames, scan):
                 found = reached(self.goal)
         self.found = found
-        return found is not None and not self.finishing
+        return found is not None
+
+    def entered(self) -> None:
+        """See `Onlooker`."""
+        self._watching.look()
 
     def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
         """See `Hook`."""
-        for placed, text in self._watching.touched(offset, size, written):
+        for placed, text in self._watching.touched(offset, size, written, lambda placed: self._copies(placed, site)):
             if (self._resource.header.scan, count) < self.passed.begin or not self._acts(placed, None):
                 continue
             if self._hit(placed, site, None):
                 by, id = placed.breakpoint.author, placed.breakpoint.id
                 self._touched(count, Found("data breakpoint", text, by, (id,)))
+
+    def _copies(self, placed: Placed, site: int) -> bool:
+        """Whether the block of an in-out by value copies what was passed, in front of its statements or behind them."""
+        found = None if placed.block is None else placed.block.locate(self._resource.memory)
+        frame = self._frames()[0]
+        if found is None or frame.instance != found[0]:
+            return False
+        return site in self._placing.returns or self._placing.pou_of.get(site) is not frame.pou
 
     def _touched(self, count: int, found: Found) -> None:
         """Halts behind the statement. It may be the last one of the scan."""
@@ -164,27 +179,46 @@ class Listener:
 
     def _acting(self, site: int, count: int, scan: int) -> Found | None:
         """What breakpoints do in front of this statement."""
-        found: list[Placed] = []
-        if count == 1 and scan in self._scans:
-            placed = self._scans[scan]
-            if self._acts(placed, None) and self._hit(placed, None, None):
-                return Found("scan", f"scan {scan}", placed.breakpoint.author, (placed.breakpoint.id,))
+        found = [each for each in self._take_due() if self._holds(each, None) and self._hit(each, None, None)]
+        at_scan = len(found)
         for placed in self._at.get(site, ()):
             frame = self._frames()[0]
             if self._acts(placed, frame) and self._hit(placed, site, frame):
                 found.append(placed)
         if not found:
             return None
+        by, ids = found[0].breakpoint.author, tuple(each.breakpoint.id for each in found)
+        if at_scan:
+            return Found("scan", f"scan {scan}", by, ids)
         span = self._placing.sites.statements[site].span
-        ids = tuple(each.breakpoint.id for each in found)
-        return Found("breakpoint", f"breakpoint at {span.file}:{span.line}", found[0].breakpoint.author, ids)
+        return Found("breakpoint", f"breakpoint at {span.file}:{span.line}", by, ids)
+
+    def _take_due(self) -> list[Placed]:
+        """The breakpoints of this scan that act here: in front of the first statement of their task, or instance."""
+        if not self._due:
+            return []
+        found = [each for each in self._due if self._is_here(each)]
+        if found:
+            self._due = [each for each in self._due if each not in found]
+            self._tell(in_scan=True)
+        return found
 
     def _acts(self, placed: Placed, frame: Frame | None) -> bool:
         """Whether it is this instance and task, and the condition holds."""
-        if placed.instance is not None and self._frames()[0].instance != placed.instance:
+        return self._is_here(placed) and self._holds(placed, frame)
+
+    def _is_here(self, placed: Placed) -> bool:
+        """Whether its task and its instance run; a FUNCTION runs for the instance that called it."""
+        if placed.instance is None and not placed.task:
+            return True
+        frames = self._frames()
+        if placed.task and self._placing.task_of.get(frames[-1].instance) != placed.task:
             return False
-        if placed.task and self._placing.task_of.get(self._frames()[-1].instance) != placed.task:
-            return False
+        nearest = next((each.instance for each in frames if each.instance), 0)
+        return placed.instance is None or nearest == placed.instance
+
+    def _holds(self, placed: Placed, frame: Frame | None) -> bool:
+        """Whether its condition holds."""
         if not placed.conditions:
             return True
         holds, instance = _of_scope(placed.conditions, frame)
@@ -205,7 +239,10 @@ class Listener:
             span = None if site is None else self._placing.sites.statements[site].span
             actions.say(breakpoint, says(instance) if says is not None else "", span)
         if breakpoint.assign and frame is not None:
-            actions.assign(breakpoint, frame, self._resource.loaded.debugged().count)
+            assigning, instance = _of_scope(placed.assigns, frame)
+            assert assigning is not None
+            actions.assign(breakpoint, frame, assigning, instance, self._resource.loaded.debugged().count)
+            self._watching.look()
         return placed.halts
 
     def _frames(self) -> tuple[Frame, ...]:

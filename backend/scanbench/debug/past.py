@@ -6,7 +6,7 @@ from scanbench.debug.breakpoints import Breakpoints
 from scanbench.debug.goals import Goal
 from scanbench.debug.listener import Found, Listener, Position
 from scanbench.debug.probing import Prober
-from scanbench.debug.reverse import search
+from scanbench.debug.reverse import Raised, search
 from scanbench.engines.engine import Reason
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.timeline import Timeline
@@ -21,6 +21,7 @@ class Past:
     def __init__(self, timeline: Timeline, breakpoints: Breakpoints) -> None:
         self._timeline, self._breakpoints = timeline, breakpoints
         self.prober: Prober | None = None
+        self.raised: Raised = lambda entry: ()
         self._listener: Listener | None = None
         self._goal: Goal | None = None
 
@@ -112,7 +113,7 @@ class Past:
     def reverse(self, author: str, path: str) -> Found | Refusal:
         """To where a breakpoint would have halted last, or to the last write of a variable."""
         timeline, here = self._timeline, self.position if self._timeline.past else None
-        found = search(timeline, self._breakpoints, self.position, author, path, self.prober)
+        found = search(timeline, self._breakpoints, self.position, author, path, self.prober, self.raised)
         if isinstance(found, Refusal):
             if here is not None:
                 timeline.goto(*here)

@@ -1,13 +1,15 @@
 """Breakpoints in the program that runs: where each stands, or why it stands nowhere."""
 
-from collections.abc import Callable, Mapping
-from dataclasses import dataclass, field
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 
-from scanbench.check.program import Pou, Program
+from scanbench.check.call_sites import every, formal_of
+from scanbench.check.program import Pou, Program, Return
 from scanbench.check.sites import Sites
 from scanbench.check.symbols import Symbol, UnknownPath, resolve
 from scanbench.check.types import BOOL, Kind, Record
+from scanbench.debug.assign import Assigning
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.hits import HitRule, parse_hits
 from scanbench.debug.texts import BadText, Holds, Says, Texts
@@ -20,12 +22,17 @@ class Placed:
     breakpoint: Breakpoint
     sites: frozenset[int] = frozenset()
     symbol: Symbol | None = None
+    copy: Symbol | None = None
+    """What a block works on that takes the in-out by value; `symbol` is what was passed."""
+    block: Symbol | None = None
+    """The instance of that block."""
     rule: HitRule | None = None
     instance: int | None = None
     """Offset of the only instance in which it acts."""
     task: str = ""
     conditions: Mapping[Pou | None, Holds] = field(default_factory=dict)
     messages: Mapping[Pou | None, Says] = field(default_factory=dict)
+    assigns: Mapping[Pou | None, Assigning] = field(default_factory=dict)
     flaw: str = ""
     """Why it stands nowhere."""
     remark: str = ""
@@ -64,6 +71,14 @@ class Placing:
             each.offset: task.name for task in program.tasks for each in task.programs
         }  # fmt: skip
         """The task of each program instance."""
+        self.returns = frozenset(self._returns())
+        """The RETURNs: what a block with in-outs by value copies back in front of one is told as its access."""
+
+    def _returns(self) -> Iterator[int]:
+        for pou in self.sites.bodies:
+            if any(each.copied for each in pou.instance.members.values()):
+                spans = {each.span.plain() for each in every(pou.body) if isinstance(each, Return)}
+                yield from (each for each in self.sites.bodies[pou] if self.sites.statements[each].span in spans)
 
     def place(self, breakpoint: Breakpoint, scan: int) -> Placed:
         """What it means here; `scan` is where the PLC stands."""
@@ -124,6 +139,14 @@ class Placing:
         placed.symbol = self._symbol(breakpoint.path)
         if placed.symbol.type.size == 0:
             raise BadText(f"{placed.symbol.path} takes no memory, so nothing can be read or written there")
+        formal = formal_of(self.program, breakpoint.path)
+        if formal is None or not formal.member.copied:
+            return
+        block, inner = formal.instance, placed.symbol
+        if len(inner.slots) == len(block.slots) + 1:  # else there is a reference in the copy
+            offset = block.offset + formal.member.offset + inner.offset
+            placed.block = block
+            placed.copy = replace(block, path=inner.path, type=inner.type, offset=offset, bit=inner.bit)
 
     def _error(self, placed: Placed, scan: int) -> None:
         known = {each.id: None for each in self.program.layout.model.errors()}
@@ -179,8 +202,7 @@ class Placing:
         if breakpoint.log.strip():
             placed.messages = {pou: texts.message(pou, breakpoint.log) for pou in scopes}
         if breakpoint.assign.strip():
-            for pou in scopes:
-                texts.check_assignments(pou, breakpoint.assign)
+            placed.assigns = {pou: texts.assigning(pou, breakpoint.assign) for pou in scopes}
 
 
 _KINDS: Mapping[str, Callable[[Placing, Placed, int], None]] = {

@@ -1,30 +1,44 @@
 """Back to where something happened last: from the newest checkpoint's stretch of the run to the oldest."""
 
 from bisect import bisect_left
-from collections.abc import Sequence
-from dataclasses import replace
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, replace
 from operator import attrgetter
 
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.debug.breakpoints import Breakpoints
 from scanbench.debug.listener import Found, Listener, Position
+from scanbench.debug.placed import error_names
 from scanbench.debug.probing import Prober, notes_of
+from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Reason
 from scanbench.engines.probe import BadProbe, ProbedEngine
-from scanbench.runtime.command import Refusal
+from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.timeline import Timeline
 
+Raised = Callable[[Entry], tuple[str, ...]]
+"""The errors that an entry of the journal raises."""
 _WORTH = 256
 """Scans for which code with probes is worth making."""
 _TRIES = 16
 """Scans in which a probe was reached in vain, before all are looked at statement by statement."""
 
 
-class Noting(Listener):
-    """Halts nowhere: notes the last place where it would have halted, of an access the statement that makes it."""
+@dataclass(frozen=True, slots=True)
+class Noted:
+    """A place, and what was there."""
 
-    noted: tuple[Position, Found] | None = None
+    position: Position
+    found: Found
+    writer: int | None = None
+    """Of an access the site of the statement that made it: it may have begun before the position, and called others."""
+
+
+class Noting(Listener):
+    """Halts nowhere: notes the last place where it would have halted."""
+
+    noted: Noted | None = None
     before: Position = (1 << 62, 0)
     """What is there and behind it does not count."""
 
@@ -33,16 +47,43 @@ class Noting(Listener):
         if super().statement(site, count, depth):
             if self.found is None:
                 return True  # the end of what was run
-            self._note(count, self.found)
+            self._note(count, self.found, None)
         return False
 
-    def _touched(self, count: int, found: Found) -> None:
-        self._note(count, found)
+    def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
+        """See `Hook`."""
+        self._site = site
+        super().access(site, count, offset, size, written)
 
-    def _note(self, count: int, found: Found) -> None:
+    def _touched(self, count: int, found: Found) -> None:
+        self._note(count, found, self._site)
+
+    def _note(self, count: int, found: Found, writer: int | None) -> None:
         here = self._resource.header.scan, count
         if here < self.before:
-            self.noted = here, found
+            self.noted = Noted(here, found, writer)
+
+
+class _Begins:
+    """Notes when a statement began last, up to a position of the scan."""
+
+    def __init__(self, upto: int, end: int | None) -> None:
+        self._upto, self._end = upto, end
+        self.count = upto
+
+    def statement(self, site: int, count: int, depth: int) -> bool:
+        """See `Hook`."""
+        if self._end is not None and count >= self._end:
+            return True
+        if count <= self._upto:
+            self.count = count
+        return False
+
+    def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
+        """See `Hook`."""
+
+    def entered(self) -> None:
+        """See `Onlooker`."""
 
 
 class Search:
@@ -50,15 +91,48 @@ class Search:
 
     def __init__(
         self, timeline: Timeline, breakpoints: Breakpoints, wanted: Sequence[Breakpoint], here: Position,
-        prober: Prober | None,
+        prober: Prober | None, raised: Raised,
     ) -> None:  # fmt: skip
         self._timeline, self._breakpoints, self._wanted, self._here = timeline, breakpoints, wanted, here
-        self._prober = prober
+        self._prober, self._raised = prober, raised
         self._probed: dict[Loaded, ProbedEngine | None] = {}
+        self._sound, self._flaw = False, ""
+        """Whether any program has a meaning for them; why one has not."""
         self._entered = {each.scan for each in timeline.live_journal if each.step}
 
-    def run(self) -> tuple[Position, Found] | Refusal | None:
+    def run(self) -> Noted | Refusal | None:
         """Where, and what; None: nowhere."""
+        recorded = self._recorded()
+        found = self._search(recorded.position[0] if recorded is not None else 0)
+        if found is None and recorded is None:
+            return Refusal(self._flaw) if self._flaw and not self._sound else None
+        if isinstance(found, Refusal) or recorded is None:
+            return found
+        return max((each for each in (found, recorded) if each is not None), key=lambda each: each.position)
+
+    def _recorded(self) -> Noted | None:
+        """What the journal and the calendar say: errors that were raised, scans."""
+        best: Noted | None = None
+        for one in self._wanted:
+            if not one.enabled:
+                continue
+            found = Found("scan", f"scan {one.scan}", one.author, (one.id,))
+            places = [((one.scan, 1), found)] if one.kind == "scan" else []
+            if one.kind == "error":
+                names = error_names(one)
+                places = [
+                    ((each.scan, max(1, each.step)), Found("error", f"{error} was raised", one.author, (one.id,)))
+                    for each in self._timeline.live_journal
+                    for error in self._raised(each)
+                    if not names or error in names
+                ]
+            for position, found in places:
+                if position < self._here and (best is None or position > best.position):
+                    best = Noted(position, found)
+        return best
+
+    def _search(self, first: int) -> Noted | Refusal | None:
+        """The last place since scan `first`."""
         checkpoints, (scan, count) = self._timeline.recording.checkpoints, self._here
         if count:
             found = self._last(range(scan, scan + 1))
@@ -66,13 +140,15 @@ class Search:
                 return found
         until = scan
         for checkpoint in reversed(checkpoints[: bisect_left(checkpoints, until, key=attrgetter("scan"))]):
-            found = self._in_stretch(range(checkpoint.scan, until))
+            if until <= first:
+                break
+            found = self._in_stretch(range(max(first, checkpoint.scan), until))
             if found is not None:
                 return found
             until = checkpoint.scan
         return None
 
-    def _in_stretch(self, scans: range) -> tuple[Position, Found] | Refusal | None:
+    def _in_stretch(self, scans: range) -> Noted | Refusal | None:
         """The last place in these scans: by probes as long as they lead anywhere."""
         for _ in range(_TRIES if self._prober is not None and len(scans) > _WORTH else 0):
             reached = self._last_reached(scans)
@@ -119,7 +195,7 @@ class Search:
             placing = self._breakpoints.placing(loaded)
             probes = notes_of([placing.place(each, 0) for each in self._wanted], placing)
             made = None
-            if probes is not None and self._prober is not None:
+            if probes and self._prober is not None:
                 try:
                     made = self._prober(loaded.statements, loaded.memory, probes)
                 except BadProbe:
@@ -127,7 +203,7 @@ class Search:
             self._probed[loaded] = made
         return self._probed[loaded]
 
-    def _last(self, scans: range) -> tuple[Position, Found] | Refusal | None:
+    def _last(self, scans: range) -> Noted | Refusal | None:
         """The last place in these scans, statement by statement."""
         timeline, wanted = self._timeline, self._wanted
         refusal = timeline.goto(scans.start)
@@ -139,8 +215,8 @@ class Search:
             while True:
                 placing = self._breakpoints.placing(resource.loaded)
                 placed = [placing.place(each, scans.start) for each in wanted]
-                if all(each.flaw for each in placed):
-                    return Refusal(placed[0].flaw)
+                sound = any(not each.flaw for each in placed)
+                self._sound, self._flaw = self._sound or sound, self._flaw or placed[0].flaw
                 resource.hook = noting = Noting(resource, placing, placed, None)
                 noting.before = self._here
                 if live is not None:
@@ -155,18 +231,38 @@ class Search:
 
 
 def search(
-    timeline: Timeline, breakpoints: Breakpoints, here: Position, author: str, path: str, prober: Prober | None
+    timeline: Timeline, breakpoints: Breakpoints, here: Position, author: str, path: str, prober: Prober | None,
+    raised: Raised,
 ) -> Found | Refusal:  # fmt: skip
     """Shows the last position before `here` where a breakpoint would have halted, or the statement that wrote `path`."""
     wanted = _wanted(breakpoints, author, path)
     if not any(each.enabled for each in wanted):
         return Refusal("there is no breakpoint to go back to: set one, or name a variable whose last write is wanted")
-    found = Search(timeline, breakpoints, wanted, here, prober).run()
-    if isinstance(found, Refusal):
-        return found
-    if found is None:
+    noted = Search(timeline, breakpoints, wanted, here, prober, raised).run()
+    if isinstance(noted, Refusal):
+        return noted
+    if noted is None:
         return Refusal(f"that did not happen since scan {timeline.recording.first_scan}, the first one that is kept")
-    return timeline.goto(*found[0]) or found[1]
+    return timeline.goto(*_in_front(timeline, noted)) or noted.found
+
+
+def _in_front(timeline: Timeline, noted: Noted) -> Position:
+    """The position in front of a statement that made an access."""
+    scan, count = noted.position
+    if noted.writer is None or timeline.goto(scan, 1) is not None:
+        return noted.position
+    resource, live = timeline.resource, timeline.live_inside
+    hook, listen = resource.hook, resource.listening
+    begins = _Begins(count, live.count if live is not None and timeline.live_scan == scan else None)
+    resource.hook = begins
+    resource.listen(Listen(frozenset((noted.writer,)), count=live.count if live is not None else 0))
+    try:
+        while timeline.go_on(scan + 1).reason is Reason.KNOCKED:
+            pass
+    finally:
+        resource.hook = hook
+        resource.listen(listen)
+    return scan, begins.count
 
 
 def _wanted(breakpoints: Breakpoints, author: str, path: str) -> list[Breakpoint]:

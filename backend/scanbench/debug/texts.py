@@ -4,6 +4,7 @@ from collections.abc import Callable
 
 from scanbench.check.local import Bad, Local, locals_of
 from scanbench.check.program import Pou, Program
+from scanbench.debug.assign import Assigning
 from scanbench.debug.message import Message
 from scanbench.engines.interpreter.evaluate import Evaluator
 
@@ -47,8 +48,9 @@ class Texts:
         evaluator = self.evaluator
         return lambda instance: made.text(evaluator, instance)
 
-    def check_assignments(self, pou: Pou | None, text: str) -> None:
-        """Raises `BadText` where these are no assignments."""
+    def assigning(self, pou: Pou | None, text: str) -> Assigning:
+        """Assignments. Raises `BadText`."""
         made = self.locals.assignments(pou, text)
         if isinstance(made, Bad):
             raise BadText(f"assignment: {made.message}")
+        return Assigning(self.evaluator, made)

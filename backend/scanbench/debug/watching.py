@@ -1,6 +1,6 @@
 """Which bytes data breakpoints look at, and which accesses are theirs."""
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass
 
 from scanbench.debug.placed import Placed, bytes_of
@@ -26,7 +26,7 @@ class Watching:
     def __init__(self, placed: Iterable[Placed], memory: bytearray) -> None:
         self._placed = tuple(placed)
         self._memory = memory
-        self._places: dict[Placed, _Place] = {}
+        self._places: dict[Placed, list[_Place]] = {}
         self.bytes: Mapping[int, int] = {}
         """For `Listen`."""
 
@@ -37,37 +37,49 @@ class Watching:
 
     def follow(self) -> bool:
         """Finds out where they are and what is there; whether `bytes` is another."""
-        places: dict[Placed, _Place] = {}
         bytes: dict[int, int] = {}
+        self._places = {}
         for placed in self._placed:
-            assert placed.symbol is not None
-            found = bytes_of(placed.symbol, self._memory)
-            if found is None:
-                continue
-            offset, size, mask = found
-            places[placed] = _Place(offset, size, mask, self._value(offset, size, mask))
-            for at in range(offset, offset + size):
-                bytes[at] = bytes.get(at, 0) | _WANTED[placed.breakpoint.access]
-        self._places = places
+            places = self._places[placed] = self._places_of(placed)
+            for place in places:
+                for at in range(place.offset, place.offset + place.size):
+                    bytes[at] = bytes.get(at, 0) | _WANTED[placed.breakpoint.access]
         if bytes == self.bytes:
             return False
         self.bytes = bytes
         return True
 
-    def touched(self, offset: int, size: int, written: bool) -> list[tuple[Placed, str]]:
-        """Whose access this is, and what to say of it."""
-        found = []
-        for placed, place in self._places.items():
-            if offset + size <= place.offset or place.offset + place.size <= offset:
-                continue
-            access, before = placed.breakpoint.access, place.last
-            if written:
+    def look(self) -> None:
+        """Finds out what is there now: something else than the program wrote."""
+        for places in self._places.values():
+            for place in places:
                 place.last = self._value(place.offset, place.size, place.mask)
-            if access == "change" and before == place.last:
-                continue
-            if _WANTED[access] & (WRITE if written else READ):
-                found.append((placed, self._text(placed, place, before, written)))
-        return found
+
+    def touched(
+        self, offset: int, size: int, written: bool, copying: Callable[[Placed], bool]
+    ) -> list[tuple[Placed, str]]:
+        """Whose access this is, and what to say of it. `copying`: a block copies what was passed to it, or copies it back;
+        that is nobody's access."""
+        found: dict[Placed, str] = {}
+        for placed, places in self._places.items():
+            for place in places:
+                if offset + size <= place.offset or place.offset + place.size <= offset:
+                    continue
+                before = place.last
+                if written:
+                    place.last = self._value(place.offset, place.size, place.mask)
+                if self._is_for(placed, before != place.last, written) and not copying(placed):
+                    found.setdefault(placed, self._text(placed, place, before, written))
+        return list(found.items())
+
+    @staticmethod
+    def _is_for(placed: Placed, changed: bool, written: bool) -> bool:
+        access = placed.breakpoint.access
+        return bool(_WANTED[access] & (WRITE if written else READ)) and (changed or access != "change")
+
+    def _places_of(self, placed: Placed) -> list[_Place]:
+        found = (bytes_of(each, self._memory) for each in (placed.symbol, placed.copy) if each is not None)
+        return [_Place(*each, self._value(*each)) for each in found if each is not None]
 
     def _value(self, offset: int, size: int, mask: int) -> bytes:
         data = self._memory[offset : offset + size]

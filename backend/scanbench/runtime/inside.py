@@ -7,6 +7,7 @@ else has to be kept of a scan that is halted but the image with which it began.
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
+from typing import Protocol
 
 from scanbench.check.layout import Layout
 from scanbench.engines.debug import NOTHING, DebugEngine, Frame, Hook, Listen
@@ -49,12 +50,20 @@ def _in_header(patch: Patch) -> bool:
     return patch.offset < Layout.HEADER_SIZE and not (patch.offset >= Layout.FORCES and end <= _FORCES_END)
 
 
+class Onlooker(Hook, Protocol):
+    """Who listens to the debug flavour, and is told when something enters in between."""
+
+    def entered(self) -> None:
+        """Something was entered in front of the statement that is to begin."""
+
+
 class Passage:
     """Runs scans on a debug engine: enters what is to be entered inside of them, and lets a hook listen in between."""
 
     def __init__(self, engine: DebugEngine) -> None:
         self.engine = engine
-        self._inner: Hook | None = None
+        self._inner: Onlooker | None = None
+        self._halts = True
         self._listen = NOTHING
         self._waiting: list[Entry] = []
         self._apply: Callable[[Entry], None] = lambda entry: None
@@ -62,9 +71,11 @@ class Passage:
         self._count = 0
 
     def begin(
-        self, hook: Hook | None, listen: Listen, waiting: Sequence[Entry], apply: Callable[[Entry], None]
+        self, hook: Onlooker | None, halts: bool, listen: Listen, waiting: Sequence[Entry],
+        apply: Callable[[Entry], None],
     ) -> None:  # fmt: skip
-        """Before `engine.run`: who halts, and what is entered in the one scan that is run then."""
+        """Before `engine.run`: who listens and whether that may halt, and what is entered in the one scan that is run then."""
+        self._halts = halts
         self._inner, self._listen, self._waiting, self._apply = hook, listen, list(waiting), apply
         self._count = 0
         self.engine.hook(self)
@@ -108,11 +119,13 @@ class Passage:
         if self._waiting:
             while self._waiting and count >= self._waiting[0].step:
                 self._apply(self._waiting.pop(0))
+                if self._inner is not None:
+                    self._inner.entered()
             self._tell(count)
         listen, hook = self._listen, self._inner
         if hook is None or not (listen.every or site in listen.sites or count == listen.count):
             return False
-        return hook.statement(site, count, depth)
+        return hook.statement(site, count, depth) and self._halts
 
     def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
         """See `Hook`."""
@@ -132,3 +145,6 @@ class HaltAt:
 
     def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
         """See `Hook`."""
+
+    def entered(self) -> None:
+        """See `Onlooker`."""

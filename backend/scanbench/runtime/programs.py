@@ -31,9 +31,13 @@ class Loaded:
         """The debug flavour: the reference engine's, if nobody has put another one in place. So a run can be replayed that
         was debugged, wherever it is."""
         if self.debug is None:
-            self.fresh = self.renewed()
-            self.debug = debug_engine(self.fresh, self.memory)
+            self.debug = debug_engine(self.settled(), self.memory)
         return self.debug
+
+    def settled(self) -> Program:
+        """The same as `renewed`, and from now on those are its `statements`. In the thread that runs it."""
+        self.fresh = self.renewed()
+        return self.fresh
 
     def renewed(self) -> Program:
         """The program with statements that no later check changes. Any thread."""

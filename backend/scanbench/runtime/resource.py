@@ -8,17 +8,17 @@ from operator import is_
 from scanbench.check.condition import Condition
 from scanbench.check.program import Program
 from scanbench.engines.debug import NOTHING as NOT_LISTENING
-from scanbench.engines.debug import Hook, Listen
+from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.observe import Observer, Seen
 from scanbench.engines.sample import Sampling
 from scanbench.runtime import seam
 from scanbench.runtime.agenda import NONE_MET, NOTHING, Agenda, Met, Waits
 from scanbench.runtime.clock import monotonic_ns, wall_time
-from scanbench.runtime.command import Command, Entry, Refusal, View
+from scanbench.runtime.command import Command, Entry, Plan, Refusal, View
 from scanbench.runtime.detect import Detect, read_asked
 from scanbench.runtime.header import Header, Mode, fresh_image, pass_time
-from scanbench.runtime.inside import Diverged, Inside, Passage, front, needs_seam
+from scanbench.runtime.inside import Diverged, Inside, Onlooker, Passage, front, needs_seam
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.programs import Loaded, Programs, Shelf
 from scanbench.runtime.recorder import Recorder
@@ -67,10 +67,11 @@ class Resource:
         self._reached: set[int] = set()
         self.inside: Inside | None = None
         """Where the scan is halted that is next; the image stands there."""
+        self._finishing = False
         self.lenient = False
         """The run need not go as it did when it was recorded: what was entered inside of a scan that does not get so far now
         is entered behind it."""
-        self.hook: Hook | None = None
+        self.hook: Onlooker | None = None
         """Who listens to the debug flavour: while somebody does, it runs."""
         self.on_seen: Callable[[Seen], None] | None = None
         """Who is told what observed code or the debug flavour notes."""
@@ -106,7 +107,7 @@ class Resource:
         if self.hook is not None:
             return self.loaded.debugged()
         observed = self._observed
-        if self.probed is not None and observed is None:
+        if self.probed is not None and observed is None and not self._finishing:
             return self.probed
         return self.loaded.engine if observed is None else observed.engine
 
@@ -182,7 +183,7 @@ class Resource:
                 self.on_probe()
                 return Stop(Reason.KNOCKED)
             return stop
-        if stop.reason is Reason.TRAP and self.on_trap is not None and self.on_trap():
+        if stop.reason is Reason.TRAP and self.on_trap is not None and not self._finishing and self.on_trap():
             return Stop(Reason.HALTED)
         met = self._met(stop, waits)
         if stop.reason is Reason.CONDITION and (self.until is None or not self.engine.holds(self.until)):
@@ -195,15 +196,19 @@ class Resource:
         return stop
 
     def finish(self) -> None:
-        """Runs the scan to its end that is halted."""
+        """Runs the scan to its end that is halted, whoever wants to halt it again. A trap ends it, too."""
         scan = self.header.scan
-        while self.begun and self.runnable and self.header.scan == scan:
-            if self.run(1).reason in (Reason.TRAP, Reason.HALTED):
-                break
+        self._finishing = self.begun
+        try:
+            while self._finishing and self.runnable and self.header.scan == scan:
+                if self.run(1).reason is Reason.TRAP:
+                    break
+        finally:
+            self._finishing = False
 
-    def enter_here(self, command: Command, count: int) -> Entry | Refusal:
-        """For the hook: enters a command in front of the statement of this count, which is to begin."""
-        return self._enter(command, must=False, step=count)
+    def enter_here(self, command: Command, plan: Plan, count: int) -> Entry | Refusal:
+        """For the hook: enters a command, whose plan it has, in front of the statement of this count, which is to begin."""
+        return self._keep(command, plan, must=False, step=count)
 
     def idle(self, scans: int) -> None:
         """Up to `scans` scans pass while the program is stopped: no further than to what is due."""
@@ -321,7 +326,7 @@ class Resource:
     def _pass(self, scans: int, pace: Pace | None, waiting: list[Entry]) -> Stop:
         """Runs the debug flavour."""
         passage, scan = self._passing(), self.header.scan
-        passage.begin(self.hook, self._listen, waiting, self._again)
+        passage.begin(self.hook, not self._finishing, self._listen, waiting, self._again)
         ended = False
         try:
             stop = passage.engine.run(scans, pace)
@@ -385,6 +390,9 @@ class Resource:
         plan = command.plan(self.view)
         if isinstance(plan, Refusal):
             return plan
+        return self._keep(command, plan, must, step)
+
+    def _keep(self, command: Command, plan: Plan, must: bool, step: int) -> Entry | Refusal:
         entry = Entry(self.header.scan, wall_time(), command, plan, step)
         if self.recorder is not None:
             try:

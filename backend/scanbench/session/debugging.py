@@ -44,7 +44,7 @@ class Debugging:
 
         Of a breakpoint with id 0 the id is found: that of the same one before, so that its count goes on, or a new one.
         """
-        before = [each.breakpoint for each in self.verdicts if _is_of(each.breakpoint, group, kind, file)]
+        before = [each.breakpoint for each in self.verdicts if each.breakpoint.is_of(group, kind, file)]
         named = [self._named(each, before) for each in wanted]
         for gone in before:
             self._verdicts.pop(gone.id, None)
@@ -103,7 +103,3 @@ class Debugging:
             case Coverage():
                 self._coverage = message
                 self._publish(events.CoverageChanged(message))
-
-
-def _is_of(one: Breakpoint, group: str, kind: str | None, file: str | None) -> bool:
-    return one.group == group and kind in (None, one.kind) and file in (None, one.file)

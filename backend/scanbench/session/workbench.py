@@ -247,10 +247,10 @@ class Workbench:
         memory = Remembered(row.name, sources, run_path(self._runs, row.id), row.limits, paused=paused)
         kept = map(breakpoint_of, await asyncio.to_thread(self._store.breakpoints, row.id))
         breakpoints = [each for each in kept if each is not None]
+        traces = await asyncio.to_thread(self._store.traces, row.id)
         session = Session(
-            row, model, memory, self._keeper, rows, lines, self._loads, self._reactions, breakpoints, self._cache,
-            await asyncio.to_thread(self._store.traces, row.id),
-        )
+            row, model, memory, self._keeper, rows, lines, self._loads, self._reactions, breakpoints, self._cache, traces
+        )  # fmt: skip
         self._sessions[row.id] = session
         session.take_sweeps(await self.sweeps.found(project.id))
         if row.powered:

@@ -167,7 +167,7 @@ def parts() -> Program:
 
 
 @pytest.mark.parametrize(
-    "path, type, at, bit",
+    ("path", "type", "at", "bit"),
     [
         ("Main.d.31", "BOOL", 3, 7),
         ("main.d.%x9", "BOOL", 1, 1),
@@ -199,7 +199,7 @@ def test_a_bit_of_what_an_in_out_is_bound_to_is_that_bit(parts: Program) -> None
 
 
 @pytest.mark.parametrize(
-    "path, says",
+    ("path", "says"),
     [
         ("Main.r.3", "only integers and bit strings"),
         ("Main.d.32", "it has 32 of that size"),

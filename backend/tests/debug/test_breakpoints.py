@@ -255,13 +255,13 @@ def test_a_trap_halts_in_front_of_the_statement_and_then_traps(make: MakeDebug, 
     walker.submit(Write("Ann", "Main.n", "5"))
     walker.debugger.step("continue", "Ann")
     walker.run(3)
-    assert walker.timeline.resource.trap is None, "what was written in front of it saved the program"
+    assert walker.timeline.resource.runnable, "what was written in front of it saved the program"
     walker.debugger.step("continue", "Ann")
     walker.run()
     assert walker.halt.reason == "trap"
     walker.debugger.step("continue", "Ann")
     assert walker.run() is None
-    assert walker.timeline.resource.trap is not None
+    assert walker.timeline.resource.header.halted_by_trap
     walker.step("back")
     assert (walker.line, walker.halt.past) == (4, True), "back from a trap is in front of the statement that trapped"
 

@@ -5,11 +5,14 @@ from pathlib import Path
 import pytest
 
 from scanbench.debug.breakpoint import Breakpoint
+from scanbench.faults.inject import Generate
+from scanbench.faults.reference import ErrorRef
 from scanbench.runtime import checkpoints
 from scanbench.runtime.write import Write
 from tests.debug.test_walks import BUILDS
 from tests.debug.walking import STATIONS, Counted, Walker
 from tests.runtime.bench import value
+from tests.runtime.recorded import COUNTER, SECOND, to_program
 
 SELDOM = STATIONS.replace("VAR n, i,", "VAR rare, n, i,").replace(
     "  motor :=", "  IF n MOD 700 = 0 THEN\n    rare := 7;\n    list[4] := n;\n  END_IF;\n  motor :="
@@ -63,3 +66,41 @@ def test_what_was_written_from_outside_inside_of_a_scan_is_followed(walker: Walk
     assert walker.run(2000) is None
     walker.step("reverse", path="Main.list[4]")
     assert (walker.halt.scan, value(walker.timeline.resource, "Main.n")) == (4400, 2100)
+
+
+def test_a_write_is_shown_where_its_statement_begins(tmp_path: Path) -> None:
+    source = STATIONS.replace("  n := n + 1;", "  n := n + Twice(1) - 1;")
+    walker = Walker(tmp_path / "a.run", source, BUILDS.engine)
+    walker.run(10)
+    for scan in (9, 8):
+        walker.step("reverse", path="Main.n")
+        assert (walker.line, walker.here, value(walker.timeline.resource, "Main.n")) == (24, (scan, 1), scan)
+
+
+def test_the_journal_knows_when_errors_were_raised_and_scans_were(walker: Walker) -> None:
+    error = next(each.id for each in walker.timeline.resource.program.layout.model.errors() if each.severity != "fatal")
+    walker.submit(Generate("Bob", (ErrorRef(error),)))
+    assert walker.run(300) is None
+    walker.set(
+        Breakpoint(1, "error", "Ann", error=error),
+        Breakpoint(2, "scan", "Ann", scan=1000),
+        Breakpoint(3, "line", "Ann", file="main.st", line=31),
+    )
+    found = []
+    for _ in range(4):
+        walker.step("reverse")
+        found.append((walker.halt.reason, walker.halt.scan))
+    assert found == [("error", 3000), ("breakpoint", 2799), ("breakpoint", 2099), ("breakpoint", 1399)]
+    walker.step("reverse")
+    assert (walker.halt.reason, walker.here) == ("scan", (1000, 1))
+
+
+def test_a_variable_that_an_online_change_added(tmp_path: Path) -> None:
+    walker = Walker(tmp_path / "a.run", COUNTER)
+    walker.run(30)
+    assert to_program(walker.timeline, 2, SECOND.replace("n := n + 3", "first := n; n := n + 3")) == ""
+    walker.debugger.moved()
+    walker.run(30)
+    assert walker.debugger.step("reverse", "Ann", path="Main.nix") is not None
+    walker.step("reverse", path="Main.n")
+    assert (walker.halt.past, walker.halt.scan) == (True, 59)

@@ -66,7 +66,7 @@ def written(path: Path, engine: EngineFactory = ReferenceEngine) -> tuple[Timeli
 @pytest.mark.parametrize("engine", ENGINES)
 def test_any_scan_behind_it_is_shown_again(engine: EngineFactory, tmp_path: Path) -> None:
     timeline, states = written(tmp_path / "a.run", engine)
-    assert value(timeline.resource, "Main.n") == 50 + 9
+    assert value(timeline.resource, "Main.n") == 58
     for scan in (6, 14, 9, 7, 8, 13, 10):
         assert timeline.goto(scan) is None
         assert timeline.resource.state == states[scan]

@@ -319,7 +319,9 @@ def test_other_threads_never_take_the_past_for_what_is_live(tmp_path: Path, monk
     seen: list[int] = []
     restore = Resource.restore
 
-    def watched(resource: Resource, loaded: Loaded, state: bytes, journal: Journal, inside: Inside | None = None) -> None:
+    def watched(
+        resource: Resource, loaded: Loaded, state: bytes, journal: Journal, inside: Inside | None = None
+    ) -> None:
         seen.append(timeline.live_version)
         restore(resource, loaded, state, journal, inside)
         seen.append(timeline.live_version)

@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from scanbench.debug.breakpoint import Breakpoint
+from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.runtime.write import Write
 from scanbench.session import debug_protocol, protocol
 from tests.session.child import Child
@@ -37,7 +37,7 @@ def at_line(line: int, **more: object) -> tuple[Breakpoint, ...]:
     return (Breakpoint(1, "line", "Ann", file="main.st", line=line, **more),)  # type: ignore[arg-type]
 
 
-def set_breakpoints(child: Child, breakpoints: tuple[Breakpoint, ...]) -> tuple[debug_protocol.Verdict, ...]:
+def set_breakpoints(child: Child, breakpoints: tuple[Breakpoint, ...]) -> tuple[Verdict, ...]:
     return child.ask(
         lambda ref: debug_protocol.SetBreakpoints(ref, "", None, None, breakpoints), debug_protocol.BreakpointsAre
     ).verdicts

@@ -14,12 +14,15 @@ import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
+from scanbench.engines.debug import Listen
+from scanbench.engines.engine import Reason
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reaction import Reaction
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.contents import Codec
+from scanbench.runtime.inside import HaltAt
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import Loaded, NoProgram, Shelf
@@ -361,3 +364,41 @@ def test_it_ends_with_its_parent(tmp_path: Path) -> None:
     ended = poll.poll(30_000)
     os.close(handle)
     assert ended
+
+
+def test_what_a_debugger_entered_inside_of_scans_belongs_to_both_runs(job: Job, tmp_path: Path) -> None:
+    timeline = begun(tmp_path / "1.run")
+    advance(timeline, 20)
+    entry = enter(timeline, Generate("Ada", (ref("basic-io-error"),)))
+    advance(timeline, 5)
+    inside(timeline, 2, Write("Ada", "Main.on", "TRUE"))
+    advance(timeline, 10)
+    inside(timeline, 1, Write("Ada", "Main.n", "500"))
+    advance(timeline, 20)
+    timeline.note()
+    job.ask(FindReaction(1, str(tmp_path / "1.run"), "basic-io-error", entry.scan, entry.scan + 30, 200))
+    answer = job.answer()
+    assert isinstance(answer, Reacted)
+    assert answer.reaction is not None, answer.message
+    found = answer.reaction
+    assert (found.verdict, found.first_effect) == ("reacted", 6), "it is read once the lamp handler is on"
+    assert [each.path for each in found.differences] == ["Main.lamp"]
+    begin = StartPoint("here", str(tmp_path / "1.run"))
+    job.ask(RunSweep(2, sources(), (begin,), ("battery-error",), 10, ()))
+    cell = job.answer()
+    assert isinstance(cell, CellFound), cell
+    assert cell.reaction is not None, cell.note
+    assert cell.reaction.verdict == "never_read"
+    assert job.answer() == JobDone(2, True)
+    timeline.close()
+
+
+def inside(timeline: Timeline, count: int, command: Command) -> None:
+    """Enters a command in front of the statement of this count of the scan that is next."""
+    resource = timeline.resource
+    resource.hook = HaltAt(count)
+    resource.listen(Listen(count=count))
+    while timeline.run(1).reason is not Reason.HALTED:
+        pass
+    resource.hook = None
+    assert enter(timeline, command).step == count

@@ -153,7 +153,7 @@ class ReferenceEngine(Engine):
                 pace.busy_ns += time.monotonic_ns() - begin
                 pace.scans += 1
                 pace.deadline_ns += pace.period_ns
-            if not all([each.sample() for each in self._samplers]):
+            if not all([each.sample() for each in self._samplers]):  # noqa: C419 - each of them has to sample
                 self._knock.set()
             if self._condition is not None and self._condition():
                 return Stop(Reason.CONDITION)

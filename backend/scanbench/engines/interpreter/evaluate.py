@@ -23,6 +23,8 @@ ROUNDS = 50_000
 """Of loops in the functions that a text calls: the PLC waits for them, and this is some tenth of a second."""
 Spot = tuple[int, int | None]
 """Byte offset in the image, and a bit of that byte for a BOOL that is one."""
+Stored = tuple[LocalAssignment, Spot, bytes]
+"""By which assignment, where, which bytes."""
 _NOBODY = Pou("", "function", Record("", Kind.STRUCT), Record("", Kind.STRUCT), (), None, Span("", 0, 0, 0, 0))
 
 
@@ -73,22 +75,44 @@ class Evaluator:
         run = self._on(local.calls)._located(local.pou, local.place)
         return self._guarded(local.traps, run, instance)
 
-    def assigned(self, local: LocalAssignments, instance: int) -> list[tuple[LocalAssignment, Spot, bytes]]:
-        """What would be stored, one after the other: by which assignment, where, which bytes. Raises NoValue."""
-        work = Evaluator(self.program, bytearray(self.memory))
-        found = []
-        for each in local.assignments:
-            on = work._on(local.calls)
-            if each.condition is not None:
-                if not self._guarded(local.traps, on._closure(local.pou, each.condition), instance):
-                    continue
-            value = self._guarded(local.traps, on._closure(local.pou, each.value), instance)
-            _within(each.target.type, value, each.shown)
-            spot = self._guarded(local.traps, on._located(local.pou, each.target), instance)
-            data = bytes_of(each.target.type, value)
-            work._store(spot, data)
-            found.append((each, spot, data))
-        return found
+    def assigned(self, local: LocalAssignments, instance: int) -> list[Stored]:
+        """What would be stored, one after the other. Raises NoValue."""
+        return self.assigning(local)(instance)
+
+    def assigning(self, local: LocalAssignments) -> Callable[[int], list[Stored]]:
+        """The same for any instance, at any time. Good for as long as this evaluator is."""
+        on = self._on(local.calls)
+        every = [
+            (
+                each,
+                None if each.condition is None else on._closure(local.pou, each.condition),
+                on._closure(local.pou, each.value),
+                on._located(local.pou, each.target),
+            )
+            for each in local.assignments
+        ]
+
+        def run(instance: int) -> list[Stored]:
+            found: list[Stored] = []
+            before: list[tuple[int, bytes]] = []
+            try:
+                for each, condition, value, located in every:
+                    self._on(local.calls)
+                    if condition is not None and not self._guarded(local.traps, condition, instance):
+                        continue
+                    worth = self._guarded(local.traps, value, instance)
+                    _within(each.target.type, worth, each.shown)
+                    spot = self._guarded(local.traps, located, instance)
+                    data = bytes_of(each.target.type, worth)
+                    found.append((each, spot, data))
+                    before.append((spot[0], bytes(self.memory[spot[0] : spot[0] + len(data)])))
+                    self._store(spot, data)  # for what is computed of it
+            finally:
+                for offset, old in reversed(before):
+                    self.memory[offset : offset + len(old)] = old
+            return found
+
+        return run
 
     def _store(self, spot: Spot, data: bytes) -> None:
         offset, bit = spot

@@ -78,7 +78,8 @@ class Builds:
                 loaded = loop.programs.make(sources)
                 if loop.resource.observing:
                     self._builder.observed.prepare(loaded.program)
-                if loop.debugging.debugger.busy:
+                debugger = loop.debugging.debugger
+                if debugger.busy or debugger.breakpoints.placed:  # disabled ones, too: they have to find their places
                     self._debuggable(loaded).put_in_place()
             except Exception as error:  # whatever it is, the old program goes on and somebody must be told
                 why = f"the build failed, the old program goes on: {self._why(error)}"

@@ -238,7 +238,7 @@ class Debugging:
 
 
 def _assigns(scene: Scene, index: int | None, text: str) -> bool:
-    """Whether the text is assignments, not a value."""
+    """Whether the text is meant as assignments: what is wrong with them, they say themselves."""
     locals: Locals = scene.locals
     pou, _ = at(scene.frame(index))
-    return ":=" in text and not isinstance(locals.assignments(pou, text), BadCondition)
+    return ":=" in text and isinstance(locals.value(pou, text), BadCondition)

@@ -242,7 +242,7 @@ class Loop:
         if self.timeline.past:
             if drive.action != "scan":
                 return Refusal(PAST)
-            return self.timeline.step() or "one scan on"
+            return self._scan_on() or "one scan on"
         if not self.resource.runnable:
             return Refusal(f"the program is stopped: {self._services.state.message}")
         if drive.action == "scan":
@@ -258,6 +258,15 @@ class Loop:
         if self._debugger.halt is not None:
             self._debugger.step("continue", drive.author)
         return f"continue: {self._course.target}" if self._course.target else "continue"
+
+    def _scan_on(self) -> Refusal | None:
+        """One scan on in the past."""
+        program = self.resource.program
+        refusal = self.timeline.step()
+        if refusal is None:
+            self._debugger.travelled()
+            self._shown_moved(program)
+        return refusal
 
     def _single(self, author: str) -> str | Refusal:
         """One scan, whatever knocks meanwhile; from a halt to the first statement of the next one."""

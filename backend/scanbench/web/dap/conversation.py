@@ -79,6 +79,9 @@ class Conversation:
 
     def receive(self, message: object) -> None:
         """A message of the client. Answers come one by one as they are found; requests reach the PLC in their order."""
+        if not isinstance(message, dict):
+            self._on_nonsense(message, "it is no JSON object")
+            return
         try:
             request = shapes.Request.model_validate(_without_nulls(message))
         except ValidationError as error:
@@ -143,6 +146,8 @@ class Conversation:
             self._refuse(request.seq, request.command, str(error), near)
         except ValidationError as error:
             self._refuse(request.seq, request.command, f"{request.command}: {fault(error)}")
+        except UnicodeEncodeError:
+            self._refuse(request.seq, request.command, f"{request.command}: a text in it is no Unicode")
         except Exception:
             log.exception("the DAP request %s could not be served", request.command)
             self._refuse(request.seq, request.command, f"{request.command} failed: see the server's log")

@@ -152,9 +152,11 @@ class BrowserClient(Client):
 class StdioClient(Client):
     """`scanbench dap`, as an editor starts it."""
 
-    def __init__(self, *arguments: str, cwd: Path | None = None, temporary: Path | None = None) -> None:
+    def __init__(
+        self, *arguments: str, cwd: Path | None = None, temporary: Path | None = None, cache: Path | None = None
+    ) -> None:
         super().__init__()
-        cache = Path(tempfile.gettempdir()) / f"scanbench-tests-{os.getuid()}"  # not the user's own
+        cache = cache or Path(tempfile.gettempdir()) / f"scanbench-tests-{os.getuid()}"  # not the user's own
         environment = os.environ | {"XDG_CACHE_HOME": str(cache)}
         environment |= {} if temporary is None else {"TMPDIR": str(temporary)}
         self.process = subprocess.Popen(

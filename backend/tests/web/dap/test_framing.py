@@ -38,7 +38,7 @@ def test_other_headers_and_capitals_do_not_matter() -> None:
         (b"GET / HTTP/1.1\r\n\r\n", "no Content-Length"),
         (b"Content-Length: many\r\n\r\n", "no Content-Length"),
         (b"Content-Length: 99999999999\r\n\r\n", "larger than 64 MiB"),
-        (b"Content-Length: " + b"9" * 4900 + b"\r\n\r\n", "larger than 64 MiB"),
+        pytest.param(b"Content-Length: " + b"9" * 4900 + b"\r\n\r\n", "larger than 64 MiB", id="digits"),
         (b"x" * 5000, "no end"),
     ],
 )

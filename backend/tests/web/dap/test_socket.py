@@ -35,6 +35,40 @@ b(step := 0);
 END_PROGRAM
 """
 COUNTS, FIRST, CALL_A, CALL_B = 8, 17, 18, 19
+TASKS = """FUNCTION_BLOCK Adds
+VAR_IN_OUT
+  sum : INT;
+END_VAR
+sum := sum + 1;
+END_FUNCTION_BLOCK
+
+PROGRAM Slow
+VAR
+  n, m : INT;
+  adds : Adds;
+END_VAR
+adds(sum := n);
+adds(sum := m);
+IF n < 0 THEN
+  m := 0;
+END_IF;
+END_PROGRAM
+
+PROGRAM Fast
+VAR
+  n : INT;
+END_VAR
+n := n + 1;
+END_PROGRAM
+
+CONFIGURATION Plant
+  TASK slow (INTERVAL := T#20ms, PRIORITY := 5);
+  TASK fast (INTERVAL := T#10ms, PRIORITY := 1);
+  PROGRAM s WITH slow : Slow;
+  PROGRAM f WITH fast : Fast;
+END_CONFIGURATION
+"""
+ADDS, CALL_N, CALL_M, NEVER, FAST = 5, 13, 14, 16, 24
 _numbers = count(1)
 
 
@@ -260,3 +294,83 @@ def test_a_token_is_needed(server: Server, instance: int) -> None:
     address = f"ws://127.0.0.1:{server.port}/api/instances/{instance}/dap?token=wrong"
     with pytest.raises(InvalidStatus), connect(address):
         pass
+
+
+@pytest.fixture
+def tasks(server: Server) -> Iterator[int]:
+    id = server.instance(f"dap {next(_numbers)}", "GENERIC-IEC", Main=TASKS)
+    yield id
+    assert server.http.delete(f"/api/instances/{id}").status_code == 204
+
+
+def test_threads_are_the_tasks_and_known_before_they_ran(server: Server, tasks: int) -> None:
+    with SocketClient(server, tasks) as tool:
+        fast, slow = tool.ask("threads")["threads"]
+        assert (fast["name"], slow["name"]) == ("fast", "slow")
+        tool.ask("setBreakpoints", source={"path": "Main.st"}, breakpoints=[{"line": CALL_N}])
+        assert tool.halt("configurationDone")["threadId"] == slow["id"]
+        frames = tool.ask("stackTrace", threadId=slow["id"])
+        assert [each["line"] for each in frames["stackFrames"]] == [CALL_N]
+        assert tool.ask("stackTrace", threadId=fast["id"]) == {"stackFrames": [], "totalFrames": 0}
+        tool.ask("setBreakpoints", source={"path": "Main.st"}, breakpoints=[{"line": FAST}])
+        assert tool.halt("continue", threadId=slow["id"])["threadId"] == fast["id"]
+        assert tool.ask("threads")["threads"] == [fast, slow]
+
+
+def test_threads_of_another_program(server: Server, tasks: int) -> None:
+    with SocketClient(server, tasks) as tool:
+        before = {each["name"]: each["id"] for each in tool.ask("threads")["threads"]}
+        project = server.http.get(f"/api/instances/{tasks}").json()["project"]
+        text = TASKS.replace("TASK slow", "TASK late").replace("WITH slow", "WITH late")
+        saved = server.http.put(f"/api/projects/{project}/files/Main.st", json={"text": text, "version": 1})
+        assert saved.status_code == 200, saved.text
+        built = server.http.post(f"/api/projects/{project}/build", json={})
+        assert built.status_code == 200, built.text
+        now: dict[str, int] = {}
+        while "late" not in now:
+            now = {each["name"]: each["id"] for each in tool.ask("threads")["threads"]}
+        assert set(now) == {"fast", "late"}
+        assert now["fast"] == before["fast"]
+        assert now["late"] not in before.values()
+
+
+def test_what_an_in_out_is_bound_to(server: Server, tasks: int) -> None:
+    with SocketClient(server, tasks) as tool:
+        tool.ask("setBreakpoints", source={"path": "Main.st"}, breakpoints=[{"line": ADDS}])
+        tool.halt("configurationDone")
+        bound = tool.ask("scanbench/inOutBinding", path="s.adds.sum")
+        assert bound["ok"], bound
+        assert [site["line"] for site in bound["sites"]] == [CALL_N, CALL_M]
+        assert [site["path"].casefold() for site in bound["sites"]] == ["plant.s.n", "plant.s.m"]
+        assert "no" in tool.refused("scanbench/inOutBinding", path="s.adds.total")
+        assert "path" in tool.refused("scanbench/inOutBinding")
+
+
+def test_coverage_says_what_was_reached(server: Server, tasks: int) -> None:
+    with SocketClient(server, tasks) as tool:
+        assert not tool.ask("scanbench/coverage")["on"]
+        assert tool.ask("scanbench/coverage", on=True)["on"]
+        reached: set[int] = set()
+        while not {ADDS, CALL_N, CALL_M, FAST} <= reached:
+            (file,) = tool.ask("scanbench/coverage")["files"]
+            assert file["file"] == "Main.st"
+            reached = {site["line"] for site in file["sites"] if site["reached"]}
+        assert NEVER not in reached
+        tool.ask("pause", threadId=1)
+        tool.event("stopped")
+        fresh = tool.ask("scanbench/coverage", reset=True)
+        assert fresh["on"]
+        assert not [site for file in fresh["files"] for site in file["sites"] if site["reached"]]
+        assert not tool.ask("scanbench/coverage", on=False)["on"]
+
+
+def test_back_to_the_last_write(server: Server, tasks: int) -> None:
+    with SocketClient(server, tasks) as tool:
+        tool.ask("setBreakpoints", source={"path": "Main.st"}, breakpoints=[{"line": CALL_M, "condition": "n > 2"}])
+        tool.halt("configurationDone")
+        n = int(tool.value("s.n"))
+        back = tool.halt("scanbench/reverseTo", path="s.n")
+        assert tool.stack()[0]["line"] in (ADDS, CALL_M)
+        assert int(tool.value("s.n")) in (n - 1, n)
+        assert back["reason"] in ("step", "data breakpoint", "goto", "breakpoint")
+        assert "no" in tool.refused("scanbench/reverseTo", path="s.nothing")
