@@ -94,7 +94,16 @@ test('by keyboard alone', async ({ openAs }) => {
 
   await test.step('F6 goes round the panes and comes back to the first', async () => {
     const round = await roundOfPanes(mika, 'F6');
-    expect(round.slice().sort()).toEqual(['editor', 'errors', 'explorer', 'status', 'timeline', 'topbar', 'watch']);
+    expect(round.slice().sort()).toEqual([
+      'debug',
+      'editor',
+      'errors',
+      'explorer',
+      'status',
+      'timeline',
+      'topbar',
+      'watch',
+    ]);
     const back = await roundOfPanes(mika, 'Shift+F6');
     expect(back.slice().sort()).toEqual(round.slice().sort());
   });

@@ -85,6 +85,11 @@ class Debugger:
         return self._past_halt if self._timeline.past else self._live_halt
 
     @property
+    def stands(self) -> bool:
+        """Whether the PLC itself is halted, also while its past is shown."""
+        return self._live_halt is not None
+
+    @property
     def moving(self) -> bool:
         """Whether a step goes on in the past: `move` is to be called."""
         return self._past.moving
@@ -97,10 +102,10 @@ class Debugger:
 
     @property
     def flavour(self) -> str:
-        """Which code runs."""
-        if self.resource.hook is not None:
+        """Which code runs, or would: empty is the ordinary one."""
+        if self.resource.inside is not None or (self.busy and self.resource.hook is not None):
             return "debug"
-        return "" if self.resource.probed is None else "probed"
+        return "probed" if self.busy and self.resource.probed is not None else ""
 
     @property
     def prober(self) -> Prober | None:

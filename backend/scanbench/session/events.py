@@ -234,6 +234,13 @@ class FlightChanged:
     """Why none came of it."""
 
 
+@dataclass(frozen=True, slots=True)
+class WrittenInside:
+    """Something was written into the scan that is halted: what is shown of it is not what it was."""
+
+    scan: int
+
+
 Told = (
     StateChanged
     | ErrorsChanged
@@ -257,7 +264,7 @@ Told = (
 )
 
 """What everybody is told."""
-Event = Told | LogpointSaid
+Event = Told | LogpointSaid | WrittenInside
 """And what debug sessions say in their own words."""
 
 

@@ -54,13 +54,14 @@ class Remembered:
     scan: int = 0
     end: int | None = None
     condition: str | None = None
+    halted: bool = False
 
     def start(self) -> protocol.Start:
         """The first message to a new host."""
         limits = self.limits
         return protocol.Start(
             self.name, self.sources, str(self.run), limits.run_mib, limits.memory_mib, limits.cpu_percent,
-            self.speed, self.paused, self.scan, self.end, self.condition,
+            self.speed, self.paused, self.scan, self.end, self.condition, self.halted,
         )  # fmt: skip
 
 
@@ -227,7 +228,7 @@ class Instance:
 
     def _see(self, state: protocol.HostState) -> None:
         self._memory.speed, self._memory.paused = state.speed, state.paused
-        self._memory.end, self._memory.condition = state.end, state.until
+        self._memory.end, self._memory.condition, self._memory.halted = state.end, state.until, state.halted
         self._memory.scan = state.live_scan
         pid = self._process.pid if self._process is not None else None
         self._set_state(
@@ -299,6 +300,7 @@ class Instance:
         memory.sources = sources or memory.sources
         memory.scan = self._deaths = 0
         memory.end = memory.condition = None
+        memory.halted = False
         self._set_state(
             scan=0, live_scan=0, time_ns=0, trap=None, past_by="", target="", version=memory.sources.version
         )

@@ -50,6 +50,8 @@ class Start:
     """The run was asked to end in front of this scan."""
     condition: str | None
     """The run was asked to end when this holds."""
+    halted: bool = False
+    """A debugger had halted it: it waits in front of that scan until somebody lets it go on."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -239,6 +241,8 @@ class HostState:
     """Where a debugger halted it; then `state` is `halted` (`past` while that is in the past)."""
     flavour: str = ""
     """Which code runs, for people: empty is the ordinary one, `debug`, `probed`."""
+    halted: bool = False
+    """A debugger halted the PLC itself, whatever is shown."""
 
 
 @dataclass(frozen=True, slots=True)

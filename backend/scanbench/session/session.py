@@ -439,6 +439,8 @@ class Session:
                 forced = isinstance(command, Force)
                 for path in filter(None, (command.path, command.through)):
                     self._publish(events.ValueWritten(path, command.author, entry.scan, forced))
+        if any(entry.step for entry in entries):
+            self._publish(events.WrittenInside(entries[-1].scan))
         self._publish_rows(list(rows.values()), fresh=self._history.version != version)
         self._publish(self._timeline.add(entries))
         for entry in entries[:LISTED]:

@@ -74,7 +74,7 @@ class Client:
 
     def on_event(self, event: Event) -> None:
         """Queues it; of states only the newest is worth sending."""
-        if isinstance(event, events.LogpointSaid):
+        if isinstance(event, events.LogpointSaid | events.WrittenInside):
             return
         if isinstance(event, events.WatchListChanged) and event.owner not in ("", self.user.name):
             return

@@ -41,6 +41,7 @@ export function joinDebugger(breakpoints: readonly BreakpointInfo[]): void {
     pathFormat: "path",
     linesStartAt1: true,
     columnsStartAt1: true,
+    supportsInvalidatedEvent: true,
   };
   void ask("initialize", hello);
 }

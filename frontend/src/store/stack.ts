@@ -2,6 +2,7 @@
 import { create } from "zustand";
 import { type DebugProtocol, dap } from "../wire/dap";
 import { ask, reasonOf } from "./debug";
+import { usePlc } from "./plc";
 
 /** What this adapter says of a frame beyond the protocol. */
 export interface Frame extends DebugProtocol.StackFrame {
@@ -59,6 +60,11 @@ dap.on("stopped", (body) => void load((body as DebugProtocol.StoppedEvent["body"
 dap.on("continued", resetWhileRunning);
 dap.on("invalidated", () => void loadFrame());
 dap.on("terminated", resetStack);
+
+// Whoever goes on itself is not told `continued`, and a trap ends a halt, too.
+usePlc.subscribe(({ state: now }, { state: before }) => {
+  if (before?.halt && !now?.halt) resetWhileRunning();
+});
 
 function resetWhileRunning(): void {
   turn += 1;

@@ -69,7 +69,9 @@ class Loop:
             compiled = compile_condition(self.resource.program, start.condition)
             condition = compiled if isinstance(compiled, Condition) else None
         left = None if start.end is None else start.end - scan
-        if not start.paused and (condition is not None or (left is not None and left > 0)):
+        if start.halted:
+            self._course.lose(f"it was halted in scan {scan} when its process ended: it goes on when you let it run")
+        elif not start.paused and (condition is not None or (left is not None and left > 0)):
             self.timeline.stop_when(condition)
             self._course.run_on(scan, left, condition)
 

@@ -63,6 +63,7 @@ def host_state(timeline: Timeline, course: Course, past_by: str, note: str, debu
         worst_us=round(course.pace.worst_ns / 1000, 1),
         halt=halt,
         flavour=debugger.flavour,
+        halted=debugger.stands,
     )
 
 

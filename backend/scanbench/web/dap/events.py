@@ -55,7 +55,7 @@ class Events:
                 self._on_logpoint(event)
             case events.BreakpointsChanged():
                 self._on_breakpoints(event)
-            case events.ValueWritten() | events.ForcesChanged():
+            case events.WrittenInside() | events.ValueWritten() | events.ForcesChanged():
                 if self._started and self._shown is not None and self._plc.client.supports_invalidated_event:
                     self._send("invalidated", {"areas": ["variables"]})
             case _:
