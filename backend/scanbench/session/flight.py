@@ -26,6 +26,7 @@ from scanbench.runtime.timeline import NOT_AS_RECORDED, KeptPrograms, open_at
 from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import sources_in
 from scanbench.session.starting import NoStart, ProgramOf
+from scanbench.session.trace_file import write_pages
 from scanbench.session.trace_protocol import FlightDone, RecordFlight
 from scanbench.taps.trace import TraceSignal, described
 from scanbench.taps.trace_buffer import TraceBuffer, Words, row_bytes
@@ -72,7 +73,7 @@ def fly(ask: RecordFlight, program_of: ProgramOf, make: MakeEngine, on_chunk: Ca
         raise NoStart(f"{path.name} cannot be replayed: {error}") from error
     buffer = flight.buffer()
     first, end = buffer.extent
-    Path(ask.to).write_bytes(buffer.read(0, end).pack(first, end, 1))
+    write_pages(Path(ask.to), buffer.pieces(0, end))
     return FlightDone(
         ask.ref, True, flight.signals(), buffer.rows, first, end, resource.program.interval_ns, resource.version
     )  # fmt: skip

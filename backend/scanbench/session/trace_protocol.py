@@ -31,13 +31,17 @@ class DriveTrace:
 
 @dataclass(frozen=True, slots=True)
 class ReadTrace:
-    """Samples of scans `first` to `last` (None: the last one), at most `points` of them. Answered with `TraceRead`."""
+    """Samples of scans `first` to `last` (None: the last one), at most `points` of them. Answered with `TraceRead`.
+
+    As a `page`: the newest of these only, as many as one message should have; none where there are none in front.
+    """
 
     ref: int
     id: int
     first: int
     last: int | None
     points: int | None
+    page: bool = False
 
 
 # ---- host to parent ------------------------------------------------------------------------------------------------
@@ -74,11 +78,15 @@ class TracesAre:
 
 @dataclass(frozen=True, slots=True)
 class TraceRead:
-    """Answer to `ReadTrace`: packed samples (`taps.trace_buffer.Samples.pack`), or why there are none."""
+    """Answer to `ReadTrace`: packed samples (`taps.trace_buffer.Samples.pack`), or why there are none.
+
+    A page comes with what it is of.
+    """
 
     ref: int
     data: bytes
     message: str = ""
+    status: TraceStatus | None = None
 
 
 # ---- the flight recorder: parent to job process and back -----------------------------------------------------------
@@ -86,7 +94,8 @@ class TraceRead:
 
 @dataclass(frozen=True, slots=True)
 class RecordFlight:
-    """Runs scans `first` to `last` of this run file again, and writes packed samples of these signals to the file `to`.
+    """Runs scans `first` to `last` of this run file again, and writes samples of these signals to the file `to`, as records are
+    kept (`trace_file.py`).
 
     The file may be that of a PLC that runs: it is opened read-only. `FlightAt` says how far it got, `FlightDone` ends it. It is
     cancelled by ending the process.

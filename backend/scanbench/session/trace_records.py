@@ -2,13 +2,11 @@
 
 import asyncio
 from collections import OrderedDict
-from collections.abc import Callable
+from collections.abc import Callable, Iterator
 from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from pathlib import Path
 from typing import cast
-
-import zstandard
 
 from scanbench.engines.sample import MAX_SIGNALS
 from scanbench.runtime.clock import fresh_token
@@ -16,17 +14,20 @@ from scanbench.session.events import FlightChanged
 from scanbench.session.jobs import DIED, Job
 from scanbench.session.refused import Refused
 from scanbench.session.session import Session
-from scanbench.session.trace_protocol import FlightAt, FlightDone, RecordFlight
+from scanbench.session.trace_file import Spool, read_pages
+from scanbench.session.trace_protocol import FlightAt, FlightDone, RecordFlight, TraceStatus
 from scanbench.store.records import Json, TraceRecordRow
 from scanbench.store.store import Store
 from scanbench.taps.trace import TraceSignal
-from scanbench.taps.trace_buffer import Samples, TraceBuffer, buffer_of
+from scanbench.taps.trace_buffer import Samples, TooMany, TraceBuffer, buffer_of
 
 SUFFIX = ".trace"
 MAX_FLIGHT = 10_000_000
 """Scans of one flight."""
-_OPEN = 4
-"""Records that stay in memory."""
+MAX_FLIGHTS = 2
+"""At a time: each is a process that takes a core and some hundred MB."""
+_OPEN_BYTES = 512 << 20
+"""Of records that stay in memory."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -64,6 +65,7 @@ class TraceRecords:
     def __init__(self, store: Store, directory: Path, cache: Path) -> None:
         self._store, self._directory, self._cache = store, directory, cache
         self._open: OrderedDict[int, TraceBuffer] = OrderedDict()
+        self._opening = asyncio.Lock()
         self._flights: dict[int, _Flight] = {}
         self._next = 1
         self._tasks: set[asyncio.Task[None]] = set()
@@ -94,27 +96,45 @@ class TraceRecords:
 
     async def keep(self, session: Session, trace: int, name: str, author: str) -> TraceRecord:
         """Keeps what a trace has recorded until now."""
-        status = session.tracing.trace(trace)
-        data = await session.tracing.read(trace, 0, None, None)
-        status = session.tracing.trace(trace)
-        samples, first, end = await asyncio.to_thread(Samples.unpack, data)
-        if not len(samples):
-            raise Refused("the trace has recorded nothing yet: start it, then keep it")
-        content: Json = {
-            "origin": "trace", "signals": [asdict(each) for each in status.signals], "every": status.definition.every,
-            "triggered": status.triggered, "first": first, "end": end, "rows": len(samples),
-            "interval_ns": status.interval_ns, "version": session.state.version,
-        }  # fmt: skip
-        return await self._keep(session, name, content, data, author)
+        status, spool = await self.gather(session, trace, 0, None)
+        try:
+            if not spool.rows:
+                raise Refused("the trace has recorded nothing yet: start it, then keep it")
+            content: Json = {
+                "origin": "trace", "signals": [asdict(each) for each in status.signals], "every": status.definition.every,
+                "triggered": status.triggered, "first": spool.first, "end": spool.end, "rows": spool.rows,
+                "interval_ns": status.interval_ns, "version": session.state.version,
+            }  # fmt: skip
+            return await self._keep(session, name, content, spool.save, author)
+        finally:
+            spool.close()
 
-    async def _keep(self, session: Session, name: str, content: Json, data: bytes, author: str) -> TraceRecord:
+    async def gather(self, session: Session, trace: int, first: int, last: int | None) -> tuple[TraceStatus, Spool]:
+        """Every sample of a trace in these scans, and what they are of; whoever asks closes the spool."""
+        spool = await asyncio.to_thread(Spool, self._directory)
+        try:
+            status = session.tracing.trace(trace)
+            async for of, page in session.tracing.pages(trace, first, last):
+                status = of
+                await asyncio.to_thread(spool.add, page)
+        except OSError as error:
+            spool.close()
+            raise Refused(f"the samples cannot be put together: {error.strerror}") from error
+        except BaseException:
+            spool.close()
+            raise
+        return status, spool
+
+    async def _keep(
+        self, session: Session, name: str, content: Json, write: Callable[[Path], object], author: str
+    ) -> TraceRecord:  # fmt: skip
         row = await asyncio.to_thread(
             lambda: self._store.create_trace_record(
                 session.project_id, name=name, instance=session.name, content=content, by=author
             )
         )
         try:
-            await asyncio.to_thread(_write, self._path(row.id), data)
+            await asyncio.to_thread(write, self._path(row.id))
         except BaseException as error:
             await asyncio.to_thread(self._store.delete_trace_record, row.id)
             if isinstance(error, OSError):
@@ -131,19 +151,33 @@ class TraceRecords:
     async def samples(self, id: int, first: int, last: int | None, points: int | None) -> bytes:
         """Packed samples; see `TraceBuffer.read`."""
         record = await self.one(id)
-        buffer = self._open.get(id)
-        if buffer is None:
-            try:
-                buffer = await asyncio.to_thread(_loaded, self._path(id), record.signals)
-            except (OSError, ValueError, zstandard.ZstdError) as error:
-                raise Refused(f"the samples of {record.row.name} cannot be read: {error}") from error
-            self._open[id] = buffer
-            while len(self._open) > _OPEN:
-                self._open.popitem(last=False)
-        self._open.move_to_end(id)
+        buffer = await self._buffer(record)
         end = record.end if last is None else last
-        found = await asyncio.to_thread(buffer.read, first, end, points)
-        return found.pack(record.first, record.end, 1)
+        try:
+            return await asyncio.to_thread(
+                lambda: buffer.read(first, end, points).pack(record.first, record.end, 1)
+            )  # fmt: skip
+        except TooMany as error:
+            raise Refused(str(error)) from error
+
+    async def pages(self, id: int, first: int, last: int | None) -> tuple[TraceRecord, Iterator[Samples]]:
+        """Every sample of these scans, the oldest first; the iterator takes a while for each."""
+        record = await self.one(id)
+        buffer = await self._buffer(record)
+        return record, buffer.pieces(first, record.end if last is None else last)
+
+    async def _buffer(self, record: TraceRecord) -> TraceBuffer:
+        id = record.row.id
+        async with self._opening:  # one at a time, as they are large
+            if id not in self._open:
+                try:
+                    self._open[id] = await asyncio.to_thread(_loaded, self._path(id), record)
+                except (OSError, ValueError) as error:
+                    raise Refused(f"the samples of {record.row.name} cannot be read: {error}") from error
+            self._open.move_to_end(id)
+            while len(self._open) > 1 and sum(each.bytes for each in self._open.values()) > _OPEN_BYTES:
+                self._open.popitem(last=False)
+            return self._open[id]
 
     # ---- the flight recorder --------------------------------------------------------------------------------------
 
@@ -161,6 +195,8 @@ class TraceRecords:
         first = max(0, last - scans + 1)
         if not 0 <= last < live:
             raise Refused(f"scan {last:,} is not over yet: the PLC is at scan {live:,}")
+        if len(self._flights) >= MAX_FLIGHTS:
+            raise Refused(f"{len(self._flights)} records of earlier scans are being made: wait for one, or cancel it")
         id, self._next = self._next, self._next + 1
         file = self._directory / f"flight-{fresh_token()}"
         changed = FlightChanged(id, author, 0, last - first + 1)
@@ -196,14 +232,13 @@ class TraceRecords:
         changed = replace(flight.changed, message=done.message)
         if done.ok:
             try:
-                data = await asyncio.to_thread(flight.file.read_bytes)
                 content: Json = {
                     "origin": "flight", "signals": [asdict(each) for each in done.signals], "every": flight.every,
                     "triggered": None, "first": done.first, "end": done.end, "rows": done.rows,
                     "interval_ns": done.interval_ns, "version": done.version,
                 }  # fmt: skip
                 name = f"Scans {done.first:,} to {max(done.first, done.end - 1):,}"
-                kept = await self._keep(flight.session, name, content, data, changed.by)
+                kept = await self._keep(flight.session, name, content, flight.file.replace, changed.by)
                 changed = replace(changed, done=changed.of, record=kept.row.id)
             except Exception as error:  # whatever it is, somebody waits for it
                 changed = replace(changed, message=f"the record cannot be kept: {error}")
@@ -234,15 +269,8 @@ class TraceRecords:
         return self._directory / f"{id}{SUFFIX}"
 
 
-def _write(path: Path, data: bytes) -> None:
-    part = path.with_suffix(".part")
-    part.write_bytes(zstandard.ZstdCompressor(level=3).compress(data))
-    part.replace(path)
-
-
-def _loaded(path: Path, signals: tuple[TraceSignal, ...]) -> TraceBuffer:
-    samples, _, _ = Samples.unpack(zstandard.ZstdDecompressor().decompress(path.read_bytes()))
-    return buffer_of(samples, [(each.kind, each.size) for each in signals])
+def _loaded(path: Path, record: TraceRecord) -> TraceBuffer:
+    return buffer_of(read_pages(path), [(each.kind, each.size) for each in record.signals], record.rows)
 
 
 def _record(row: TraceRecordRow) -> TraceRecord:

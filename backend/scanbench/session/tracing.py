@@ -1,6 +1,6 @@
 """The traces of one PLC, seen from the parent: what people want recorded, and what the host says of it."""
 
-from collections.abc import Awaitable, Callable, Mapping
+from collections.abc import AsyncIterator, Awaitable, Callable, Mapping
 from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from typing import cast
@@ -11,9 +11,9 @@ from scanbench.session.refused import Refused
 from scanbench.session.trace_protocol import DefineTrace, DriveTrace, ReadTrace, TraceRead, TracesAre, TraceStatus
 from scanbench.store.records import Json, NotFound
 from scanbench.taps.trace import TraceDefinition, TraceTrigger
+from scanbench.taps.trace_buffer import Samples
 
 Ask = Callable[[Callable[[int], object]], Awaitable[object]]
-_RUNNING = ("recording", "armed", "triggered")
 
 
 @dataclass(frozen=True, slots=True)
@@ -88,12 +88,31 @@ class Tracing:
 
     async def read(self, number: int, first: int, last: int | None, points: int | None) -> bytes:
         """Packed samples; see `TraceBuffer.read`."""
+        return (await self._read(number, lambda ref: ReadTrace(ref, number, first, last, points))).data
+
+    async def pages(self, number: int, first: int, last: int | None) -> AsyncIterator[tuple[TraceStatus, Samples]]:
+        """All samples of these scans, the newest first, as the oldest are forgotten first while they are read; one page at
+        least, with what it is of. `Refused` where a page is of another record than the one before."""
+        generation: int | None = None
+        while True:
+            answer = await self._read(number, lambda ref, end=last: ReadTrace(ref, number, first, end, None, page=True))  # type: ignore[misc]
+            status, (samples, _, _) = answer.status, Samples.unpack(answer.data)
+            assert status is not None
+            if generation not in (None, status.generation):
+                raise Refused(f"the trace {status.definition.name} was begun anew meanwhile: stop it, then try again")
+            generation = status.generation
+            yield status, samples
+            if not len(samples) or samples.scans[0] <= first:
+                return
+            last = int(samples.scans[0]) - 1
+
+    async def _read(self, number: int, make: Callable[[int], object]) -> TraceRead:
         self.trace(number)
-        answer = await self._ask(lambda ref: ReadTrace(ref, number, first, last, points))
+        answer = await self._ask(make)
         assert isinstance(answer, TraceRead)
         if answer.message:
             raise Refused(answer.message)
-        return answer.data
+        return answer
 
     async def resend(self) -> None:
         """Tells a new host what there is; what cannot be any more says so in its note."""

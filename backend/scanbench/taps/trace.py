@@ -153,7 +153,8 @@ class Trace:
         self._columns: list[int] = []
         self._sampling: Sampling | None = None
         self._watching: Sampling | None = None
-        self._seen: int | None = None  # the last value that the trigger had
+        self._seen: int | None = None  # the last value that the trigger had, which was of the type `_seen_as`
+        self._seen_as: Elementary = BOOL
         self._fired: int | None = None
         self._armed_from = 0
 
@@ -212,12 +213,18 @@ class Trace:
 
     def _arm(self, program: Program, scan: int) -> None:
         trigger = self.definition.trigger
-        self._seen = self._fired = None
+        self._seen = self._fired = self._watching = None
         self._armed_from = scan
         if trigger is not None:
-            self._watching = Sampling(program, [trigger_signal(program, trigger)], changes=True)
-            self._watching.skip_to(scan)
+            self._watch(program, trigger, scan)
         self.state = "recording" if trigger is None else "armed"
+
+    def _watch(self, program: Program, trigger: TraceTrigger, scan: int) -> None:
+        signal = trigger_signal(program, trigger)
+        if signal.type != self._seen_as:
+            self._seen, self._seen_as = None, signal.type
+        self._watching = Sampling(program, [signal], changes=True)
+        self._watching.skip_to(scan)
 
     def stop(self) -> None:
         """Records no more; what there is stays."""
@@ -255,15 +262,15 @@ class Trace:
 
     def _aim_trigger(self, program: Program, scan: int) -> None:
         trigger = self.definition.trigger
-        if trigger is None or self.state != "armed":
+        if trigger is None:
             return
+        self._watching = None
         try:
-            self._watching = Sampling(program, [trigger_signal(program, trigger)], changes=True)
-            self._watching.skip_to(scan)
-            self._seen = None
+            self._watch(program, trigger, scan)
         except BadTrace as error:
-            self._watching = None
-            self.note = f"the trigger has no meaning in the new program: {error}"
+            self.note = f"the trigger has no meaning in the program since scan {scan}: {error}"
+            if self.state == "armed":
+                self.stop()
 
     def _anew(self) -> None:
         self._current = self._empty()
@@ -326,7 +333,7 @@ class Trace:
         if self.buffer is not self._current or self.definition.repeat:
             self._show(self._current, self._fired)
         self.state = "complete"
-        if self.definition.repeat:
+        if self.definition.repeat and self._watching is not None:
             self._current, self.state = self._empty(), "armed"
             self._armed_from, self._fired = end, None
 

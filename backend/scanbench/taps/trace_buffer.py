@@ -122,7 +122,12 @@ class TraceBuffer:
     @property
     def rows(self) -> int:
         """Rows that are there."""
-        return sum(end - begin for _, begin, end in self._parts())
+        return _count(self._parts())
+
+    @property
+    def bytes(self) -> int:
+        """What these rows take."""
+        return self.rows * row_bytes(self.types)
 
     @property
     def extent(self) -> tuple[int, int]:

@@ -2,44 +2,45 @@
 
 import csv
 import io
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 
 from scanbench.check.types import Elementary, Kind
 from scanbench.taps.trace import TraceSignal
 from scanbench.taps.trace_buffer import Samples, number_type
 
-LINES = 4096
-"""That are made at a time."""
+PIECE = 1 << 18
+"""Characters that are made at a time."""
 
 
-def to_csv(samples: Samples, signals: Sequence[TraceSignal], interval_ns: int) -> Iterator[str]:
-    """The text, piece by piece. A field is empty where a signal has no value; TIME and the like are in seconds."""
+def to_csv(pages: Iterable[Samples], signals: Sequence[TraceSignal], interval_ns: int) -> Iterator[str]:
+    """The text, page by page. A field is empty where a signal has no value; TIME and the like are in seconds."""
     out = io.StringIO()
     write = csv.writer(out, lineterminator="\r\n").writerow
     write(["scan", "time [s]", *(_guarded(f"{each.text}{_unit(each)}") for each in signals)])
     texts = [_texts(each) for each in signals]
-    columns = [
-        column.astype(f"<u{each.size or 1}").view(
-            number_type(Elementary("", Kind(each.kind or "bool"), each.size or 1))
-        )
-        for column, each in zip(samples.values, signals, strict=True)
-    ]
-    for start in range(0, len(samples), LINES):
-        piece = slice(start, start + LINES)
-        values = [column[piece].tolist() for column in columns]
-        for at, (scan, valid) in enumerate(
-            zip(samples.scans[piece].tolist(), samples.valid[piece].tolist(), strict=True)
-        ):
+    types = [Elementary("", Kind(each.kind or "bool"), each.size or 1) for each in signals]
+    for page in pages:
+        yield _taken(out)
+        values = [
+            column.astype(f"<u{type.size}").view(number_type(type)).tolist()
+            for column, type in zip(page.values, types, strict=True)
+        ]
+        for at, (scan, valid) in enumerate(zip(page.scans.tolist(), page.valid.tolist(), strict=True)):
             row = [
                 text(of[at]) if valid >> index & 1 else ""
                 for index, (of, text) in enumerate(zip(values, texts, strict=True))
             ]
             write([scan, f"{scan * interval_ns / 1e9:.9g}", *row])
-        yield out.getvalue()
-        out.seek(0)
-        out.truncate()
-    if not len(samples):
-        yield out.getvalue()
+            if out.tell() > PIECE:
+                yield _taken(out)
+    yield _taken(out)
+
+
+def _taken(out: io.StringIO) -> str:
+    text = out.getvalue()
+    out.seek(0)
+    out.truncate()
+    return text
 
 
 def _unit(signal: TraceSignal) -> str:

@@ -1,7 +1,7 @@
 """REST: traces of an instance, their samples, kept records, and the flight recorder. Everything changes for everybody."""
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from urllib.parse import quote
 
 from fastapi import APIRouter, Request
@@ -71,10 +71,15 @@ async def on_samples(
 @router.get("/instances/{instance}/traces/{trace}/csv", response_class=Response)
 async def on_csv(bench: Bench, instance: Id, trace: Id, first: Scan = 0, last: Scan | None = None) -> StreamingResponse:
     """Every sample of these scans, as CSV."""
-    tracing = bench.session(instance).tracing
-    status = tracing.trace(trace)
-    data = await tracing.read(trace, first, last, None)
-    return _csv(data, status.signals, status.interval_ns, status.definition.name)
+    status, spool = await bench.trace_records.gather(bench.session(instance), trace, first, last)
+
+    def pages() -> Iterator[Samples]:
+        try:
+            yield from spool.pages()
+        finally:
+            spool.close()
+
+    return _csv(pages(), status.signals, status.interval_ns, status.definition.name)
 
 
 @router.post("/instances/{instance}/traces/{trace}/keep", status_code=201)
@@ -118,9 +123,8 @@ async def on_record_samples(
 @router.get("/trace-records/{record}/csv", response_class=Response)
 async def on_record_csv(bench: Bench, record: Id, first: Scan = 0, last: Scan | None = None) -> StreamingResponse:
     """Every sample of these scans of a kept record, as CSV."""
-    about = await bench.trace_records.one(record)
-    data = await bench.trace_records.samples(record, first, last, None)
-    return _csv(data, about.signals, about.interval_ns, about.row.name)
+    about, pages = await bench.trace_records.pages(record, first, last)
+    return _csv(pages, about.signals, about.interval_ns, about.row.name)
 
 
 # ---- the flight recorder ---------------------------------------------------------------------------------------------
@@ -142,11 +146,9 @@ async def on_cancel_flight(bench: Bench, flight: Id) -> None:
     await bench.trace_records.cancel(flight)
 
 
-def _csv(data: bytes, signals: Sequence[TraceSignal], interval_ns: int, name: str) -> StreamingResponse:
-    samples, _, _ = Samples.unpack(data)
-
+def _csv(pages: Iterable[Samples], signals: Sequence[TraceSignal], interval_ns: int, name: str) -> StreamingResponse:
     def text() -> Iterator[bytes]:
-        for piece in to_csv(samples, signals, interval_ns):
+        for piece in to_csv(pages, signals, interval_ns):
             yield piece.encode()
 
     plain = re.sub(r"[^A-Za-z0-9._ -]", "_", name)

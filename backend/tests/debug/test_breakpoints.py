@@ -241,6 +241,77 @@ def test_at_a_scan(walker: Walker) -> None:
     assert walker.debugger.flavour == ""
 
 
+def test_several_at_one_scan_and_in_front_of_one_task(make: MakeDebug, tmp_path: Path) -> None:
+    walker = Walker(tmp_path / "a.run", TASKS, make)
+    walker.set(
+        Breakpoint(1, "scan", "Ann", scan=9),
+        Breakpoint(2, "scan", "Bob", scan=9, log="n is {One.c.n}"),
+        Breakpoint(3, "scan", "Cid", scan=9, task="slow"),
+        Breakpoint(4, "scan", "Cid", scan=10, task="slow"),
+    )
+    walker.run()
+    assert (walker.here, walker.halt.breakpoints, walker.halt.task) == ((9, 1), (1,), "Fast")
+    assert [text for *_, text in walker.heard.logs] == ["n is 9"]
+    walker.step("continue")
+    assert (walker.here, walker.halt.breakpoints, walker.halt.task) == ((9, 3), (3,), "Slow")
+    walker.step("continue")
+    assert (walker.debugger.halt, len(walker.heard.logs)) == (None, 1)
+    assert [each.hits for each in walker.debugger.verdicts] == [1, 1, 1, 0], "Slow does not run in scan 10"
+
+
+def test_an_instance_of_a_function_is_the_one_that_called_it(walker: Walker) -> None:
+    (verdict,) = walker.set(line(4, instance="Main.b"))
+    assert verdict.verified, verdict.message
+    for scan in (0, 1):
+        walker.run(5)
+        assert (walker.halt.scan, walker.halt.pou) == (scan, "Twice")
+        assert walker.timeline.resource.inside is not None
+        assert walker.timeline.resource.inside.frames[1].instance == walker.debugger.placing.place(
+            line(13, instance="Main.b"), 0
+        ).instance  # fmt: skip
+        walker.debugger.step("continue", "Ann")
+
+
+BY_VALUE = """FUNCTION_BLOCK Fill
+{in_out 'value'}
+VAR_IN_OUT level : INT; on : BOOL; END_VAR
+VAR n : INT; END_VAR
+  n := n + 1;
+  level := level + 1;
+  on := NOT on;
+  IF n > 1000 THEN RETURN; END_IF;
+  n := n;
+  IF n MOD 2 = 1 THEN
+    RETURN;
+  END_IF;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR x, y : INT; w : WORD; f : ARRAY[0..1] OF Fill; END_VAR
+  f[1](level := x, on := w.3);
+  y := x;
+  x := x + 10;
+  y := y;
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize("convention", ["value", "reference"])
+@pytest.mark.parametrize(
+    ("access", "path", "lines"),
+    [("write", "level", [7, 19]), ("change", "level", [7, 19]), ("read", "level", [7, 18, 19]), ("change", "on", [8])],
+)
+def test_an_in_out_is_watched_where_its_block_works_on_it(
+    make: MakeDebug, tmp_path: Path, convention: str, access: str, path: str, lines: list[int]
+) -> None:
+    walker = Walker(tmp_path / "a.run", BY_VALUE.replace("'value'", f"'{convention}'"), make)
+    walker.run(1)
+    walker.set(data(f"Main.f[1].{path}", access))
+    for expected in 2 * lines:
+        walker.run(3)
+        assert walker.line == expected
+        walker.debugger.step("continue", "Ann")
+
+
 def test_a_trap_halts_in_front_of_the_statement_and_then_traps(make: MakeDebug, tmp_path: Path) -> None:
     source = "PROGRAM Main\nVAR n : DINT := 5; d : DINT; END_VAR\n  n := n - 1;\n  d := 10 / n;\nEND_PROGRAM\n"
     walker = Walker(tmp_path / "a.run", source, make)
@@ -267,7 +338,15 @@ def test_a_trap_halts_in_front_of_the_statement_and_then_traps(make: MakeDebug, 
 
 
 def test_disabled_ones_cost_nothing_and_groups_stand_side_by_side(walker: Walker) -> None:
+    walker.set(line(25))
+    walker.run()
+    assert walker.debugger.flavour == "debug"
+    walker.set(line(25, condition="n < 0"))
+    walker.debugger.step("continue", "Ann")
+    assert walker.run(1) is None
+    assert walker.debugger.flavour == "debug"
     walker.set(line(25, enabled=False))
+    assert walker.debugger.flavour == ""
     assert walker.run(5) is None
     assert walker.debugger.flavour == ""
     walker.debugger.set("tool", None, None, (Breakpoint(7, "line", "Tool", group="tool", file="main.st", line=26),))

@@ -209,3 +209,18 @@ def test_an_entry_that_the_scan_does_not_get_to_is_told(tmp_path: Path) -> None:
     resource.await_step(Entry(entry.scan, entry.at, entry.command, entry.plan, 100))
     with pytest.raises(Diverged, match="statement 100 when it was recorded"):
         resource.rerun(1)
+
+
+def test_what_needs_the_seam_waits_for_it_whoever_wants_to_halt(tmp_path: Path) -> None:
+    timeline = begun(tmp_path / "a.run")
+    advance(timeline, 5)
+    halt(timeline, 2)
+    timeline.resource.hook = HaltAt(2)
+    entry = enter(timeline, Restart("Ada", "cold"))
+    assert (entry.scan, entry.step, timeline.resource.inside) == (6, 0, None)
+    timeline.resource.hook = None
+    state = advance(timeline, 4).state
+    scan = timeline.live_scan
+    timeline.close()
+    again = replay_file(tmp_path / "a.run", of_file, ENTRIES, scan)
+    assert (again.scan, again.hash) == (scan, hashlib.sha256(state).hexdigest())

@@ -44,6 +44,13 @@ class Bench:
             self.trace.drain(self.scan)
             self.plc.samplings = self.trace.samplings
 
+    def become(self, source: str) -> None:
+        """Another program, as the host puts it in place."""
+        change(self.plc, program(source))
+        self.trace.drain(self.scan)
+        self.trace.aim(self.plc.program, self.scan)
+        self.plc.samplings = self.trace.samplings
+
     def scans(self) -> list[int]:
         found: list[int] = self.trace.buffer.read(0, 1 << 40).scans.tolist()
         return found
@@ -135,10 +142,7 @@ def test_the_program_is_changed_and_what_is_known_goes_on() -> None:
     bench.start()
     bench.run(30)
     new = SOURCE.replace("r : REAL;", "").replace("r := DINT_TO_REAL(n) / 2.0;", "")
-    change(bench.plc, program(new))
-    bench.trace.drain(bench.scan)
-    bench.trace.aim(bench.plc.program, bench.scan)
-    bench.plc.samplings = bench.trace.samplings
+    bench.become(new)
     bench.run(30)
     assert [bool(each.message) for each in bench.trace.signals] == [False, False, True]
     assert bench.trace.signals[2].type == "REAL"
@@ -208,3 +212,39 @@ def test_what_the_program_does_not_know(definition: TraceDefinition, word: str) 
     trace = Trace(1, definition, "Ada")
     with pytest.raises(BadTrace, match=word):
         trace.define(definition, plc(SOURCE).program, "Ada")
+
+
+def test_a_change_while_it_is_triggered_does_not_end_a_repeating_trace() -> None:
+    bench = Bench(triggered("Main.a", "rises", "50", scans=40, repeat=True))
+    bench.start()
+    bench.run(55)
+    assert (bench.trace.state, bench.trace.hits) == ("triggered", 1)
+    bench.become(SOURCE.replace("VAR n", "VAR first : LREAL; n"))
+    bench.run(1000)
+    assert bench.trace.hits == 11
+    assert bench.trace.triggered is not None
+    assert bench.trace.triggered % 100 == 49
+    assert bench.scans() == list(range(bench.trace.triggered - 20, bench.trace.triggered + 20))
+
+
+def test_an_edge_at_a_change_is_one() -> None:
+    bench = Bench(triggered("Main.n > 20", "rises", scans=40))
+    bench.start()
+    bench.run(20)
+    bench.become(SOURCE.replace("VAR n", "VAR first : LREAL; n"))
+    bench.run(60)
+    assert bench.trace.triggered == 20
+
+
+@pytest.mark.parametrize("at", [30, 55])
+def test_a_trigger_that_has_no_meaning_any_more_is_waited_for_no_more(at: int) -> None:
+    bench = Bench(triggered("Main.a", "rises", "50", scans=40, repeat=True))
+    bench.start()
+    bench.run(at)
+    bench.become(SOURCE.replace("a : INT;", "").replace("a := DINT_TO_INT(n MOD 100);", ""))
+    bench.run(200)
+    assert not bench.trace.running
+    assert bench.trace.state == ("stopped" if at < 49 else "complete")
+    assert "Trigger" in bench.trace.note
+    assert not bench.trace.samplings
+    assert bench.scans() == list(range(30) if at < 49 else range(29, 69))

@@ -1,5 +1,6 @@
 """The ring of samples: what is kept, read in full, and in outline; exact in every type, whoever reads meanwhile."""
 
+import io
 import struct
 
 import numpy as np
@@ -9,7 +10,8 @@ from hypothesis import strategies as st
 from numpy.typing import NDArray
 
 from scanbench.check.types import ELEMENTARY
-from scanbench.taps.trace_buffer import BLOCK, Samples, TraceBuffer, buffer_of, row_bytes
+from scanbench.taps import trace_buffer
+from scanbench.taps.trace_buffer import BLOCK, Samples, TooMany, TraceBuffer, buffer_of, row_bytes, unpack_pages
 
 INT, BOOL, REAL, LINT, UINT = (ELEMENTARY[name] for name in ("INT", "BOOL", "REAL", "LINT", "UINT"))
 TYPES = (INT, BOOL, REAL, LINT, UINT)
@@ -37,6 +39,29 @@ def test_the_last_rows_are_kept_and_no_more() -> None:
     assert found.scans.tolist() == list(range(end - 5000, end))
     assert [int(value) for value in found.values[3][-3:]] == [-n & (1 << 64) - 1 for n in range(end - 3, end)]
     assert len(buffer._blocks) <= 5000 // BLOCK + 2
+
+
+def test_whoever_reads_while_it_grows_finds_rows_that_are_whole(monkeypatch: pytest.MonkeyPatch) -> None:
+    """As another thread sees it: between any two steps of an append."""
+    buffer, seen = TraceBuffer((INT,), 1000), []
+
+    class Looked(trace_buffer._Block):
+        def append(self, rows: NDArray[np.uint64]) -> None:
+            super().append(rows)
+            look()
+
+    def look() -> None:
+        first, end = buffer.extent
+        found = buffer.read(0, 1 << 40).scans.tolist()
+        assert found == list(range(first, end))
+        assert buffer.rows <= 1000
+        seen.append(len(found))
+
+    monkeypatch.setattr(trace_buffer, "_Block", Looked)
+    for start in range(0, 40_000, 700):
+        buffer.append(rows(start, 700)[:, :3])
+        look()
+    assert max(seen) == 1000
 
 
 def test_more_than_it_holds_at_once() -> None:
@@ -95,12 +120,44 @@ def test_what_is_packed_is_read_again() -> None:
     samples = buffer.read(0, 5000)
     again, first, end = Samples.unpack(samples.pack(1200, 1700, 3))
     assert (first, end) == (1200, 1700)
-    other = buffer_of(again, [(type.kind.value, type.size) for type in TYPES])
+    other = buffer_of([again], [(type.kind.value, type.size) for type in TYPES], 500)
     assert [column.tolist() for column in other.read(0, 5000).values] == [column.tolist() for column in samples.values]
     assert other.extent == (1200, 1700)
     for bad in (b"", samples.pack(0, 1, 1)[:-1], bytes([1]) + samples.pack(0, 1, 1)[1:]):
         with pytest.raises(ValueError, match="bytes are"):
             Samples.unpack(bad)
+    with pytest.raises(ValueError, match="columns"):
+        buffer_of([again], [("bool", 1)], 500)
+
+
+def test_pages_are_taken_from_the_end_and_read_again() -> None:
+    buffer = TraceBuffer(TYPES, 20_000)
+    buffer.append(rows(0, 15_000))
+    pages, last = [], 1 << 40
+    while len(page := buffer.newest(100, last, 4000)):
+        pages.insert(0, page)
+        last = int(page.scans[0]) - 1
+    assert [len(page) for page in pages] == [2900, 4000, 4000, 4000]
+    stream = io.BytesIO(b"".join(page.pack(0, 1, 1) for page in pages))
+    again = buffer_of(unpack_pages(stream.read), [(type.kind.value, type.size) for type in TYPES], 20_000)
+    wanted, found = buffer.read(100, 20_000), again.read(0, 20_000)
+    assert found.scans.tolist() == list(range(100, 15_000))
+    assert [column.tolist() for column in found.values] == [column.tolist() for column in wanted.values]
+    assert [len(piece) for piece in buffer.pieces(100, 5000)] == [BLOCK - 100, 5001 - BLOCK]
+    with pytest.raises(ValueError, match="bytes are"):
+        list(unpack_pages(io.BytesIO(stream.getvalue()[:-1]).read))
+
+
+def test_what_is_read_at_once_has_a_bound(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(trace_buffer, "LARGEST", 1000 * 8 * 7)
+    buffer = TraceBuffer(TYPES, 20_000)
+    buffer.append(rows(0, 15_000))
+    assert len(buffer.read(0, 999)) == 1000
+    with pytest.raises(TooMany, match="1,001 samples of 5 signals"):
+        buffer.read(0, 1000)
+    outline = buffer.read(0, 15_000, 1_000_000)
+    assert outline.decimated
+    assert 200 < len(outline) <= 1000
 
 
 def test_what_a_row_takes() -> None:

@@ -1,6 +1,9 @@
-"""The traces of one PLC: what its engine samples is taken here, in the loop's thread; any thread may read it."""
+"""The traces of one PLC: what its engine samples is taken here, in the loop's thread, and read in a thread of its own."""
 
+import logging
+import threading
 from dataclasses import replace
+from queue import SimpleQueue
 
 from scanbench.check.program import Program
 from scanbench.runtime.clock import monotonic_ns
@@ -9,7 +12,9 @@ from scanbench.session import protocol
 from scanbench.session.host.link import Link
 from scanbench.session.trace_protocol import DefineTrace, DriveTrace, ReadTrace, TraceRead, TracesAre, TraceStatus
 from scanbench.taps.trace import MAX_BYTES, MAX_TRACES, BadTrace, Trace, total_bytes
+from scanbench.taps.trace_buffer import PAGE, TooMany
 
+log = logging.getLogger("scanbench")
 _GROWN_NS = 200_000_000
 """How often it is told that a trace has grown."""
 
@@ -22,6 +27,10 @@ class Traces:
         self._traces: dict[int, Trace] = {}
         self._told: TracesAre | None = None
         self._grown_at = 0
+        self._asked: SimpleQueue[ReadTrace] = SimpleQueue()
+        self._reader: threading.Thread | None = None
+        self._as_one = threading.Lock()
+        """What a trace is and what it holds belong together: held while both change, and while a reader gets hold of both."""
 
     @property
     def _program(self) -> Program:
@@ -35,7 +44,9 @@ class Traces:
         self.drain()
         near: tuple[str, ...] = ()
         try:
-            said, ok = self._define(message) if isinstance(message, DefineTrace) else self._drive(message), True
+            with self._as_one:
+                said = self._define(message) if isinstance(message, DefineTrace) else self._drive(message)
+            ok = True
         except BadTrace as error:
             said, near, ok = str(error), error.near, False
         self._aim_engine()
@@ -47,7 +58,8 @@ class Traces:
         scan, changed = self._timeline.live_scan, False
         for trace in self._traces.values():
             if trace.running:
-                changed = trace.drain(scan) or changed
+                with self._as_one:
+                    changed = trace.drain(scan) or changed
         if changed:
             self._aim_engine()
             self._tell()
@@ -66,8 +78,9 @@ class Traces:
             return
         self.drain()
         program = self._program
-        for trace in self._traces.values():
-            trace.aim(program, self._timeline.live_scan)
+        with self._as_one:
+            for trace in self._traces.values():
+                trace.aim(program, self._timeline.live_scan)
         self._aim_engine()
         self._tell()
 
@@ -134,16 +147,37 @@ class Traces:
             trace.hits, trace.buffer.rows, first, end, trace.bytes, self._program.interval_ns, trace.note,
         )  # fmt: skip
 
-    # ---- any thread -----------------------------------------------------------------------------------------------
+    # ---- the link's thread, and that of who reads -----------------------------------------------------------------
 
     def read(self, asked: ReadTrace) -> None:
-        """Answers with samples. It may take a while, so it is not for the loop's thread."""
-        trace = self._traces.get(asked.id)
-        if trace is None:
-            self._link.post(TraceRead(asked.ref, b"", f"There is no trace {asked.id} any more."))
-            return
-        generation, buffer = trace.generation, trace.buffer
+        """Answers with samples, in due time: neither the scans nor the link wait for it."""
+        self._asked.put(asked)
+        if self._reader is None:
+            self._reader = threading.Thread(target=self._read_all, name="traces", daemon=True)
+            self._reader.start()
+
+    def _read_all(self) -> None:
+        while True:
+            asked = self._asked.get()
+            try:
+                self._link.post(self._found(asked))
+            except TooMany as error:
+                self._link.post(TraceRead(asked.ref, b"", str(error)))
+            except Exception as error:  # a look must not end the PLC, whatever comes of it
+                log.exception("the samples of a trace cannot be read")
+                said = "there is not enough memory for it" if isinstance(error, MemoryError) else str(error)
+                self._link.post(TraceRead(asked.ref, b"", f"The samples cannot be read: {said}"))
+
+    def _found(self, asked: ReadTrace) -> TraceRead:
+        with self._as_one:
+            trace = self._traces.get(asked.id)
+            if trace is None:
+                return TraceRead(asked.ref, b"", f"There is no trace {asked.id} any more.")
+            status, buffer = self._status(trace), trace.buffer
         first, end = buffer.extent
         last = end if asked.last is None else asked.last
-        samples = buffer.read(asked.first, last, asked.points)
-        self._link.post(TraceRead(asked.ref, samples.pack(first, end, generation)))
+        if not asked.page:
+            samples = buffer.read(asked.first, last, asked.points)
+            return TraceRead(asked.ref, samples.pack(first, end, status.generation))
+        samples = buffer.newest(asked.first, last, buffer.rows_in(PAGE))
+        return TraceRead(asked.ref, samples.pack(first, end, status.generation), status=status)
