@@ -93,22 +93,23 @@ class Plc:
         assert isinstance(answer, dict)
         return str(answer["value"])
 
-    def write(self, path: str, value: Value) -> str:
-        """Writes once; the answer says where it went."""
-        return self._command("write", {"path": path, "value": _typed(value)})
+    def write(self, path: str, value: Value, site: str = "") -> str:
+        """Writes once; the answer says where it went. Of an in-out: to what its block was given last, or, with `site`
+        (`Main.st:12`), to what that call passes."""
+        return self._command("write", {"path": path, "value": _typed(value), "site": site})
 
-    def force(self, path: str, value: Value) -> str:
-        """Holds a variable until it is released."""
-        return self._command("force", {"path": path, "value": _typed(value)})
+    def force(self, path: str, value: Value, site: str = "") -> str:
+        """Holds a variable until it is released; `site` as with `write`."""
+        return self._command("force", {"path": path, "value": _typed(value), "site": site})
 
     def release(self, path: str | None = None) -> str:
         """Ends a force, or all."""
         return self._command("release", {"path": path})
 
     @contextmanager
-    def forced(self, path: str, value: Value) -> Iterator[None]:
+    def forced(self, path: str, value: Value, site: str = "") -> Iterator[None]:
         """Forced inside of a `with`."""
-        self.force(path, value)
+        self.force(path, value, site)
         try:
             yield
         finally:
