@@ -19,7 +19,7 @@ test('without a server the page says so, keeps what was typed, and comes back by
     await expect(mika.statusBar).toContainText('Not connected');
     await expect(mika.top.mode('PROGRAM')).toBeDisabled();
     const scan = await mika.top.scan();
-    await expect(mika.banner).toContainText('Attempt 2');
+    await expect(mika.banner).toContainText(/Attempt [2-9]/);
     expect(await mika.top.scan()).toBe(scan);
   });
 

@@ -9,7 +9,7 @@ import pytest
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.runtime.write import Write
 from scanbench.session import debug_protocol, protocol
-from tests.session.child import Child
+from tests.session.child import MODEL, Child
 
 STATIONS = """FUNCTION_BLOCK Station
 VAR_INPUT up : DINT; END_VAR
@@ -119,6 +119,61 @@ def test_a_plc_that_is_killed_while_halted_stands_in_front_of_that_scan(tmp_path
         done = child.ask(lambda ref: protocol.Drive(ref, "scan", None, "Ann"), protocol.Ack)
         assert done.ok
         assert int(child.value("Main.c.total")) == total + 500, "what was written inside of the scan is in the journal"
+
+
+def test_a_plc_that_was_halted_comes_back_standing(tmp_path: Path, cache: Path) -> None:
+    run = tmp_path / "a.run"
+    with Child(run, STATIONS, cache) as child:
+        assert child.step("pause").ok
+        halt = child.halted()
+        assert child.step("back").ok
+        state = child.wait(protocol.HostState, lambda state: state.halt is not None and state.halt.past)
+        assert (state.halted, state.live_scan) == (True, halt.scan), "the PLC itself, whatever is shown"
+        os.kill(child.process.pid, signal.SIGKILL)
+    with Child(run, STATIONS, cache, until=halt.scan, halted=True) as child:
+        state = child.wait(protocol.HostState)
+        assert (state.state, state.scan, state.halted) == ("paused", halt.scan, False)
+        assert state.message.startswith(f"it was halted in scan {halt.scan} when its process ended")
+        set_breakpoints(child, at_line(11))
+        assert child.ask(lambda ref: protocol.Drive(ref, "scan", None, "Ann"), protocol.Ack).scan == halt.scan
+        assert child.halted().scan == halt.scan
+        child.step("continue")
+
+
+def test_a_scan_on_in_the_past_leaves_the_statement_that_was_shown(tmp_path: Path, cache: Path) -> None:
+    with Child(tmp_path / "a.run", STATIONS, cache) as child:
+        set_breakpoints(child, at_line(11, condition="n > 20"))
+        live = child.halted()
+        for action in ("back", "back"):
+            assert child.step(action).ok  # type: ignore[arg-type]
+        child.ask(lambda ref: protocol.Travel(ref, 9, "Ann"), protocol.Ack)
+        assert child.step("in").ok
+        halt = child.wait(protocol.HostState, lambda state: state.halt is not None and state.halt.scan == 9).halt
+        assert halt is not None
+        assert (halt.past, halt.count) == (True, 1)
+        assert child.ask(lambda ref: protocol.Drive(ref, "scan", None, "Ann"), protocol.Ack).ok
+        state = child.wait(protocol.HostState, lambda state: state.scan == 10)
+        assert (state.state, state.halt, state.halted) == ("past", None, True)
+        refused = child.ask(debug_protocol.WantStack, protocol.Ack)
+        assert "not halted" in refused.message
+        assert child.step("continue").ok
+        again = child.wait(protocol.HostState, lambda state: state.halt is not None and not state.halt.past).halt
+        assert again == live
+
+
+def test_a_disabled_breakpoint_leaves_the_next_program_its_native_debug_code(tmp_path: Path, cache: Path) -> None:
+    with Child(tmp_path / "a.run", STATIONS, cache, speed=0) as child:
+        set_breakpoints(child, at_line(11, enabled=False))
+        sources = protocol.Sources(MODEL, {"main.st": STATIONS.replace("n + 1", "n + 2")}, 10_000_000, 2)
+        assert child.ask(lambda ref: protocol.Build(ref, sources, "Ann"), protocol.Ack).ok
+        child.ask(lambda ref: debug_protocol.SetCoverage(ref, True, False, "Ann"), protocol.Ack)
+        child.wait(protocol.HostState, lambda state: state.flavour == "debug")
+        begin = child.wait(protocol.HostState).scan
+        child.wait(protocol.HostState, lambda state: state.scan > begin + 30_000)
+        cycle = child.wait(protocol.HostState).cycle_us
+        assert cycle < 0
+        child.ask(lambda ref: debug_protocol.SetCoverage(ref, False, False, "Ann"), protocol.Ack)
+        child.wait(protocol.HostState, lambda state: not state.flavour)
 
 
 def test_the_program_can_be_halted_where_it_traps(tmp_path: Path, cache: Path) -> None:
