@@ -7,18 +7,16 @@ image now. A call that reaches its instance through a reference counts where tha
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
+from scanbench.check.bodies import bodies, every
 from scanbench.check.bound import BIT_SHIFT, Image, referred
 from scanbench.check.instances import instances_of
 from scanbench.check.program import (
     Base,
     Binary,
-    Blocks,
     CallBlock,
-    Case,
     Const,
     Convert,
     Expr,
-    For,
     Halt,
     If,
     Index,
@@ -28,10 +26,8 @@ from scanbench.check.program import (
     Place,
     Pou,
     Program,
-    Repeat,
     Return,
     Stmt,
-    While,
 )
 from scanbench.check.symbols import PART, Symbol, UnknownPath, around, resolve, roots
 from scanbench.check.types import Elementary, Kind, Member, Record, Section, actual_of, is_derived
@@ -243,27 +239,6 @@ def _wrapped(type: Elementary, value: int | None) -> int | None:
 
 
 # ---- statements -----------------------------------------------------------------------------------------------------
-
-
-def bodies(stmt: Stmt) -> tuple[tuple[Stmt, ...], ...]:
-    """The statements inside of one."""
-    match stmt:
-        case If(branches, orelse) | Case(_, branches, orelse):
-            return (*(body for _, body in branches), orelse)
-        case For() | While() | Repeat():
-            return (stmt.body,)
-        case Blocks(blocks):
-            return blocks
-        case _:
-            return ()
-
-
-def every(statements: Iterable[Stmt]) -> Iterator[Stmt]:
-    """Each statement, and those inside of it."""
-    for stmt in statements:
-        yield stmt
-        for body in bodies(stmt):
-            yield from every(body)
 
 
 def _calls(statements: Iterable[Stmt]) -> Iterator[CallBlock]:

@@ -6,8 +6,10 @@ A condition looks, and changes nothing: no calls but of standard functions, no r
 """
 
 import re
+from collections.abc import Callable
 from dataclasses import dataclass, replace
 from functools import cached_property
+from typing import TypeVar
 
 from scanbench.check.call_sites import Calls
 from scanbench.check.calls import CallChecker
@@ -46,6 +48,14 @@ from scanbench.syntax.source import Source
 
 MAX_LENGTH = 2000
 """Characters of a condition."""
+EXAMPLES = {
+    "condition": "Write one, e.g. `Main.count > 3`",
+    "signal": "Name a variable, e.g. `Main.count`",
+    "variable": "Name one, e.g. `level`",
+    "expression": "Write one, e.g. `level + 1`",
+    "assignment": "Write one, e.g. `a := 1;`",
+}
+"""What may be wanted of a text."""
 NOWHERE = Span("condition", 1, 1, 1, 1)
 _SPACED = re.compile(r"'(?:\$.|[^$'])*'|\"(?:\$.|[^$\"])*\"|\b([A-Za-z]+) (\d{1,9}(?:\.\d{1,2})?)\b")
 """`CIO 0.00`, which has a space inside; texts in quotes are passed over."""
@@ -74,6 +84,9 @@ class Signal:
     type: Elementary
 
 
+Made = TypeVar("Made", Condition, Signal)
+
+
 @dataclass(frozen=True, slots=True)
 class BadCondition:
     """Why a text is no condition: one sentence for people, and names that were perhaps meant."""
@@ -86,41 +99,40 @@ class BadCondition:
 
 def compile_condition(program: Program, text: str) -> Condition | BadCondition:
     """The condition that the text says about this program, or what is wrong with it."""
-    if not text.strip():
-        return BadCondition("There is no condition. Write one, e.g. `Main.count > 3`.")
-    if len(text) > MAX_LENGTH:
-        return BadCondition(f"The condition has {len(text)} characters; it may have {MAX_LENGTH}.")
-    node = parsed(joined(program, text))
-    if isinstance(node, BadCondition):
-        return node
-    report = Report()
-    try:
-        return Condition(text, ProgramChecker(Visible(program), report).condition(node))
-    except Rejected:
-        problem = report.problems[0]
-        return bad_condition(problem, near_names(program, text, problem) if problem.code == "T001" else ())
+    return _compiled(program, text, "condition", lambda checker, node: Condition(text, checker.condition(node)))
 
 
 def compile_signal(program: Program, text: str) -> Signal | BadCondition:
     """The value that the text says about this program: a number, a BOOL, a time; or what is wrong with it."""
-    if not text.strip():
-        return BadCondition("There is no signal. Name a variable, e.g. `Main.count`.")
-    if len(text) > MAX_LENGTH:
-        return BadCondition(f"The signal has {len(text)} characters; it may have {MAX_LENGTH}.")
-    node = parsed(joined(program, text))
+    return _compiled(program, text, "signal", lambda checker, node: checker.signal(node, text))
+
+
+def _compiled(
+    program: Program, text: str, what: str, made: Callable[["ProgramChecker", tree.Expression], Made]
+) -> Made | BadCondition:
+    node = unreadable(text, what) or parsed(joined(program, text), what)
     if isinstance(node, BadCondition):
         return node
     report = Report()
     try:
-        return ProgramChecker(Visible(program), report).signal(node, text)
+        return made(ProgramChecker(Visible(program), report), node)
     except Rejected:
         problem = report.problems[0]
-        return bad_condition(problem, near_names(program, text, problem) if problem.code == "T001" else ())
+        return bad_condition(problem, near_names(program, text, problem) if problem.code == "T001" else (), what)
 
 
-def bad_condition(problem: Problem, near: tuple[str, ...] = ()) -> BadCondition:
+def unreadable(text: str, what: str) -> BadCondition | None:
+    """Why a text cannot be one of what is wanted, before it is looked into."""
+    if not text.strip():
+        return BadCondition(f"There is no {what}. {EXAMPLES[what]}.")
+    if len(text) > MAX_LENGTH:
+        return BadCondition(f"The {what} has {len(text)} characters; it may have {MAX_LENGTH}.")
+    return None
+
+
+def bad_condition(problem: Problem, near: tuple[str, ...] = (), what: str = "condition") -> BadCondition:
     """What was reported of a text."""
-    return BadCondition(problem.message.replace("the file ends", "the condition ends"), near, problem.span.column)
+    return BadCondition(problem.message.replace("the file ends", f"the {what} ends"), near, problem.span.column)
 
 
 def near_names(program: Program, text: str, problem: Problem) -> tuple[str, ...]:
@@ -144,19 +156,20 @@ def joined(program: Program, text: str) -> str:
     return _SPACED.sub(one, text.replace("\n", " "))
 
 
-def parsed(text: str) -> tree.Expression | BadCondition:
-    """The tree of an expression, and of nothing but that."""
+def parsed(text: str, what: str = "condition") -> tree.Expression | BadCondition:
+    """The tree of an expression, and of nothing but that. `what` it is to be, for people."""
     parser = StParser(Source(NOWHERE.file, text))
     try:
         node = parser.expression()
         if parser.is_(":="):
             column = parser.here().column
-            return BadCondition("`:=` assigns, and a condition changes nothing. Compare with `=`.", (), column)
+            article = "an" if what[0] in "aeiou" else "a"
+            return BadCondition(f"`:=` assigns, and {article} {what} changes nothing. Compare with `=`.", (), column)
         if not parser.ended():
-            raise parser.fail("an operator (AND, OR, =, >, ...) or the end of the condition expected")
+            raise parser.fail(f"an operator (AND, OR, =, >, ...) or the end of the {what} expected")
     except Unexpected:
-        return bad_condition(parser.problems[0])
-    return bad_condition(parser.problems[0]) if parser.problems else node
+        return bad_condition(parser.problems[0], (), what)
+    return bad_condition(parser.problems[0], (), what) if parser.problems else node
 
 
 class Visible:

@@ -40,7 +40,8 @@ class Layout:
     FORCES: ClassVar[int] = 48
     """The force table: 8 bytes an entry, see engines/engine.py."""
     FORCE_LIMIT: ClassVar[int] = 480
-@@    EPOCH: ClassVar[int] = 3888
+    FORCES_END: ClassVar[int] = 48 + 8 * 480
+    EPOCH: ClassVar[int] = 3888
     """i64 ns since 1970: what the PLC's clock showed at virtual time 0. Its clock is EPOCH + CLOCK."""
     STARTED: ClassVar[int] = 3896
     """u64 number of the first scan since the program last started: the scan of the first cycle flag."""

@@ -10,7 +10,6 @@ from dataclasses import dataclass, replace
 
 from scanbench.check.assignments import AssignmentChecker
 from scanbench.check.condition import (
-    MAX_LENGTH,
     NOWHERE,
     BadCondition,
     ProgramChecker,
@@ -19,6 +18,7 @@ from scanbench.check.condition import (
     joined,
     near_names,
     parsed,
+    unreadable,
 )
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.names import Space
@@ -155,11 +155,10 @@ class Locals:
     # ---- parsing ----------------------------------------------------------------------------------------
 
     def _parsed(self, text: str, what: str) -> tree.Expression | Bad:
-        node = _unreadable(text, what) or parsed(joined(self.program, text))
-        return replace(node, message=node.message.replace("a condition", f"{_article(what)} {what}")) if isinstance(node, Bad) else node
+        return unreadable(text, what) or parsed(joined(self.program, text), what)
 
     def _parsed_statements(self, text: str) -> tuple[tree.Assignment, ...] | Bad:
-        bad = _unreadable(text, "assignment")
+        bad = unreadable(text, "assignment")
         if bad is not None:
             return bad
         text = joined(self.program, text).rstrip()
@@ -230,21 +229,6 @@ def this_of(pou: Pou) -> Member | None:
 
 def _ours(pou: Pou) -> bool:
     return is_system(pou.span) or in_library(pou.span) or pou.name.startswith("__")
-
-
-def _article(what: str) -> str:
-    return "an" if what[0] in "aeiou" else "a"
-
-
-def _unreadable(text: str, what: str) -> Bad | None:
-    if not text.strip():
-        example = {"assignment": "`a := 1;`", "condition": "`level > 3`", "variable": "`level`"}.get(
-            what, "`level + 1`"
-        )
-        return Bad(f"There is no {what}. Write one, e.g. {example}.")
-    if len(text) > MAX_LENGTH:
-        return Bad(f"The {what} has {len(text)} characters; it may have {MAX_LENGTH}.")
-    return None
 
 
 class _LocalChecker(ProgramChecker, AssignmentChecker):

@@ -7,6 +7,7 @@ from scanbench.check.program import Pou, Program
 from scanbench.check.symbols import Symbol, UnknownPath, around, members, resolve, roots, roots_at
 from scanbench.check.types import BOOL, ArrayType, Elementary, Record, Type
 
+
 def variable_at(program: Program, place: Spot, type: Type) -> Symbol | None:
     """The variable, or part of one, or address; None where nothing of this type is there, as behind a stray pointer."""
     for path in _paths(program, place, type):

@@ -92,9 +92,7 @@ class _Search:
                     found[each.copy.start] = each
         return tuple(found.values())
 
-    def _from(
-        self, offset: int, own: Record, source: Member, above: tuple[tuple[int, str], ...]
-    ) -> Iterator[Passed]:
+    def _from(self, offset: int, own: Record, source: Member, above: tuple[tuple[int, str], ...]) -> Iterator[Passed]:
         further = self.passed(offset, own, source, above)
         if not source.copied:
             yield from further

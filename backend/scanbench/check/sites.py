@@ -7,7 +7,8 @@ values, what goes around a call, bodies that choose a method; nor have the syste
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from scanbench.check.program import Blocks, Case, For, If, Pou, Program, Repeat, Stmt, While
+from scanbench.check.bodies import bodies
+from scanbench.check.program import Blocks, Case, For, If, Pou, Program, Stmt, While
 from scanbench.check.standard.library import in_library
 from scanbench.check.system_text import is_system
 from scanbench.check.types import Record
@@ -51,10 +52,10 @@ class Sites:
         self._first: dict[int, int] = {}
         self.outcomes: tuple[Outcome, ...] = tuple(self._number_outcomes([(stmt, span) for _, stmt, span in named]))
         """In the order of their statements, and for each as `outcome` counts them."""
-        bodies: dict[Pou, list[int]] = {}
+        numbers: dict[Pou, list[int]] = {}
         for pou, stmt, _ in found:
-            bodies.setdefault(pou, []).append(self._numbers[id(stmt)])
-        self.bodies: Mapping[Pou, tuple[int, ...]] = {pou: tuple(numbers) for pou, numbers in bodies.items()}
+            numbers.setdefault(pou, []).append(self._numbers[id(stmt)])
+        self.bodies: Mapping[Pou, tuple[int, ...]] = {pou: tuple(each) for pou, each in numbers.items()}
         """The sites of each POU that has any, outer statements before inner ones."""
         self._lines: dict[tuple[str, int], list[int]] = {}
         for number, site in enumerate(self.statements):
@@ -118,21 +119,21 @@ def _in_order(body: Iterable[tuple[Stmt, Span]]) -> Iterator[tuple[Stmt, Span]]:
 
 
 def _of_statement(stmt: Stmt, span: Span) -> Iterator[tuple[Stmt, Span]]:
-    bodies = [[(each, each.span.plain()) for each in body] for body in _bodies(stmt)]
+    inner = [[(each, each.span.plain()) for each in body] for body in bodies(stmt)]
     if isinstance(stmt, Blocks):  # the whole of an instruction list that has labels
-        for body in bodies:
+        for body in inner:
             yield from _in_order(body)
         return
     yield stmt, span
     if _goes_around_itself(stmt, span):
         return
-    for body in bodies:
+    for body in inner:
         yield from _in_order(body)
 
 
 def _goes_around_itself(stmt: Stmt, span: Span) -> bool:
     """Whether it was made around what the text says: EN, S=, JMPC, what an argument needs before a call."""
-    return any(each.span.plain() == span for body in _bodies(stmt) for each in body)
+    return any(each.span.plain() == span for body in bodies(stmt) for each in body)
 
 
 def _ways(stmt: Stmt) -> tuple[str, ...]:
@@ -143,17 +144,5 @@ def _ways(stmt: Stmt) -> tuple[str, ...]:
             return (*(f"CASE {number}" for number in range(1, len(branches) + 1)), "ELSE")
         case For() | While():
             return ("BODY", "NO ROUND")
-        case _:
-            return ()
-
-
-def _bodies(stmt: Stmt) -> tuple[tuple[Stmt, ...], ...]:
-    match stmt:
-        case If(branches, orelse) | Case(_, branches, orelse):
-            return (*(body for _, body in branches), orelse)
-        case For() | While() | Repeat():
-            return (stmt.body,)
-        case Blocks(blocks):
-            return blocks
         case _:
             return ()

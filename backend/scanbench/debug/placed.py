@@ -4,7 +4,8 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 
-from scanbench.check.call_sites import every, formal_of
+from scanbench.check.bodies import every
+from scanbench.check.call_sites import formal_of
 from scanbench.check.program import Pou, Program, Return
 from scanbench.check.sites import Sites
 from scanbench.check.symbols import Symbol, UnknownPath, resolve

@@ -95,7 +95,11 @@ def _bits(view: View, symbol: Symbol) -> range:
     if place is None:
         return range(0)
     offset, bit = place
-    return range(8 * offset, 8 * (offset + symbol.type.size)) if bit is None else range(8 * offset + bit, 8 * offset + bit + 1)
+    return (
+        range(8 * offset, 8 * (offset + symbol.type.size))
+        if bit is None
+        else range(8 * offset + bit, 8 * offset + bit + 1)
+    )
 
 
 def _overlap(one: range, other: range) -> bool:

@@ -13,8 +13,6 @@ from scanbench.check.layout import Layout
 from scanbench.engines.debug import NOTHING, DebugEngine, Frame, Hook, Listen
 from scanbench.runtime.command import Entry, Patch, Plan, Restarted, Swapped
 
-_FORCES_END = Layout.FORCES + 8 * Layout.FORCE_LIMIT
-
 
 class Diverged(Exception):
     """The run did not go as the journal says: the program or the engine is not the one that was recorded."""
@@ -47,7 +45,7 @@ def _in_header(patch: Patch) -> bool:
     end = patch.offset + len(patch.data)
     if patch.offset >= Layout.FORCE_COUNT and end <= Layout.FORCE_COUNT + 4:
         return False
-    return patch.offset < Layout.HEADER_SIZE and not (patch.offset >= Layout.FORCES and end <= _FORCES_END)
+    return patch.offset < Layout.HEADER_SIZE and not (patch.offset >= Layout.FORCES and end <= Layout.FORCES_END)
 
 
 class Onlooker(Hook, Protocol):

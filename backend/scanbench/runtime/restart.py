@@ -17,7 +17,6 @@ from scanbench.runtime.forces import read_table
 from scanbench.runtime.header import Header, Mode, fresh_image
 from scanbench.runtime.modes import held, started
 
-_FORCES_END = Layout.FORCES + 8 * Layout.FORCE_LIMIT
 Image = bytes | bytearray | memoryview
 
 _MESSAGES: dict[RestartKind, str] = {
@@ -50,7 +49,7 @@ def restarted(program: Program, memory: Image, kind: RestartKind) -> bytearray:
     for offset, size in spans:
         image[offset : offset + size] = memory[offset : offset + size]
     if kind == "warm":
-        image[Layout.FORCE_COUNT : _FORCES_END] = memory[Layout.FORCE_COUNT : _FORCES_END]
+        image[Layout.FORCE_COUNT : Layout.FORCES_END] = memory[Layout.FORCE_COUNT : Layout.FORCES_END]
         for offset, (mask, value) in read_table(memory).items():
             image[offset] = image[offset] & ~mask | value & mask
     return image

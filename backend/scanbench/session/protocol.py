@@ -355,6 +355,10 @@ class SymbolInfo:
     expandable: bool
     values: tuple[tuple[str, int], ...] = ()
     """Names of an enumeration's numbers."""
+    range: str = ""
+    """Of a subrange: the integer that it is and its bounds, INT (0..500); `type` may be a name."""
+    in_out: bool = False
+    """It is an in-out; of a watched path also: it leads through one. It has a binding."""
 
 
 @dataclass(frozen=True, slots=True)

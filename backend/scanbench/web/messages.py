@@ -335,6 +335,8 @@ class Symbol(Wire):
     section: str = Field(description="VAR, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_GLOBAL, address or member")
     expandable: bool
     values: list[EnumValue] = Field(description="of an enumeration: the names of its numbers")
+    range: str = Field(description="of a subrange: what it is, e.g. INT (0..500); `type` may be a name; or empty")
+    in_out: bool = Field(description="it is an in-out; of a watched path also: it leads through one")
 
 
 class Violation(Wire):

@@ -139,6 +139,7 @@ def symbol(info: SymbolInfo) -> wire.Symbol:
             "address": info.address, "writable": info.writable, "section": info.section,
             "expandable": info.expandable,
             "values": [{"name": name, "value": value} for name, value in info.values],
+            "range": info.range, "in_out": info.in_out,
         }
     )  # fmt: skip
 

@@ -50,7 +50,8 @@ END_PROGRAM
 
 
 def program(convention: str) -> Program:
-    checked = check_sources({"a.st": SOURCE}, replace(MODELS["GENERIC-IEC"], in_out=convention), 1_000_000)
+    made = replace(MODELS["GENERIC-IEC"], in_out=convention)  # type: ignore[arg-type]
+    checked = check_sources({"a.st": SOURCE}, made, 1_000_000)
     assert checked.program is not None, checked.problems
     return checked.program
 

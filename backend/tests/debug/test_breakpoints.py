@@ -372,6 +372,17 @@ def test_breakpoints_find_their_place_in_the_next_program(walker: Walker) -> Non
     assert "Main" in lost.message
 
 
+def test_places_are_found_without_an_engine(tmp_path: Path) -> None:
+    walker = Walker(tmp_path / "a.run")
+    (verdict,) = walker.set(line(25, enabled=False))
+    assert verdict.verified
+    assert to_program(walker.timeline, 2, STATIONS) == ""
+    walker.debugger.moved()
+    assert walker.debugger.verdicts[0].verified
+    assert walker.run(5) is None
+    assert walker.timeline.live.debug is None, "whoever has a native one can put it in place yet"
+
+
 def test_what_needs_the_seam_lets_the_scan_end_first(walker: Walker) -> None:
     walker.set(line(26))
     walker.run()

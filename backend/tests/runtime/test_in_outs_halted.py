@@ -129,7 +129,12 @@ def assigned(resource: Resource, text: str) -> Entry | Refusal:
 @pytest.mark.parametrize("engine", ENGINES)
 def test_what_overlaps_the_variable_is_seen_too(engine: EngineFactory, convention: str) -> None:
     resource = looking(engine, convention)
-    for path, text in (("D100", "16#1008"), ("Main.both.word", "16#4321"), ("Main.wide", "9"), ("Main.parts[1].b", "5")):
+    for path, text in (
+        ("D100", "16#1008"),
+        ("Main.both.word", "16#4321"),
+        ("Main.wide", "9"),
+        ("Main.parts[1].b", "5"),
+    ):
         assert isinstance(resource.submit(Write("Ada", path, text)), Entry)
     went_on(resource)
     assert value(resource, "Main.look.saw_on") is True

@@ -9,7 +9,7 @@ import pytest
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.runtime.write import Write
 from scanbench.session import debug_protocol, protocol
-from tests.session.child import MODEL, Child
+from tests.session.child import Child
 
 STATIONS = """FUNCTION_BLOCK Station
 VAR_INPUT up : DINT; END_VAR
@@ -159,21 +159,6 @@ def test_a_scan_on_in_the_past_leaves_the_statement_that_was_shown(tmp_path: Pat
         assert child.step("continue").ok
         again = child.wait(protocol.HostState, lambda state: state.halt is not None and not state.halt.past).halt
         assert again == live
-
-
-def test_a_disabled_breakpoint_leaves_the_next_program_its_native_debug_code(tmp_path: Path, cache: Path) -> None:
-    with Child(tmp_path / "a.run", STATIONS, cache, speed=0) as child:
-        set_breakpoints(child, at_line(11, enabled=False))
-        sources = protocol.Sources(MODEL, {"main.st": STATIONS.replace("n + 1", "n + 2")}, 10_000_000, 2)
-        assert child.ask(lambda ref: protocol.Build(ref, sources, "Ann"), protocol.Ack).ok
-        child.ask(lambda ref: debug_protocol.SetCoverage(ref, True, False, "Ann"), protocol.Ack)
-        child.wait(protocol.HostState, lambda state: state.flavour == "debug")
-        begin = child.wait(protocol.HostState).scan
-        child.wait(protocol.HostState, lambda state: state.scan > begin + 30_000)
-        cycle = child.wait(protocol.HostState).cycle_us
-        assert cycle < 0
-        child.ask(lambda ref: debug_protocol.SetCoverage(ref, False, False, "Ann"), protocol.Ack)
-        child.wait(protocol.HostState, lambda state: not state.flavour)
 
 
 def test_the_program_can_be_halted_where_it_traps(tmp_path: Path, cache: Path) -> None:

@@ -133,7 +133,8 @@ def test_what_is_packed_is_read_again() -> None:
 def test_pages_are_taken_from_the_end_and_read_again() -> None:
     buffer = TraceBuffer(TYPES, 20_000)
     buffer.append(rows(0, 15_000))
-    pages, last = [], 1 << 40
+    pages: list[Samples] = []
+    last = 1 << 40
     while len(page := buffer.newest(100, last, 4000)):
         pages.insert(0, page)
         last = int(page.scans[0]) - 1

@@ -67,9 +67,10 @@ def test_the_binding_and_another_call(bench: Bench) -> None:
     ]  # fmt: skip
     assert plc.write("Main.pump.valve.level", 60) == "Main.pump.valve.level -> Main.tank[2] := 60"
     file = sites[0]["file"]
-    answer = bench.ask("POST", "write", {"path": "Main.pump.level", "value": "7", "site": f"{file}:13"})
-    assert isinstance(answer, dict)
-    assert answer["message"] == "Main.pump.level -> Main.tank[1] := 7"
+    assert plc.write("Main.pump.level", 7, f"{file}:13") == "Main.pump.level -> Main.tank[1] := 7"
+    with plc.forced("Main.pump.level", 9, site=f"{file}:13"):
+        assert plc.read("Main.tank[1]") == "9"
+    plc.write("Main.tank[1]", 7)
     plc.run(scans=2)
     assert [plc.read(f"Main.tank[{number}]") for number in (1, 2, 3)] == ["7", "60", "0"]
     assert plc.read("Main.pump.valve.level") == "60"

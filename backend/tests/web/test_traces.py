@@ -232,6 +232,32 @@ def test_csv_kept_and_read_again(server: Server) -> None:
     assert server.http.get(f"/api/trace-records/{kept['id']}").status_code == 404
 
 
+def test_a_large_trace_goes_out_page_by_page(server: Server) -> None:
+    instance = paused(server, "trace large")
+    trace = made(server, instance, scans=500_000)
+    start = int(server.state(instance)["scan"])
+    end = run(server, instance, 400_000)
+    at = f"/api/instances/{instance}/traces/{trace['id']}"
+    refused = server.http.get(f"{at}/samples")
+    assert refused.status_code == 422
+    assert "400,000 samples of 4 signals are too many at once" in refused.json()["message"]
+    assert len(samples(server, instance, trace["id"], points=10_000_000).scans) < 400_000
+    lines = server.http.get(f"{at}/csv").text.splitlines()
+    assert [int(line.partition(",")[0]) for line in lines[1:]] == list(range(start, end))
+    part = server.http.get(f"{at}/csv", params={"first": end - 200_000, "last": end - 11}).text.splitlines()
+    assert part[1:] == lines[-200_000:-10]
+    kept = server.http.post(f"{at}/keep", json={"name": "large"}).json()
+    assert (kept["rows"], kept["first"], kept["end"]) == (400_000, start, end)
+    record = f"/api/trace-records/{kept['id']}"
+    assert server.http.get(f"{record}/csv").text.splitlines() == lines
+    assert server.http.get(f"{record}/samples").status_code == 422
+    outline = {"points": 500}
+    assert (
+        server.http.get(f"{record}/samples", params=outline).content[32:]
+        == (server.http.get(f"{at}/samples", params=outline).content[32:])
+    )
+
+
 def test_scans_that_are_over_are_recorded_afterwards(server: Server) -> None:
     instance = paused(server, "flight")
     run(server, instance, 5000)
@@ -257,6 +283,12 @@ def test_scans_that_are_over_are_recorded_afterwards(server: Server) -> None:
     assert found.scans == list(range(end - 6000, end))
     assert found.values[0][-1] == 5100
     assert found.values[0][999:1001] == [end - 5000, 101]
+    flights = f"/api/instances/{instance}/flights"
+    under_way = [server.http.post(flights, json=body).json()["id"] for _ in range(2)]
+    third = server.http.post(flights, json=body)
+    assert third.status_code == 422
+    assert "cancel" in third.json()["message"]
+    assert [server.http.delete(f"/api/flights/{id}").status_code for id in under_way] == [204, 204]
     late = server.http.post(f"/api/instances/{instance}/flights", json={**body, "last": end + 5})
     assert late.status_code == 422
     assert "not over yet" in late.json()["message"]

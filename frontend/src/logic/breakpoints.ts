@@ -1,5 +1,6 @@
 /** Breakpoints as people see them: shape, place and words. */
-import type { BreakpointInfo } from "../wire/types";
+import type { BreakpointInfo, Pou } from "../wire/types";
+import { pouAt } from "./explorer";
 import { t } from "./text";
 
 /** A drawing of the gutter: filled holds, hollow is off, dashed is not in the program. */
@@ -58,11 +59,11 @@ const isPlain = ({ condition, hits, instance, task }: Wanted) => !condition && !
 /** Where it stands in the built text. */
 export const lineOf = (breakpoint: BreakpointInfo) => breakpoint.at_line || breakpoint.line;
 
-/** What it is at: a file, a variable, an error, a scan. */
-export function placeOf(breakpoint: Wanted): string {
+/** What it is at: the POU around its line, a variable, an error, a scan. Without the declarations, the file is what is known. */
+export function placeOf(breakpoint: Wanted & { at_line?: number }, pous: readonly Pou[] = []): string {
   switch (breakpoint.kind) {
     case "line":
-      return breakpoint.file.replace(/^.*\//, "").replace(/\.[^.]*$/, "");
+      return pouAt(pous, breakpoint.file, breakpoint.at_line || breakpoint.line)?.name ?? baseOf(breakpoint.file);
     case "data":
       return breakpoint.path;
     case "error":
@@ -73,6 +74,8 @@ export function placeOf(breakpoint: Wanted): string {
       return t(`debug.bp.${breakpoint.kind}`);
   }
 }
+
+const baseOf = (file: string) => file.replace(/^.*\//, "").replace(/\.[^.]*$/, "");
 
 /** What is special about it, in short: `if jam.Q`, `3rd time`, `off`. */
 export function conditionsOf(breakpoint: Wanted): string {

@@ -3,9 +3,15 @@ import type { HaltInfo } from "../wire/types";
 import { baseName } from "./paths";
 import { t } from "./text";
 
+/** Why it halted says more than that it did: `Main.level changed from 3 to 7`, `error 20 was raised`. */
+const TELLING: readonly HaltInfo["reason"][] = ["data breakpoint", "error", "violation", "trap"];
+
+/** What happened, in the words of the debugger; empty where the reason says all there is to say. */
+export const haltCause = (halt: HaltInfo) => (TELLING.includes(halt.reason) ? halt.text : "");
+
 /** `at breakpoint, line 29`: below the state word. */
 export function haltDetail(halt: HaltInfo): string {
-  const why = t(`debug.reason.${halt.reason}`);
+  const why = haltCause(halt) || t(`debug.reason.${halt.reason}`);
   return halt.file === "" ? why : t("debug.atline", { why, line: halt.line });
 }
 

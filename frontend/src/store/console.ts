@@ -3,6 +3,7 @@ import { create } from "zustand";
 import { type DebugProtocol, dap } from "../wire/dap";
 import { reasonOf } from "./debug";
 import { keep, recall } from "./keep";
+import { usePlc } from "./plc";
 import { useStack } from "./stack";
 
 export interface ConsoleLine {
@@ -60,7 +61,9 @@ export async function evaluate(expression: string): Promise<void> {
 
 function inFrame(): { frameId?: number } {
   const { frame } = useStack.getState();
-  return frame === null ? {} : { frameId: frame };
+  // A frame lives no longer than its halt.
+  const halted = usePlc.getState().state?.halt != null;
+  return frame === null || !halted ? {} : { frameId: frame };
 }
 
 /** The value for a hover: in the frame when there is one that the text belongs to, else of a path. Undefined when there is none. */

@@ -82,9 +82,10 @@ export function forgetIds(): void {
   byId.clear();
 }
 
-/** Nobody watches this path any more. */
-export function drop(path: string): void {
+/** Nobody here watches this path any more. Others may: their frames still name its id, and its slot may be another's by then. */
+export function drop(path: string, id: number): void {
   const entry = entries.get(path);
+  byId.delete(id);
   if (!entry || entry.cells.size > 0) return;
   entries.delete(path);
   dirty.delete(entry);

@@ -48,13 +48,12 @@ function schedule(): void {
 
 function exchange(): void {
   scheduled = false;
-  const gone = [...ids.keys()].filter((path) => !counts.has(path));
-  const goneIds = gone.flatMap((path) => ids.get(path) ?? []);
-  for (const path of gone) {
+  const gone = [...ids].filter(([path]) => !counts.has(path));
+  for (const [path, id] of gone) {
     ids.delete(path);
-    drop(path);
+    drop(path, id);
   }
-  if (goneIds.length > 0) link.post({ type: "unwatch", ids: goneIds });
+  if (gone.length > 0) link.post({ type: "unwatch", ids: gone.map(([, id]) => id) });
   const wanted = [...toWatch].filter((path) => counts.has(path) && !ids.has(path));
   if (wanted.length === 0) toWatch.clear();
   else if (link.post({ type: "watch", ref: newRef(), paths: wanted })) toWatch.clear();

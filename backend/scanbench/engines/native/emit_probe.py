@@ -3,6 +3,7 @@
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 
+from scanbench.check.bodies import bodies
 from scanbench.check.layout import Layout
 from scanbench.check.program import Expr, If, Pou, Program, Stmt
 from scanbench.check.sites import Sites, sites_of
@@ -137,7 +138,7 @@ class Probing(Flavour):
 
     def _conditions(self, statement: Stmt) -> Iterator[Expr]:
         """Of the probes inside of a statement."""
-        for inner in (each for each_body in walk.bodies(statement) for each in each_body):
+        for inner in (each for each_body in bodies(statement) for each in each_body):
             probes = (self._probes[number] for number in self._numbers(inner))
             yield from (probe.condition for probe in probes if probe.condition is not None)
             yield from self._conditions(inner)

@@ -2,8 +2,8 @@
 
 from collections.abc import Iterable
 
+from scanbench.check.bodies import bodies
 from scanbench.check.program import Pou, Stmt
-from scanbench.engines.native import walk
 
 LARGE = 24
 """Statements from which on a body is compiled by itself: a call costs it nothing, and LLVM takes more than linear time
@@ -29,4 +29,4 @@ def shared(pou: Pou) -> bool:
 
 def size(statements: Iterable[Stmt]) -> int:
     """Statements, with those inside of others."""
-    return sum(1 + sum(size(inner) for inner in walk.bodies(each)) for each in statements)
+    return sum(1 + sum(size(inner) for inner in bodies(each)) for each in statements)

@@ -7,6 +7,7 @@ from collections.abc import Iterable
 from enum import Enum
 from typing import assert_never
 
+from scanbench.check.bodies import bodies
 from scanbench.check.program import (
     Assign,
     Binary,
@@ -55,23 +56,6 @@ class Use(Enum):
 
 
 Seen = tuple[Place, Use] | Pou
-
-
-def bodies(statement: Stmt) -> tuple[tuple[Stmt, ...], ...]:
-    """The statements inside of a statement, body by body."""
-    match statement:
-        case If(branches, orelse):
-            return (*(body for _, body in branches), orelse)
-        case Case(_, branches, orelse):
-            return (*(body for _, body in branches), orelse)
-        case For() | While() | Repeat():
-            return (statement.body,)
-        case Blocks(blocks):
-            return blocks
-        case Assign() | SetBytes() | CallBlock() | Evaluate() | Exit() | Continue() | Return() | Jump() | Halt():
-            return ()
-        case _:
-            assert_never(statement)
 
 
 def index_parts(index: Index) -> tuple[Expr, ...]:

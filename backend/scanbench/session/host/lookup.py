@@ -1,9 +1,10 @@
 """Symbols for people: what is below a path, what completes a text."""
 
+from scanbench.check.call_sites import formal_of
 from scanbench.check.instances import instances_of
 from scanbench.check.program import Program
 from scanbench.check.symbols import Symbol, UnknownPath, complete, members, resolve
-from scanbench.check.types import Elementary, Enumeration, StringType
+from scanbench.check.types import Elementary, Enumeration, StringType, Subrange
 from scanbench.session.protocol import Found, Lookup, SymbolInfo, WatchItem
 
 COMPLETIONS = 50
@@ -30,11 +31,12 @@ def watch_item(program: Program, id: int, path: str) -> tuple[WatchItem, Symbol 
     except UnknownPath as error:
         return WatchItem(id, path, None, False, error.message, tuple(error.near)), None
     sent = isinstance(symbol.type, Elementary | StringType)
-    return WatchItem(id, path, symbol_info(symbol), sent), symbol if sent else None
+    in_out = bool(symbol.slots) and formal_of(program, symbol.path) is not None
+    return WatchItem(id, path, symbol_info(symbol, in_out), sent), symbol if sent else None
 
 
-def symbol_info(symbol: Symbol) -> SymbolInfo:
-    """A symbol as data."""
+def symbol_info(symbol: Symbol, in_out: bool = False) -> SymbolInfo:
+    """A symbol as data; `in_out`: its path leads through one."""
     simple = isinstance(symbol.type, Elementary | StringType)
     return SymbolInfo(
         path=symbol.path,
@@ -47,4 +49,10 @@ def symbol_info(symbol: Symbol) -> SymbolInfo:
         section=str(symbol.section),
         expandable=not simple,
         values=symbol.type.values if isinstance(symbol.type, Enumeration) else (),
+        range=_range(symbol.type) if isinstance(symbol.type, Subrange) else "",
+        in_out=in_out or symbol.section == Section.IN_OUT,
     )
+
+
+def _range(type: Subrange) -> str:
+    return f"{type.base_name} ({type.low}..{type.high})"

@@ -3,6 +3,7 @@ import { conditionsOf, isShared, lineOf, placeOf, sayBreakpoint, shapeOf } from 
 import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { editBreakpoint, enableBreakpoints, removeBreakpoints, useDebug, wantedOf } from "../../store/debug";
+import { useDocuments } from "../../store/documents";
 import { openFile } from "../../store/navigate";
 import { usePlc } from "../../store/plc";
 import { IconButton } from "../../ui/IconButton";
@@ -20,7 +21,10 @@ export function BreakpointList() {
   const [menu, setMenu] = useState<{ items: readonly MenuItem[]; at: { x: number; y: number } } | null>(null);
   const [edited, setEdited] = useState<BreakpointInfo | null>(null);
   const edit = (known: BreakpointInfo) => (known.kind === "line" ? editInText(known) : setEdited(known));
-  const rows = breakpoints.map((known) => rowOf(known, you, edit, (items, at) => setMenu({ items, at })));
+  const pous = useDocuments((documents) => documents.pous);
+  const rows = breakpoints.map((known) =>
+    rowOf(known, placeOf(known, pous), you, edit, (items, at) => setMenu({ items, at })),
+  );
   return (
     <Section
       id="breakpoints"
@@ -55,13 +59,13 @@ function editInText(known: BreakpointInfo): void {
 
 function rowOf(
   known: BreakpointInfo,
+  place: string,
   you: string | undefined,
   edit: (known: BreakpointInfo) => void,
   openMenu: (items: readonly MenuItem[], at: { x: number; y: number }) => void,
 ): TreeRow {
   const shape = shapeOf(known);
   const said = conditionsOf(known);
-  const place = placeOf(known);
   const line = known.kind === "line" ? lineOf(known) : null;
   const open = () => (line === null ? edit(known) : openFile(known.file, line));
   const author = known.author === you && isShared(known) ? "" : known.author;

@@ -1,4 +1,4 @@
-import { haltPlace } from "../../logic/halted";
+import { haltCause, haltPlace } from "../../logic/halted";
 import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { openFile } from "../../store/navigate";
@@ -15,8 +15,10 @@ export function CallStack({ halt }: { halt: HaltInfo }) {
   const scan = usePlc((plc) => plc.state?.scan ?? 0);
   const meta = halt.past ? t("debug.scan", { scan: grouped(scan) }) : halt.task;
   const rows = frames.map((each, index) => frameRow(each, index, halt.past, each.id === frame));
+  const cause = haltCause(halt);
   return (
     <Section id="stack" title={t("debug.stack")} meta={meta}>
+      {cause !== "" && <p className="sectnote cause">{cause}</p>}
       {halt.by !== "" && halt.by !== you && <ByOther halt={halt} />}
       {rows.length > 0 ? (
         <Tree label={t("debug.stack")} rows={rows} />

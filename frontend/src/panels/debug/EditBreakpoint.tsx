@@ -3,9 +3,10 @@ import { placeOf, type Wanted } from "../../logic/breakpoints";
 import { allErrors } from "../../logic/catalogue";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
-import { reasonOf, setBreakpoint, wantedOf } from "../../store/debug";
+import { reasonOf, removeBreakpoints, setBreakpoint, wantedOf } from "../../store/debug";
 import { Dialog } from "../../ui/Dialog";
 import { Field } from "../../ui/Field";
+import { Icon } from "../../ui/Icon";
 import type { BreakpointInfo } from "../../wire/types";
 
 interface Props {
@@ -34,9 +35,14 @@ export function EditBreakpoint({ known, onClose }: Props) {
       return;
     }
     try {
-      const { trouble } = await setBreakpoint({ ...wanted, scan: wanted.kind === "scan" ? Number(scan) : 0 }, id);
-      if (trouble === null) onClose();
-      else setRefused(trouble);
+      const answer = await setBreakpoint({ ...wanted, scan: wanted.kind === "scan" ? Number(scan) : 0 }, id);
+      if (answer.trouble === null) {
+        onClose();
+        return;
+      }
+      setRefused(answer.trouble);
+      // A new one that can never hold stands nowhere else than here: there is no line at which it could be mended.
+      if (id === null && answer.id !== null) await removeBreakpoints([answer.id]);
     } catch (error) {
       setRefused(reasonOf(error));
     }
@@ -69,7 +75,6 @@ export function EditBreakpoint({ known, onClose }: Props) {
         label={t("debug.form.condition")}
         value={wanted.condition}
         onChange={(condition) => change({ condition })}
-        refused={refused}
         mono
         placeholder="Main.count > 3"
       />
@@ -80,6 +85,12 @@ export function EditBreakpoint({ known, onClose }: Props) {
         mono
         placeholder={t("debug.form.hits.hint")}
       />
+      {refused && (
+        <span className="hint bad" role="alert">
+          <Icon name="error" small />
+          {refused}
+        </span>
+      )}
     </Dialog>
   );
 }

@@ -14,6 +14,7 @@ import {
   type Variable,
 } from "../../store/stack";
 import { reverseTo } from "../../store/stepping";
+import { addToTrace } from "../../store/traces";
 import { addToWatch } from "../../store/watchlist";
 import { Icon } from "../../ui/Icon";
 import { Menu, type MenuItem } from "../../ui/Menu";
@@ -120,6 +121,12 @@ function menuOf(variable: Variable, writable: boolean, begin: () => void): MenuI
   return [
     { label: t("debug.set"), hint: "Enter", disabled: !writable, onSelect: begin },
     { label: t("watch.addone"), icon: "eye", disabled: placeless, onSelect: () => addToWatch([path]) },
+    {
+      label: t("watch.totrace"),
+      icon: "trigger",
+      disabled: placeless || variable.variablesReference > 0,
+      onSelect: () => addToTrace(path),
+    },
     { label: t("debug.break.change"), icon: "bp-data", separated: true, disabled: placeless, onSelect: on("change") },
     { label: t("debug.break.write"), disabled: placeless, onSelect: on("write") },
     { label: t("debug.break.read"), disabled: placeless, onSelect: on("read") },
@@ -153,7 +160,7 @@ function Line({ keyName, variable, changed, editing, onDone }: LineProps) {
       {force && <Icon name="forced" small className="forcedc" />}
       {editing ? (
         <ValueEntry keyName={keyName} variable={variable} onDone={onDone} />
-      ) : (
+      ) : alias && below ? null : (
         <span
           className={`varvalue mono cut${changed ? " changed" : ""}${below ? " faint" : ""}`}
           data-testid={`variable:${variable.name}`}
@@ -161,7 +168,12 @@ function Line({ keyName, variable, changed, editing, onDone }: LineProps) {
           {variable.value}
         </span>
       )}
-      {alias && !editing && <span className="faint mono cut">{alias}</span>}
+      {alias && !editing && (
+        // What it ends in tells one binding from another, so the beginning is what gives way.
+        <span className="varalias faint mono" title={alias} data-testid={`alias:${variable.name}`}>
+          <bdi>{alias}</bdi>
+        </span>
+      )}
     </span>
   );
 }

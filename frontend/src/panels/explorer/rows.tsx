@@ -1,4 +1,5 @@
 import { useEffect, useState } from "react";
+import { lineOf } from "../../logic/breakpoints";
 import { allErrors } from "../../logic/catalogue";
 import { type FileNode, isTable, type PouGroup, type PouNode, pouGroups, shownAt } from "../../logic/explorer";
 import { percent } from "../../logic/numbers";
@@ -84,7 +85,14 @@ export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) =>
         icon: group.kind === "plant" ? plantIcon(node.file) : POU_ICONS[group.kind],
         label: <PouLabel node={node} />,
         name: node.name,
-        meta: <FileMarks file={node.file} dirty={isDirty(open[node.file])} problems={problems} />,
+        meta: (
+          <FileMarks
+            file={node.file}
+            dirty={isDirty(open[node.file])}
+            problems={problems}
+            holds={(line) => isAround(node, group.kind, shownAt(pous, node.file, line))}
+          />
+        ),
         selected: node.file === active && isAround(node, group.kind, here),
         title: node.kind === "pou" ? `${node.file}:${line}` : node.file,
         onActivate: () => openFile(node.file, line),
@@ -136,9 +144,20 @@ function folder(folding: Folding, key: string, name: string, count?: number): Tr
   };
 }
 
-function FileMarks({ file, dirty, problems }: { file: string; dirty: boolean; problems: readonly Problem[] }) {
+interface Marked {
+  file: string;
+  dirty: boolean;
+  problems: readonly Problem[];
+  /** Whether a line of the file belongs to this row: a file may declare several things. */
+  holds: (line: number) => boolean;
+}
+
+function FileMarks({ file, dirty, problems, holds }: Marked) {
   const errors = problems.filter((problem) => problem.file === file && problem.severity === "error").length;
-  const breakpoints = useDebug((debug) => debug.breakpoints.filter((known) => known.file === file).length);
+  const breakpoints = useDebug(
+    (debug) =>
+      debug.breakpoints.filter((known) => known.kind === "line" && known.file === file && holds(lineOf(known))).length,
+  );
   return (
     <>
       {breakpoints > 0 && <span className="bpdot" title={t("debug.bp.count", { count: breakpoints })} />}
