@@ -32,6 +32,21 @@ CONFIGURATION Plant
   END_RESOURCE
 END_CONFIGURATION
 `;
+const BROKEN = `PROGRAM Main
+VAR go : BOOL; d : INT := 1; n : INT; END_VAR
+IF go THEN
+  d := d - 1;
+END_IF;
+n := 100 / d;
+END_PROGRAM
+
+CONFIGURATION Plant
+  RESOURCE Cpu ON PLC
+    TASK Cyclic(INTERVAL := T#10ms, PRIORITY := 1);
+    PROGRAM Main WITH Cyclic : Main;
+  END_RESOURCE
+END_CONFIGURATION
+`;
 const FILE = 'Main.st';
 
 test('a breakpoint in one of three instances: look, change, step, go back, go on', async ({ openAs }) => {
@@ -150,10 +165,15 @@ test('logpoint, execution point, data breakpoint, and coverage', async ({ openAs
     await debug.section('Breakpoints').getByRole('button', { name: 'New breakpoint' }).click();
     await page.getByRole('menuitem', { name: 'Break at a variable…' }).click();
     const dialog = page.getByRole('dialog', { name: 'Break at a variable…' });
+    await dialog.getByRole('textbox', { name: 'Variable or address' }).fill('Main.nope');
+    await dialog.getByRole('button', { name: 'Set' }).click();
+    await expect(dialog.getByRole('alert')).toContainText('nope');
+    await expect(debug.breakpoints).toHaveCount(0);
     await dialog.getByRole('textbox', { name: 'Variable or address' }).fill('Main.a[2].count');
     await dialog.getByRole('textbox', { name: 'Condition' }).fill('Main.a[2].count MOD 100 = 0');
     await dialog.getByRole('button', { name: 'Set' }).click();
-    await expect(top.state).toContainText('at data breakpoint');
+    // Which variable, from what to what.
+    await expect(debug.section('Call stack')).toContainText(/Main\.a\[2\]\.count changed from \d+ to \d+00/);
     // Behind the statement that wrote.
     const console_ = await debug.showConsole();
     await debug.evaluate('Main.a[2].count');
@@ -161,6 +181,9 @@ test('logpoint, execution point, data breakpoint, and coverage', async ({ openAs
     await debug.removeAll();
     await debug.step('Continue');
     await expect(top.state).toContainText('Running');
+    // The frame of the halt is gone, the console is not.
+    await debug.evaluate('Main.a[3].step + 40');
+    await expect(console_).toContainText('43');
   });
 
   await test.step('coverage marks what was reached', async () => {
@@ -169,6 +192,21 @@ test('logpoint, execution point, data breakpoint, and coverage', async ({ openAs
     await expect(editor.region.locator('.cover.full').first()).toBeVisible();
     await expect(editor.region).toContainText(/Coverage \d+/);
   });
+});
+
+test('a run-time error: the way back stays open', async ({ openAs }) => {
+  const mika = await openAs('Mika');
+  await prepared(mika, 'Broken', BROKEN);
+  const { debug, top } = mika;
+
+  await mika.watch.set('Main.go', 'TRUE');
+  await expect(top.state).toContainText('Trapped');
+  await debug.step('Step back');
+  await expect(top.state).toContainText('In the past');
+  await expect(debug.variable('d')).toHaveText('0');
+  await debug.step('Step back');
+  await expect(debug.variable('d')).toHaveText('1');
+  await expect(debug.section('Breakpoints')).toBeVisible();
 });
 
 test('two people: the halt and who made it are seen by both', async ({ openAs }) => {
@@ -192,18 +230,19 @@ test('two people: the halt and who made it are seen by both', async ({ openAs })
   await expect(mika.debug.breakpoints).toHaveCount(0);
 });
 
-async function prepared(mika: Ide, project: string): Promise<void> {
+async function prepared(mika: Ide, project: string, program = MAIN): Promise<void> {
   await mika.top.newProject(project);
   const main = mika.editor(FILE);
   await main.open();
   await mika.runs();
-  await main.replaceWith(MAIN);
+  await main.replaceWith(program);
   await main.build();
   const dialog = mika.page.getByRole('dialog', { name: /^Online change/ });
   await expect(main.outcome.or(dialog).first()).toBeVisible();
   await expect(main.outcome).toContainText('Built');
   await mika.runs();
-  for (const path of ['Main.go', 'Main.n', 'Main.a[3].count']) await mika.watch.add(path);
+  const watched = program === MAIN ? ['Main.go', 'Main.n', 'Main.a[3].count'] : ['Main.go'];
+  for (const path of watched) await mika.watch.add(path);
   await main.text.focus();
   await mika.page.keyboard.press('Control+Home');
 }

@@ -5,13 +5,14 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 
-from scanbench.check.bound import NO_COPIES, Copies
+from scanbench.check.bound import NO_COPIES, Copies, Image, Spot, referred
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
 from scanbench.check.scopes import SYSTEM
 from scanbench.check.types import (
     BOOL,
     ELEMENTARY,
+    SLOT_BYTES,
     ArrayType,
     Elementary,
     Kind,
@@ -73,18 +74,18 @@ class Symbol:
     def expandable(self) -> bool:
         return isinstance(self.type, ArrayType | Record)
 
-    def locate(self, memory: memoryview | bytes | bytearray) -> tuple[int, int | None] | None:
+    def locate(self, memory: Image) -> Spot | None:
         """Byte offset and bit of the value now; None while an in-out or reference on the way refers to nothing."""
         base = 0
         bit = self.bit
         last = len(self.slots) - 1
         for index, slot in enumerate(self.slots):
-            reference = int.from_bytes(memory[base + slot : base + slot + 8], "little")
-            base = reference & 0xFFFF_FFFF
-            if base < Layout.HEADER_SIZE or reference >> 35 or base >= len(memory):
+            found = referred(int.from_bytes(memory[base + slot : base + slot + SLOT_BYTES], "little"))
+            if found is None or not Layout.HEADER_SIZE <= found[0] < len(memory):
                 return None
+            base = found[0]
             if self.type == BOOL and index == last and self.offset == 0 and self.bit is None:
-                bit = reference >> 32 & 7
+                bit = found[1]
             if self.copies.all:
                 real = self.copies.actual(memory, base, bit)
                 if real is None:
@@ -181,7 +182,7 @@ def roots_at(program: Program, offset: int) -> Iterator[Symbol]:
 
 
 def _global(program: Program, member: Member) -> Symbol:
-    return _checked(program, _member(Symbol("", "", BOOL, "", 0), member, member.name))
+    return _checked(program, member_of(Symbol("", "", BOOL, "", 0), member, member.name))
 
 
 def _root(program: Program, name: str) -> Symbol | None:
@@ -196,7 +197,7 @@ def _root(program: Program, name: str) -> Symbol | None:
     access = next((each for each in program.accesses if each.name.upper() == upper), None)
     if found is None and access is None:
         given = _given(program).get(upper)
-        return None if given is None else _checked(program, _member(Symbol("", "", BOOL, "", 0), given, given.name))
+        return None if given is None else _checked(program, member_of(Symbol("", "", BOOL, "", 0), given, given.name))
     if found is not None or access is None:
         return found
     symbol = resolve(program, access.path)
@@ -209,8 +210,8 @@ def _given(program: Program) -> dict[str, Member]:
     return {**(named.members if named is not None else {}), **SYSTEM.members}
 
 
-def _member(owner: Symbol, member: Member, path: str) -> Symbol:
-    """The member of an instance, structure or the globals."""
+def member_of(owner: Symbol, member: Member, path: str) -> Symbol:
+    """The variable of an instance, structure, frame or of the globals, which begins where `owner` does."""
     made = Symbol(
         path, member.name, member.type, member.section.value, member.offset, member.bit, (),
         member.address or None, constant=member.constant or owner.constant,
@@ -228,9 +229,9 @@ def _member(owner: Symbol, member: Member, path: str) -> Symbol:
 
 def _step(program: Program, symbol: Symbol, name: str | None, index: str | None) -> Symbol:
     if index is None and name is None:
-        return _referred(symbol)
+        return behind(symbol)
     if isinstance(symbol.type, Reference) and symbol.type.automatic:
-        symbol = replace(_referred(symbol), path=symbol.path)
+        symbol = replace(behind(symbol), path=symbol.path)
     if index is not None:
         return _element(symbol, index)
     record = symbol.type
@@ -243,10 +244,10 @@ def _step(program: Program, symbol: Symbol, name: str | None, index: str | None)
         names = {each.name.upper(): each.name for each in record.members.values() if not each.hidden}
         near = tuple(f"{symbol.path}.{names[each]}" for each in get_close_matches(name.upper(), names, 3, 0.5))
         raise UnknownPath(f"`{symbol.path}` has no member `{name}`.", near)
-    return _member(symbol, member, f"{symbol.path}.{member.name}")
+    return member_of(symbol, member, f"{symbol.path}.{member.name}")
 
 
-def _referred(symbol: Symbol) -> Symbol:
+def behind(symbol: Symbol) -> Symbol:
     """What a reference refers to, wherever that is at the moment."""
     type = symbol.type
     if not isinstance(type, Reference) or type.target is None:
@@ -302,7 +303,7 @@ def _children(program: Program, symbol: Symbol) -> list[Symbol]:
         return _addresses(program, symbol, type)
     if isinstance(type, Record):
         return [
-            _member(symbol, member, f"{symbol.path}.{member.name}")
+            member_of(symbol, member, f"{symbol.path}.{member.name}")
             for member in type.members.values()
             if not member.hidden
         ]
@@ -353,11 +354,6 @@ def _addresses(program: Program, symbol: Symbol, array: ArrayType) -> list[Symbo
     return found
 
 
-def member_of(owner: Symbol, member: Member, path: str) -> Symbol:
-    """The variable of an instance, structure or frame that begins where `owner` does."""
-    return _member(owner, member, path)
-
-
 def children(program: Program, symbol: Symbol, start: int = 0, count: int = MAX_MEMBERS) -> list[Symbol]:
     """What stands below a variable, from number `start` on."""
     type = symbol.type
@@ -371,11 +367,6 @@ def children(program: Program, symbol: Symbol, start: int = 0, count: int = MAX_
             index = f",{low + here}{index}"
         found.append(_element(symbol, index[1:]))
     return found
-
-
-def referred(symbol: Symbol) -> Symbol:
-    """What a reference refers to, wherever that is at the moment."""
-    return _referred(symbol)
 
 
 def _raw(program: Program, text: str) -> Symbol:
@@ -454,7 +445,7 @@ def _descend(program: Program, symbol: Symbol, offset: int) -> str:
             if not member.located and start <= offset < start + member.storage:
                 if member.section is Section.IN_OUT:
                     return f"{symbol.path}.{member.name} (in-out)"
-                return _descend(program, _member(symbol, member, f"{symbol.path}.{member.name}"), offset)
+                return _descend(program, member_of(symbol, member, f"{symbol.path}.{member.name}"), offset)
     return symbol.path
 
 
@@ -482,7 +473,7 @@ def _holds(symbol: Symbol, offset: int) -> bool:
 def around(symbol: Symbol, offset: int) -> list[Symbol]:
     """Members, or the one element of an array, that may hold the byte; located members wherever they are."""
     if isinstance(symbol.type, Record):
-        return [_member(symbol, each, f"{symbol.path}.{each.name}") for each in symbol.type.members.values()]
+        return [member_of(symbol, each, f"{symbol.path}.{each.name}") for each in symbol.type.members.values()]
     if isinstance(symbol.type, ArrayType):
         numbers, rest = [], offset - symbol.offset
         for dimension, (low, _) in enumerate(symbol.type.bounds):

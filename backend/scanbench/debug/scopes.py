@@ -5,7 +5,7 @@ from dataclasses import replace
 from itertools import islice
 
 from scanbench.check.condition import BadCondition
-from scanbench.check.symbols import Symbol, UnknownPath, children, member_of, referred, resolve, roots
+from scanbench.check.symbols import Symbol, UnknownPath, behind, children, member_of, resolve, roots
 from scanbench.check.types import Member, Record, Reference, Section, actual_of
 from scanbench.debug.frames import frame_record, instance_path
 from scanbench.debug.scene import NoFrame, Scene, at
@@ -159,9 +159,9 @@ def _below(scene: Scene, parent: Shown, start: int, count: int) -> list[Shown]:
     symbol, head = with_bounds(scene, parent.symbol), parent.expression
     if isinstance(symbol.type, Reference):
         if not symbol.type.automatic:
-            target = referred(symbol)
+            target = behind(symbol)
             return [Shown(f"{head}^", replace(target, name="^"), f"{parent.path}^" if parent.path else "")]
-        symbol = replace(referred(symbol), path=symbol.path)
+        symbol = replace(behind(symbol), path=symbol.path)
     symbol = replace(symbol, path=parent.path)
     found = []
     for each in children(scene.program, symbol, start, count):

@@ -3,7 +3,7 @@
 from dataclasses import dataclass, replace
 
 from scanbench.check.named import variable_at
-from scanbench.check.symbols import Symbol, referred
+from scanbench.check.symbols import Symbol, behind
 from scanbench.check.types import (
     SLOT_BYTES,
     ArrayType,
@@ -65,7 +65,7 @@ def _through(scene: Scene, symbol: Symbol) -> Symbol:
     """What uses of the variable mean: behind a REFERENCE TO; of an ARRAY[*] with the bounds of what was passed."""
     type = symbol.type
     if isinstance(type, Reference) and type.automatic and type.target is not None:
-        return replace(referred(symbol), path=symbol.path, name=symbol.name)
+        return replace(behind(symbol), path=symbol.path, name=symbol.name)
     if isinstance(type, OpenArray):
         return with_bounds(scene, symbol)
     return symbol
@@ -135,7 +135,7 @@ def _target(scene: Scene, symbol: Symbol) -> str | None:
     assert isinstance(type, Reference)
     if type.target is None:
         return None
-    target = referred(symbol)
+    target = behind(symbol)
     spot = target.locate(scene.memory)
     return None if spot is None else called(scene.program, *spot, target.type)
 

@@ -8,6 +8,7 @@ the variable of the same path, or to nothing; in-out slots start unconnected, as
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
+from scanbench.check.bound import BYTE_OFFSET
 from scanbench.check.classes import TYPE_NUMBER
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
@@ -26,7 +27,6 @@ from scanbench.check.types import (
     Type,
 )
 
-_BYTE_OFFSET = 0xFFFF_FFFF
 _HEADER = (
     (Layout.CLOCK, 8), (Layout.SCAN, 8), (Layout.BUDGET_LIMIT, 8), (Layout.MODE, 2), (Layout.EPOCH, 8), (Layout.STARTED, 8),
     (Layout.ORIGIN, 8), (Layout.STARTED_AT, 8),
@@ -172,11 +172,11 @@ class _Carrier:
         if not isinstance(old, Reference) or old.name != new.name:
             self._lose_type(path, old, new)
             return
-        found = value if value == 0 else self._moved(value & _BYTE_OFFSET, old)
+        found = value if value == 0 else self._moved(value & BYTE_OFFSET, old)
         if found is None:
             self.change.lost.append(Lost(path, "what it referred to is no more: NULL"))
             return
-        self._new[new_offset : new_offset + new.size] = (value & ~_BYTE_OFFSET | found).to_bytes(new.size, "little")
+        self._new[new_offset : new_offset + new.size] = (value & ~BYTE_OFFSET | found).to_bytes(new.size, "little")
         self.change.kept += 1
 
     def _moved(self, offset: int, reference: Reference) -> int | None:

@@ -18,13 +18,18 @@ def write_pages(path: Path, pages: Iterable[Samples]) -> None:
             file.write(_packed(page))
 
 
-def read_pages(path: Path) -> Iterator[Samples]:
-    """What was written; `OSError`, `ValueError` where it cannot be read."""
+def read_pages(path: Path, rows: int) -> Iterator[Samples]:
+    """What was written, so many rows; `OSError`, `ValueError` where it cannot be read."""
+    found = 0
     with path.open("rb") as file, zstandard.ZstdDecompressor().stream_reader(file, read_across_frames=True) as stream:
         try:
-            yield from unpack_pages(stream.read)
+            for page in unpack_pages(stream.read):
+                found += len(page)
+                yield page
         except zstandard.ZstdError as error:
             raise ValueError(f"{path.name} is damaged: {error}") from error
+    if found != rows:  # an end that is missing is no error of zstd's
+        raise ValueError(f"{path.name} is damaged: it has {found:,} of {rows:,} samples")
 
 
 class Spool:

@@ -270,7 +270,8 @@ class TraceRecords:
 
 
 def _loaded(path: Path, record: TraceRecord) -> TraceBuffer:
-    return buffer_of(read_pages(path), [(each.kind, each.size) for each in record.signals], record.rows)
+    pages = read_pages(path, record.rows)
+    return buffer_of(pages, [(each.kind, each.size) for each in record.signals], record.rows)
 
 
 def _record(row: TraceRecordRow) -> TraceRecord:

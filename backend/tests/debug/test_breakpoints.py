@@ -374,7 +374,7 @@ def test_breakpoints_find_their_place_in_the_next_program(walker: Walker) -> Non
 
 def test_places_are_found_without_an_engine(tmp_path: Path) -> None:
     walker = Walker(tmp_path / "a.run")
-    (verdict,) = walker.set(line(25, enabled=False))
+    (verdict,) = walker.set(line(5, enabled=False))
     assert verdict.verified
     assert to_program(walker.timeline, 2, STATIONS) == ""
     walker.debugger.moved()

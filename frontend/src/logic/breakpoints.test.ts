@@ -36,6 +36,14 @@ describe("the shape of a breakpoint", () => {
 describe("the words of a breakpoint", () => {
   it("name the place by its kind", () => {
     expect(placeOf(at({}))).toBe("FB_Belt");
+    const pous = [
+      { name: "Valve", kind: "function_block", file: "fb/FB_Belt.st", line: 1 },
+      { name: "Seat", kind: "function_block", file: "fb/FB_Belt.st", line: 10 },
+      { name: "Cell", kind: "function_block", file: "fb/FB_Belt.st", line: 13 },
+    ] as const;
+    expect(placeOf(at({}), pous)).toBe("Seat");
+    // As asked for, until it has found its statement.
+    expect(placeOf(at({ line: 20, at_line: 0 }), pous)).toBe("Cell");
     expect(placeOf(at({ kind: "data", path: "Main.level" }))).toBe("Main.level");
     expect(placeOf(at({ kind: "error", error: "" }))).toBe("any error");
     expect(placeOf(at({ kind: "scan", scan: 4711 }))).toBe("scan 4711");

@@ -22,9 +22,16 @@ describe("steps", () => {
     expect(permits(plc("past", 7), "continue")).toBe(true);
   });
   it("mean nothing while nothing can run", () => {
-    for (const state of ["off", "starting", "failed", "fatal", "stopped"] as const)
+    for (const state of ["off", "starting", "failed"] as const)
       for (const command of ["next", "stepIn", "continue", "stepBack"] as const)
         expect(permits(plc(state), command)).toBe(false);
     expect(permits(null, "next")).toBe(false);
+  });
+  it("go back, and only that, where the program broke off", () => {
+    for (const state of ["trapped", "fatal", "stopped"] as const) {
+      expect(permits(plc(state), "stepBack")).toBe(true);
+      expect(permits(plc(state), "reverseContinue")).toBe(true);
+      for (const command of ["next", "stepIn", "continue"] as const) expect(permits(plc(state), command)).toBe(false);
+    }
   });
 });

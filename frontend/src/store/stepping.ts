@@ -1,4 +1,5 @@
 /** Steps of the debugger: what the buttons and keys send, and whom the view follows. */
+import { create } from "zustand";
 import { permits } from "../logic/stepping";
 import { ask } from "./debug";
 import { caretPlace } from "./debugKeys";
@@ -7,20 +8,42 @@ import { usePlc } from "./plc";
 
 export type StepCommand = "continue" | "pause" | "next" | "stepIn" | "stepOut" | "stepBack" | "reverseContinue";
 
+/** Whether a way back is searched for so long that people wonder: from then on it is said, and the buttons are off. */
+export const useStepping = create<{ searching: boolean }>(() => ({ searching: false }));
+
+/** Most searches are over before one could read of them. */
+const NOTICED_MS = 250;
+let goingBack = false;
+
+/** While the PLC searches back it answers nothing else: what is pressed meanwhile is dropped, not kept for later. */
+async function back(command: string, args: object): Promise<void> {
+  if (goingBack) return;
+  goingBack = true;
+  const said = setTimeout(() => useStepping.setState({ searching: true }), NOTICED_MS);
+  try {
+    await ask(command, args);
+  } finally {
+    clearTimeout(said);
+    goingBack = false;
+    useStepping.setState({ searching: false });
+  }
+}
+
 /** Steps from a PLC that runs halt it first; what cannot be done now is not sent. */
 export async function step(command: StepCommand): Promise<void> {
   const { state, link } = usePlc.getState();
-  if (link.state !== "open" || !permits(state, command)) return;
-  await ask(command, { threadId: 1 });
+  if (goingBack || link.state !== "open" || !permits(state, command)) return;
+  if (command === "stepBack" || command === "reverseContinue") await back(command, { threadId: 1 });
+  else await ask(command, { threadId: 1 });
 }
 
 /** Up to the first statement of the next scan. */
 export async function stepScan(): Promise<void> {
-  await ask("scanbench/singleScan");
+  if (!goingBack) await ask("scanbench/singleScan");
 }
 
 export async function runTo(file: string, line: number): Promise<void> {
-  await ask("scanbench/runTo", { source: { path: file }, line });
+  if (!goingBack) await ask("scanbench/runTo", { source: { path: file }, line });
 }
 
 /** Ctrl+F10. */
@@ -31,7 +54,7 @@ export function runToCaret(): void {
 
 /** Back to the last write of a variable. */
 export async function reverseTo(path: string): Promise<void> {
-  await ask("scanbench/reverseTo", { path });
+  await back("scanbench/reverseTo", { path });
 }
 
 // A halt opens its file for the one who caused it. Others are told, and go there when they want to: nobody's text is taken away.

@@ -3919,6 +3919,11 @@ export interface components {
             /** Expandable */
             expandable: boolean;
             /**
+             * In Out
+             * @description it is an in-out; of a watched path also: it leads through one
+             */
+            in_out: boolean;
+            /**
              * Kind
              * @enum {string}
              */
@@ -3927,6 +3932,11 @@ export interface components {
             name: string;
             /** Path */
             path: string;
+            /**
+             * Range
+             * @description of a subrange: what it is, e.g. INT (0..500); `type` may be a name; or empty
+             */
+            range: string;
             /**
              * Section
              * @description VAR, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_GLOBAL, address or member

@@ -4,6 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar, cast
 
+from scanbench.check.bound import Spot
 from scanbench.check.layout import Layout
 from scanbench.check.local import Local, LocalAssignment, LocalAssignments, LocalPlace
 from scanbench.check.program import Expr, Place, Pou, Program, TrapSite
@@ -21,8 +22,6 @@ from scanbench.problems import Span
 T = TypeVar("T")
 ROUNDS = 50_000
 """Of loops in the functions that a text calls: the PLC waits for them, and this is some tenth of a second."""
-Spot = tuple[int, int | None]
-"""Byte offset in the image, and a bit of that byte for a BOOL that is one."""
 Stored = tuple[LocalAssignment, Spot, bytes]
 """By which assignment, where, which bytes."""
 _NOBODY = Pou("", "function", Record("", Kind.STRUCT), Record("", Kind.STRUCT), (), None, Span("", 0, 0, 0, 0))

@@ -1,3 +1,4 @@
+import { useState } from "react";
 import { builtNote, changeNote } from "../../logic/change";
 import { pouAt } from "../../logic/explorer";
 import { t } from "../../logic/text";
@@ -11,6 +12,7 @@ import { Icon } from "../../ui/Icon";
 import { StateWord } from "../../ui/StateWord";
 import type { Pou } from "../../wire/types";
 import { DebugSwitches } from "./DebugSwitches";
+import { shownLine, useStanding } from "./halt";
 import { SeenAs } from "./SeenAs";
 
 /** What has instances: its values are those of one. */
@@ -27,7 +29,8 @@ export function EditorBar({ path }: { path: string }) {
   const unbuildable = lost ? t("lost.nobuild") : forbidden;
   // Not a subscription: the caret moves with every change of the text.
   const text = useDocuments.getState().open[path]?.text;
-  const found = pouAt(pous, path, cursor?.line ?? 1, text) ?? pous.find((known) => known.file === path);
+  const line = useLooked(path, cursor);
+  const found = pouAt(pous, path, line, text) ?? firstOf(pous, path);
   // A global variable is one line of the file, not what the file is about.
   const pou = found?.kind === "global" ? { name: path, kind: found.kind } : found;
   return (
@@ -64,6 +67,22 @@ export function EditorBar({ path }: { path: string }) {
       </button>
     </div>
   );
+}
+
+/** What a file begins with, for lines in front of it. */
+const firstOf = (pous: readonly Pou[], path: string) =>
+  pous.filter(({ file }) => file === path).sort((a, b) => a.line - b.line)[0];
+
+type Cursor = NonNullable<ReturnType<typeof useDocuments.getState>["cursor"]>;
+
+/** Where one looks: where the program stands, until the caret is put somewhere else. */
+function useLooked(path: string, cursor: Cursor | null): number {
+  const standing = useStanding(path);
+  const key = standing?.key ?? "";
+  const [since, setSince] = useState({ key, cursor });
+  if (since.key !== key || (since.cursor === null && cursor !== null)) setSince({ key, cursor });
+  const moved = since.key === key && since.cursor !== null && cursor !== null && since.cursor.line !== cursor.line;
+  return standing && !moved ? shownLine(path, standing.line) : (cursor?.line ?? 1);
 }
 
 function ChecksToggle() {

@@ -34,9 +34,16 @@ export function markHalt(code: editor.IStandaloneCodeEditor, path: string): () =
 }
 
 /** The program runs the built text; the one that is shown may have been edited since. */
-function shownLine(path: string, line: number): number {
+export function shownLine(path: string, line: number): number {
   const document = useDocuments.getState().open[path];
   return document ? lineIn(document.savedText, document.text, line) : line;
+}
+
+/** The same for what React draws. */
+export function useStanding(path: string): Standing | null {
+  usePlc((plc) => plc.state?.halt);
+  useStack((stack) => stack.frame);
+  return standingIn(path);
 }
 
 /** The halt, or the place of a caller that was chosen in the call stack. */

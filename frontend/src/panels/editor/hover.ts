@@ -4,15 +4,16 @@ import { worthOf } from "../../store/console";
 import { useDocuments } from "../../store/documents";
 import { loadNames, seenAsNow } from "../../store/seenAs";
 import { frameNow } from "../../store/stack";
+import type { Pou } from "../../wire/types";
 import { languages } from "./monaco";
-import { nameAt, pouOf } from "./names";
+import { hasValues, nameAt, pouOf } from "./names";
 import { LANGUAGE } from "./st";
 
 languages.registerHoverProvider(LANGUAGE, {
   provideHover: async (model, position) => {
     const name = nameAt(model, position);
     if (!name) return null;
-    const said = (await variable(name.text, pouOf(model, position.lineNumber)?.name)) ?? declaration(name.text);
+    const said = (await variable(name.text, pouOf(model, position.lineNumber))) ?? declaration(name.text);
     if (!said) return null;
     const line = position.lineNumber;
     const range = { startLineNumber: line, endLineNumber: line, startColumn: name.from, endColumn: name.to };
@@ -22,8 +23,9 @@ languages.registerHoverProvider(LANGUAGE, {
 
 const code = (text: string) => `\`\`\`${LANGUAGE}\n${text}\n\`\`\``;
 
-async function variable(name: string, pou: string | undefined): Promise<string[] | null> {
-  if (pou === undefined) return null;
+async function variable(name: string, around: Pou | undefined): Promise<string[] | null> {
+  if (around === undefined || !hasValues(around)) return null;
+  const pou = around.name;
   await loadNames(pou);
   const inFrame = frameNow()?.scanbench?.pou.toUpperCase() === pou.toUpperCase();
   const instance = seenAsNow(pou);

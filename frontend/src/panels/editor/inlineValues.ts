@@ -17,6 +17,7 @@ import { bindCell } from "../../store/values";
 import { watch } from "../../store/watches";
 import { standingIn } from "./halt";
 import type { editor } from "./monaco";
+import { hasValues } from "./names";
 
 const MOST = 6;
 
@@ -121,18 +122,18 @@ function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, R
   const here = frameNow()?.scanbench?.pou.toUpperCase();
   for (const { startLineNumber, endLineNumber } of code.getVisibleRanges()) {
     let pou = pouAt(pous, path, startLineNumber, document?.text);
-    if (pou && on) void loadNames(pou.name);
+    if (pou && on && hasValues(pou)) void loadNames(pou.name);
     let comment = false;
     for (let line = startLineNumber; line <= endLineNumber; line += 1) {
       const begins = pous.find((known) => known.file === path && known.line === line);
       if (begins && begins !== pou) {
         pou = begins;
-        if (on) void loadNames(pou.name);
+        if (on && hasValues(pou)) void loadNames(pou.name);
       }
       const inFrame = pou !== undefined && pou.name.toUpperCase() === here;
       const found = variablesIn(model.getLineContent(line), comment);
       comment = found.comment;
-      const values = pou && on ? valuesOf(found.variables, pou.name, inFrame) : [];
+      const values = pou && on && hasValues(pou) ? valuesOf(found.variables, pou.name, inFrame) : [];
       const next = stands === line ? saidOf(standing?.look) : "";
       const old = inFrame && stands !== null && line > stands;
       if (values.length > 0 || next !== "") wanted.set(line, { values, old, next });

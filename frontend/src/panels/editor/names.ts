@@ -25,6 +25,9 @@ export function nameAt(model: editor.ITextModel, { lineNumber, column }: IPositi
 
 export const pathOfModel = (model: editor.ITextModel) => model.uri.path.slice(1);
 
+/** A type declares what its variables will have: it has no values itself, whatever else bears the names in it. */
+export const hasValues = ({ kind }: Pou) => kind !== "type" && kind !== "interface";
+
 export function pouOf(model: editor.ITextModel, line: number): Pou | undefined {
   const { pous, open } = useDocuments.getState();
   const path = pathOfModel(model);

@@ -6,6 +6,7 @@ import { t } from "../../logic/text";
 import { useForces, useForceValues } from "../../store/forces";
 import { useForbidden } from "../../store/plc";
 import { watch } from "../../store/watches";
+import { addToTrace } from "../../store/traces";
 import { addToWatch, releaseForce, useWatchList } from "../../store/watchlist";
 import { Empty } from "../../ui/Empty";
 import { Icon } from "../../ui/Icon";
@@ -149,6 +150,7 @@ function forceMenu({ path }: ForceInfo): MenuItem[] {
   return [
     { label: t("force.release"), icon: "unforce", hint: "Del", onSelect: () => void releaseForce(path) },
     { label: t("watch.addone"), icon: "eye", onSelect: () => addToWatch([path]) },
+    { label: t("watch.totrace"), icon: "trigger", onSelect: () => addToTrace(path) },
   ];
 }
 

@@ -1,25 +1,43 @@
-import { showState } from "../../logic/plcstate";
+import { haltPlace } from "../../logic/halted";
+import { type ShownState, showState } from "../../logic/plcstate";
 import { t } from "../../logic/text";
+import { useBench } from "../../store/bench";
 import { useOnline, usePlc } from "../../store/plc";
+import { useStepping } from "../../store/stepping";
 import { Icon } from "../../ui/Icon";
+
+/** A project that nothing runs yet is not a connection that was lost. */
+const noPlc = (): ShownState => ({
+  tone: "stopped",
+  icon: "off",
+  word: t("state.none"),
+  detail: t("state.none.detail"),
+});
 
 /** What the PLC really does now, as icon, word and colour. */
 export function PlcState() {
   const state = usePlc((plc) => plc.state);
   const online = useOnline();
-  const shown = showState(state, online);
+  const searching = useStepping((stepping) => stepping.searching);
+  const missing = useBench((bench) => bench.project !== null && bench.instance === null);
+  const shown = missing ? noPlc() : showState(state, online);
+  const detail = searching ? t("state.searching") : shown.detail;
+  const halt = online ? state?.halt : null;
+  const short = searching ? undefined : shown.short;
+  const whole = state?.state === "starting" ? detail : state?.message || detail;
   return (
     <div
       className={`plcstate ${shown.tone}`}
       role="status"
       aria-label={t("state.label")}
-      title={state?.state === "starting" ? shown.detail : state?.message || shown.detail}
+      aria-busy={searching}
+      title={halt ? [halt.text, haltPlace(halt)].filter(Boolean).join("\n") : whole}
     >
       <Icon name={shown.icon} />
       <span className="two">
         <span className="cut">{shown.word}</span>
-        <span className={`cut${shown.short === undefined ? "" : " ifwide"}`}>{shown.detail}</span>
-        {shown.short !== undefined && <span className="cut ifnarrow">{shown.short}</span>}
+        <span className={`cut${short === undefined ? "" : " ifwide"}`}>{detail}</span>
+        {short !== undefined && <span className="cut ifnarrow">{short}</span>}
       </span>
     </div>
   );

@@ -10,9 +10,15 @@ export function Readings() {
   const time = useRef<HTMLSpanElement>(null);
   const fraction = useRef<HTMLSpanElement>(null);
   const cycle = usePlc((plc) => plc.state?.cycle_us ?? null);
+  const known = usePlc((plc) => plc.state !== null);
   useEffect(
     () =>
       bindClock((now) => {
+        if (!known) {
+          for (const each of [scan, time]) if (each.current) each.current.textContent = "–";
+          if (fraction.current) fraction.current.textContent = "";
+          return;
+        }
         if (scan.current) scan.current.textContent = grouped(now.scan);
         const [whole = "", part = ""] = plcTime(now.timeNs).split(".");
         if (time.current) time.current.textContent = whole;
@@ -21,7 +27,7 @@ export function Readings() {
           fraction.current.classList.toggle("spare", whole.includes("d"));
         }
       }),
-    [],
+    [known],
   );
   return (
     <div className="reads">

@@ -2,7 +2,7 @@ import { permits } from "../../logic/stepping";
 import { t } from "../../logic/text";
 import { useForbidden, useOnline, usePlc } from "../../store/plc";
 import { runAction, singleScan } from "../../store/run";
-import { step } from "../../store/stepping";
+import { step, useStepping } from "../../store/stepping";
 import { stepBack, useTimeline } from "../../store/timeline";
 import { IconButton } from "../../ui/IconButton";
 import { RestartMenu } from "./RestartMenu";
@@ -12,12 +12,13 @@ import { SpeedMenu } from "./SpeedMenu";
 /** Back, continue or pause, steps, single scan, restart, speed: each at its place, usable when it means something. */
 export function RunControls() {
   const state = usePlc((plc) => plc.state);
-  const online = useOnline();
+  const online = useAble();
   const forbidden = useForbidden("run");
   const halted = online && state?.halt != null;
   const past = online && state?.past != null;
   const running = forbidden === null && state?.state === "running";
-  const paused = forbidden === null && state?.state === "paused";
+  const paused = forbidden === null && online && state?.state === "paused";
+  const runs = running || paused || halted;
   return (
     <>
       <div className="runset" role="toolbar" aria-label={t("run.label")}>
@@ -43,7 +44,7 @@ export function RunControls() {
           disabled={!(past || paused || halted)}
           onClick={singleScan}
         />
-        <RunMenu disabled={!(running || paused || halted)} />
+        <RunMenu disabled={!runs && !(online && permits(state, "reverseContinue"))} runs={runs} />
         <RestartMenu />
       </div>
       <SpeedMenu />
@@ -51,12 +52,18 @@ export function RunControls() {
   );
 }
 
-/** A statement back while one stands at one; else a scan. */
+/** Nothing else is done while a way back is searched for. */
+function useAble(): boolean {
+  const searching = useStepping((stepping) => stepping.searching);
+  return useOnline() && !searching;
+}
+
+/** A statement back while one stands at one, or the program broke off at one; else a scan. */
 function Back() {
   const state = usePlc((plc) => plc.state);
-  const online = useOnline();
+  const online = useAble();
   const first = useTimeline((timeline) => timeline.info?.first_scan ?? 0);
-  if (state?.halt) {
+  if (state?.halt || state?.state === "trapped") {
     return (
       <IconButton
         icon="step-back"
@@ -67,7 +74,7 @@ function Back() {
       />
     );
   }
-  const stands = online && (state?.past != null || state?.state === "paused");
+  const stands = online && permits(state, "stepBack");
   return (
     <IconButton
       icon="step-back"
@@ -87,7 +94,7 @@ const STEPS = [
 
 function Steps() {
   const state = usePlc((plc) => plc.state);
-  const online = useOnline();
+  const online = useAble();
   return STEPS.map(({ command, icon, text, key }) => (
     <IconButton
       key={command}

@@ -12,8 +12,8 @@ import { RunUntil } from "./RunUntil";
 
 type Asking = "scans" | "until" | null;
 
-/** Runs that end by themselves: after so many scans, or where a condition holds. */
-export function RunMenu({ disabled }: { disabled: boolean }) {
+/** Runs that end by themselves, and the way back; `runs` is whether the program can go on at all. */
+export function RunMenu({ disabled, runs }: { disabled: boolean; runs: boolean }) {
   const [asking, setAsking] = useState<Asking>(null);
   const conditions = useRun((run) => run.conditions);
   const state = usePlc((plc) => plc.state);
@@ -24,13 +24,13 @@ export function RunMenu({ disabled }: { disabled: boolean }) {
         className="ib"
         disabled={disabled}
         items={() => [
-          { label: t("run.scans"), icon: "scan", onSelect: () => setAsking("scans") },
-          { label: t("run.until"), icon: "until", onSelect: () => setAsking("until") },
+          { label: t("run.scans"), icon: "scan", disabled: !runs, onSelect: () => setAsking("scans") },
+          { label: t("run.until"), icon: "until", disabled: !runs, onSelect: () => setAsking("until") },
           {
             label: t("debug.runcaret"),
             icon: "here",
             hint: "Ctrl+F10",
-            disabled: caretPlace() === null,
+            disabled: !runs || caretPlace() === null,
             onSelect: runToCaret,
           },
           {
@@ -43,6 +43,7 @@ export function RunMenu({ disabled }: { disabled: boolean }) {
           ...conditions.map((condition, index) => ({
             label: t("run.until.last", { condition }),
             separated: index === 0,
+            disabled: !runs,
             onSelect: () => void runUntilAgain(condition),
           })),
         ]}

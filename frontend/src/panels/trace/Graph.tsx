@@ -1,5 +1,16 @@
-import { type PointerEvent, type Ref, useEffect, useImperativeHandle, useLayoutEffect, useRef, useState } from "react";
+import {
+  type PointerEvent,
+  type Ref,
+  type RefObject,
+  useEffect,
+  useImperativeHandle,
+  useLayoutEffect,
+  useMemo,
+  useRef,
+  useState,
+} from "react";
 import "uplot/dist/uPlot.min.css";
+import { useShallow } from "zustand/react/shallow";
 import { grouped } from "../../logic/numbers";
 import { type Layout, type Plot, ticks, within, zoomedAt } from "../../logic/plots";
 import { nearestRow, type Range, type Samples } from "../../logic/samples";
@@ -30,17 +41,20 @@ export function Graph({ ref, shown, samples, whole, layout, compared }: Props) {
   const element = useRef<HTMLDivElement>(null);
   const size = useSize(element);
   useImperativeHandle(ref, () => element.current as HTMLDivElement);
-  const state = useTraces();
+  const looked = useTraces(useShallow(({ view, follows, a, b }) => ({ view, follows, a, b })));
   const theme = usePrefs((prefs) => prefs.theme);
-  const view = viewOf(state, shown, samples?.end ?? shown.end);
+  const view = viewOf(looked, shown, samples?.end ?? shown.end);
   const width = Math.max(40, size.width - LEFT - RIGHT);
   const scale: Scale = { view, width };
   const lanesHeight = layout.lanes.length > 0 ? layout.lanes.length * LANE + 8 : 0;
   const room = size.height - 40 - lanesHeight - AXIS;
   const plotHeight = Math.max(LEAST_PLOT, Math.floor(room / Math.max(1, layout.plots.length)));
-  const cursors = [state.a, state.b].filter((scan): scan is number => scan !== null);
-  const xTicks = ticks(view, Math.max(2, Math.floor(width / 110)), true);
-  const { onPointerDown, box } = useDrag(shown, samples, scale, element);
+  const { a, b } = looked;
+  const cursors = useMemo(() => [a, b].filter((scan): scan is number => scan !== null), [a, b]);
+  const { from, to } = view;
+  const xTicks = useMemo(() => ticks({ from, to }, Math.max(2, Math.floor(width / 110)), true), [from, to, width]);
+  const box = useRef<ShowBox>(null);
+  const onPointerDown = useDrag(shown, samples, scale, element, box);
   useWheel(element, shown, scale);
 
   return (
@@ -58,13 +72,7 @@ export function Graph({ ref, shown, samples, whole, layout, compared }: Props) {
               samples={samples}
               xTicks={xTicks}
               cursors={cursors}
-              compared={
-                compared &&
-                comparedWith(
-                  compared,
-                  plot.lines.map(({ signal }) => signal.text),
-                )
-              }
+              compared={compared}
             />
           ))}
         <Lanes
@@ -73,35 +81,38 @@ export function Graph({ ref, shown, samples, whole, layout, compared }: Props) {
           scale={scale}
           xTicks={xTicks}
           theme={theme}
-          compared={
-            compared &&
-            comparedWith(
-              compared,
-              layout.lanes.map(({ signal }) => signal.text),
-            )
-          }
+          compared={compared}
         />
         {samples?.scans.length === 0 && <p className="trnone faint">{t("trace.nothing")}</p>}
         {shown.triggered !== null && <TriggerMark x={xOf(shown.triggered, scale)} width={width} />}
-        {box && <span className="trbox" style={{ left: box.from, width: box.to - box.from }} />}
+        <DragBox ref={box} />
         <CursorFlags shown={shown} samples={samples} scale={scale} />
       </div>
     </div>
   );
 }
 
-const comparedWith = ({ record, samples, shift }: Compared, texts: readonly string[]) => ({
-  samples,
-  shift,
-  columns: texts.map((text) => record.signals.findIndex((signal) => signal.text === text)),
-});
+/** The columns of a record for the signals that are drawn. */
+function comparedWith(compared: Compared | null, lines: readonly { signal: { text: string } }[]) {
+  if (compared === null) return null;
+  const { record, samples, shift } = compared;
+  const columns = lines.map(({ signal }) => record.signals.findIndex(({ text }) => text === signal.text));
+  return { samples, shift, columns };
+}
+
+type ShowBox = (box: Range | null) => void;
+
+/** What is marked while the pointer is dragged: it moves without anything else being drawn. */
+function DragBox({ ref }: { ref: Ref<ShowBox> }) {
+  const [box, show] = useState<Range | null>(null);
+  useImperativeHandle(ref, () => show, []);
+  return box && <span className="trbox" style={{ left: box.from, width: box.to - box.from }} />;
+}
 
 function TriggerMark({ x, width }: { x: number; width: number }) {
   if (x < LEFT || x > LEFT + width) return null;
   return <span className="trtrigger" style={{ left: x }} title={t("trace.triggerhere")} />;
 }
-
-type Beside = ReturnType<typeof comparedWith> | null;
 
 interface AreaProps {
   plot: Plot;
@@ -111,10 +122,10 @@ interface AreaProps {
   samples: Samples;
   xTicks: readonly number[];
   cursors: readonly number[];
-  compared: Beside;
+  compared: Compared | null;
 }
 
-function PlotArea({ plot, width, height, ...view }: AreaProps) {
+function PlotArea({ plot, width, height, view, samples, xTicks, cursors, compared }: AreaProps) {
   const element = useRef<HTMLDivElement>(null);
   const drawing = useRef<PlotDrawing | null>(null);
   // The drawing is made once; React's key makes another one for other lines or colours.
@@ -125,14 +136,16 @@ function PlotArea({ plot, width, height, ...view }: AreaProps) {
     drawing.current = made;
     return () => made.destroy();
   }, [width === 0]);
+  const { from, to } = view;
   // Once a frame, however often what is shown changes meanwhile.
   useEffect(() => {
+    const beside = comparedWith(compared, plot.lines);
     const frame = requestAnimationFrame(() => {
       drawing.current?.resize(width, height);
-      drawing.current?.show(view);
+      drawing.current?.show({ view: { from, to }, samples, xTicks, cursors, compared: beside });
     });
     return () => cancelAnimationFrame(frame);
-  });
+  }, [plot, width, height, from, to, samples, xTicks, cursors, compared]);
   return (
     <div
       ref={element}
@@ -158,7 +171,7 @@ interface LanesProps {
   scale: Scale;
   xTicks: readonly number[];
   theme: string;
-  compared: Beside;
+  compared: Compared | null;
 }
 
 /** Lanes of BOOLs, and the scans below all. */
@@ -170,9 +183,10 @@ function Lanes({ layout: { lanes }, samples, scale, xTicks, theme, compared }: L
     const context = canvas.current && prepared(canvas.current);
     if (!context || !canvas.current) return;
     const colors = colorsOf(canvas.current);
-    if (samples && lanes.length > 0) drawLanes(context, lanes, samples, scale, colors, xTicks, compared);
+    const beside = comparedWith(compared, lanes);
+    if (samples && lanes.length > 0) drawLanes(context, lanes, samples, scale, colors, xTicks, beside);
     drawAxis(context, xTicks, scale, height - AXIS, colors, grouped);
-  }, [lanes, samples, scale.view.from, scale.view.to, scale.width, theme, compared?.samples, compared?.shift]);
+  }, [lanes, samples, scale.view.from, scale.view.to, scale.width, theme, compared]);
   return (
     <canvas
       ref={canvas}
@@ -231,8 +245,14 @@ function inside(event: WheelEvent, target: HTMLElement): boolean {
 }
 
 /** Click: a cursor. Drag: what is marked fills the view. Drag with Shift or the middle button: along. */
-function useDrag(shown: Shown, samples: Samples | null, scale: Scale, element: { current: HTMLElement | null }) {
-  const [box, setBox] = useState<Range | null>(null);
+function useDrag(
+  shown: Shown,
+  samples: Samples | null,
+  scale: Scale,
+  element: { current: HTMLElement | null },
+  box: RefObject<ShowBox | null>,
+) {
+  const setBox: ShowBox = (marked) => box.current?.(marked);
 
   function onPointerDown(event: PointerEvent): void {
     const target = element.current;
@@ -277,5 +297,5 @@ function useDrag(shown: Shown, samples: Samples | null, scale: Scale, element: {
     setCursor(a === null ? "a" : b === null ? "b" : nearer, at);
   }
 
-  return { onPointerDown, box };
+  return onPointerDown;
 }

@@ -1,4 +1,5 @@
-import { type DragEvent, useEffect, useRef } from "react";
+import { type DragEvent, useEffect, useMemo, useRef } from "react";
+import { useShallow } from "zustand/react/shallow";
 import { pathsIn } from "../../logic/paths";
 import { layoutOf } from "../../logic/plots";
 import { t } from "../../logic/text";
@@ -17,8 +18,11 @@ import { useSamples } from "./useSamples";
 /** Signals over scans, recorded where the PLC runs: whoever looks, and whether somebody looks. */
 export function TracePanel() {
   const instance = useBench((bench) => bench.instance?.id ?? null);
-  const state = useTraces();
-  const shown = shownOf(state);
+  const { source, traces, records, moved, compared } = useTraces(
+    useShallow(({ source, traces, records, moved, compared }) => ({ source, traces, records, moved, compared })),
+  );
+  const shown = useMemo(() => shownOf({ source, traces, records }), [source, traces, records]);
+  const layout = useMemo(() => layoutOf(shown?.signals ?? [], moved), [shown?.signals, moved]);
   const graph = useRef<HTMLDivElement>(null);
   // biome-ignore lint/correctness/useExhaustiveDependencies: another PLC has other traces
   useEffect(() => void refreshTraces(), [instance]);
@@ -49,8 +53,8 @@ export function TracePanel() {
             shown={shown}
             samples={samples}
             whole={whole}
-            layout={layoutOf(shown.signals, state.moved)}
-            compared={state.compared}
+            layout={layout}
+            compared={compared}
           />
           <div className="trside">
             <CursorTable shown={shown} samples={samples} />

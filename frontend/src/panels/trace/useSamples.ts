@@ -92,10 +92,10 @@ async function fetched(key: string, held: Held | null): Promise<Held | null> {
   const atEnd = grows && view.to >= end - 1 - (view.to - view.from);
   const rows = (view.to - view.from) / shown.every;
   if (mine && atEnd && !mine.samples.decimated && mine.from <= view.from && rows <= FULL) {
-    const data = await readSamples(shown.source, mine.to + 1, null, null);
+    const data = await readSamples(shown.source, mine.to + 1, null, POINTS);
     if (!data) return held;
     const more = decode(data, shown.signals);
-    if (more.generation !== mine.samples.generation) return null;
+    if (more.generation !== mine.samples.generation || more.decimated) return null; // the next turn takes all anew
     if (more.scans.length === 0) return held;
     const samples = appended(mine.samples, more, Math.max(2 * Math.ceil(rows) + 100, 4000));
     return { key, samples, from: samples.scans[0] ?? 0, to: samples.scans.at(-1) ?? 0 };
@@ -107,7 +107,9 @@ async function fetched(key: string, held: Held | null): Promise<Held | null> {
   const width = wanted.to - wanted.from;
   const from = Math.max(whole.from, Math.floor(wanted.from - width / 2));
   const to = Math.ceil(wanted.to + width / 2);
-  const points = (to - from) / shown.every <= FULL ? null : POINTS;
+  const wide = (to - from) / shown.every;
+  // A PLC that runs as fast as it can has more rows than was told: never more of them than are wanted.
+  const points = wide <= FULL ? Math.max(POINTS, Math.ceil(wide)) : POINTS;
   const data = await readSamples(shown.source, from, atEnd ? null : to, points);
   if (!data) return held;
   const samples = decode(data, shown.signals);

@@ -1,0 +1,27 @@
+"""A process that is killed while its PLC is halted: the PLC stands, whoever comes back to it."""
+
+import os
+import signal
+
+from tests.web.dap.client import SocketClient
+from tests.web.server import Server
+
+MODEL = "CJ1M-CPU63"
+COUNT = "PROGRAM Main\nVAR n, k : DINT; END_VAR\nn := n + 1;\nk := k + n;\nEND_PROGRAM\n"
+
+
+def test_it_stands_in_front_of_the_scan_until_somebody_lets_it_go_on(server: Server) -> None:
+    instance = server.instance("killed while halted", MODEL, main=COUNT)
+    with server.browser(instance) as browser, SocketClient(server, instance) as tool:
+        tool.ask("configurationDone")
+        scan = tool.halt("pause", threadId=1)["scanbench"]["scan"]
+        tool.halt("next", threadId=1)
+        browser.wait_state("halted")
+        os.kill(server.state(instance)["pid"], signal.SIGKILL)
+        state = browser.wait_state("paused")
+        assert f"it was halted in scan {state['scan']} when its process ended" in state["message"]
+        assert (state["scan"] >= scan, state["halt"]) == (True, None)
+        assert server.state(instance)["scan"] == state["scan"]
+        assert browser.ask(type="run", action="continue")["ok"]
+        state = browser.wait_state("running")
+        assert state["message"] == ""
