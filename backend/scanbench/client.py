@@ -2,9 +2,9 @@
 
     from scanbench.client import connect
 
-    plc = connect("http://127.0.0.1:8700/?token=...").plc("conveyor")
-    plc.write("Main.level", 7)            # an in-out goes to what it is bound to; the answer says where
-    assert plc.read("Main.level") == "7"
+    plc = connect("http://127.0.0.1:8700/?token=...").plc("line-1")
+    plc.write("Main.buffer.level", 3)     # an in-out goes to what it is bound to; the answer says where
+    assert plc.read("bufferLevel") == "3"
     with plc.forced("D100", 5):
         plc.run(scans=10)
 

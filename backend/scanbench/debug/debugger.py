@@ -166,6 +166,10 @@ class Debugger:
 
     # ---- running --------------------------------------------------------------------------------------------------
 
+    def stand(self, why: str) -> None:
+        """Halts in the seam where it is, before it runs for the first time."""
+        self._halted(Found("pause", why, ""))
+
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
         """As `Timeline.run`. HALTED: `halt` says where, and it is not to be run until somebody steps."""
         if self._live_halt is not None:

@@ -132,12 +132,15 @@ def test_a_plc_that_was_halted_comes_back_standing(tmp_path: Path, cache: Path) 
         os.kill(child.process.pid, signal.SIGKILL)
     with Child(run, STATIONS, cache, until=halt.scan, halted=True) as child:
         state = child.wait(protocol.HostState)
-        assert (state.state, state.scan, state.halted) == ("paused", halt.scan, False)
-        assert state.message.startswith(f"it was halted in scan {halt.scan} when its process ended")
+        assert (state.state, state.scan, state.halted) == ("halted", halt.scan, True)
+        assert state.message == "halted: it was halted in this scan when its process ended"
+        assert state.halt is not None
+        assert (state.halt.count, state.halt.span) == (0, None)
+        child.step("in")
+        assert child.halted(1).count == 1
         set_breakpoints(child, at_line(11))
-        assert child.ask(lambda ref: protocol.Drive(ref, "scan", None, "Ann"), protocol.Ack).scan == halt.scan
-        assert child.halted().scan == halt.scan
         child.step("continue")
+        assert child.halted(2).scan == halt.scan
 
 
 def test_a_scan_on_in_the_past_leaves_the_statement_that_was_shown(tmp_path: Path, cache: Path) -> None:

@@ -1,6 +1,8 @@
 """The Python client against a real server."""
 
+import re
 from itertools import count
+from pathlib import Path
 
 import pytest
 
@@ -65,3 +67,10 @@ def test_a_run_until_ends_where_the_condition_holds(plc: Plc) -> None:
     plc.run(until="Main.count >= 1000", speed=0)
     assert plc.read("Main.count") == "1000"
     assert plc.state["state"] == "paused"
+
+
+def test_the_example_of_the_docs_runs(server: Server) -> None:
+    page = (Path(__file__).parents[3] / "docs" / "scripts.md").read_text("utf-8")
+    found = re.search(r"```python\n(.*?)```", page, re.DOTALL)
+    assert found is not None
+    exec(found[1].replace("http://127.0.0.1:8700/?token=...", server.address), {})

@@ -8,7 +8,7 @@ export interface SplitPath {
 /** `Main.belt[3].enable` to `Main.belt[3].` and `enable`; an address such as `A402.12` stays whole. */
 export function splitPath(path: string): SplitPath {
   if (isAddress(path)) return { own: "", name: path };
-  const dot = path.lastIndexOf(".");
+  const dot = path.replace(/\[[^\]]*\]/g, (index) => "_".repeat(index.length)).lastIndexOf(".");
   return { own: path.slice(0, dot + 1), name: path.slice(dot + 1) };
 }
 
@@ -17,15 +17,40 @@ export function isAddress(path: string): boolean {
   return path.startsWith("%") || /^[A-Za-z]{0,3} ?\d+(\.\d+)?(:\d+)?$/.test(path);
 }
 
-/** The paths in a dropped or typed text: one a line, or separated by commas or blanks; `CIO 0.00` is one address, and the
- * commas of `a[2,1]` separate nothing. */
+/** The paths in a dropped or pasted text: one a line, or separated by commas or blanks; `CIO 0.00` is one address, and the
+ * commas of `a[2,1]` separate nothing. What is no path is left out. */
 export function pathsIn(text: string): string[] {
-  return text
+  return piecesOf(text).flatMap(wordsOf).filter(isPath);
+}
+
+/** What of a typed text is meant as one thing and is no path: `a + 3`; null when all are paths. */
+export function noPathIn(text: string): string | null {
+  const odd = (word: string) => !isPath(word) || /^(AND|OR|XOR|NOT|MOD)$/i.test(word);
+  return piecesOf(text).find((piece) => wordsOf(piece).some(odd)) ?? null;
+}
+
+const piecesOf = (text: string) =>
+  text
     .split(/[;\t\n\r]+|,(?![^[\]]*\])/)
-    .map((part) => part.replace(/,\s+(?=[^[\]]*\])/g, ","))
-    .flatMap((part) => (isAddress(part.trim()) ? [part] : part.split(/\s+/)))
-    .map((part) => part.trim())
-    .filter((part) => isAddress(part) || /^%?[\p{L}_\d][\p{L}\d_.[\]:%,^-]*$/u.test(part));
+    .map((part) => part.replace(/,\s+(?=[^[\]]*\])/g, ",").trim())
+    .filter((part) => part !== "");
+
+const wordsOf = (piece: string) => (isAddress(piece) ? [piece] : piece.split(/\s+/));
+
+const isPath = (word: string) => isAddress(word) || /^%?[\p{L}_\d][\p{L}\d_.[\]:%,^-]*$/u.test(word);
+
+/** What was chosen for a path itself, else for the nearest one that it stands in; case does not matter, as to the PLC. */
+export function chosenFor<T>(chosen: ReadonlyMap<string, T>, path: string): T | undefined {
+  const wanted = path.toUpperCase();
+  let best = -1;
+  let found: T | undefined;
+  for (const [owner, choice] of chosen) {
+    const inside = wanted.startsWith(owner.toUpperCase()) && /^$|^[.[^]/.test(wanted.slice(owner.length));
+    if (!inside || owner.length <= best) continue;
+    best = owner.length;
+    found = choice;
+  }
+  return found;
 }
 
 /** `src/Main.st` to `Main.st`. */

@@ -498,6 +498,8 @@ export const english = {
   "trap.scan": " in scan {scan}.",
   unsaved: "Not saved",
   "watch.add": "Add to watch",
+  "watch.add.nopath":
+    "{text} is no variable and no address. The table has no expressions: add the variables in it, and look at what it comes to in the console.",
   "watch.add.path": "Add {path} to watch",
   "watch.add.placeholder": "Variable",
   "watch.add.placeholder.address": "Variable or address, e.g. {example}",
@@ -1090,6 +1092,7 @@ export const english = {
   "watch.csv.line": "Line {line}: {why}.",
   "watch.csv.longpath": "its path has more than 500 characters",
   "watch.csv.nopath": "it has no path",
+  "watch.csv.quote": "a quotation mark is not closed",
   "watch.empty.shared": "Open shared list",
   "watch.filter": "Filter",
   "watch.filter.close": "Close the filter",

@@ -497,6 +497,8 @@ export const japanese: Record<TextKey, string> = {
   "trap.scan": "、スキャン {scan}。",
   unsaved: "未保存",
   "watch.add": "ウォッチに追加",
+  "watch.add.nopath":
+    "{text} は変数でもアドレスでもありません。表に式は入れられません。式の中の変数を追加し、式の値はコンソールで見てください。",
   "watch.add.path": "{path} をウォッチに追加",
   "watch.add.placeholder": "変数",
   "watch.add.placeholder.address": "変数またはアドレス 例: {example}",
@@ -1084,6 +1086,7 @@ export const japanese: Record<TextKey, string> = {
   "watch.csv.line": "{line} 行目: {why}。",
   "watch.csv.longpath": "path が 500 文字を超えています",
   "watch.csv.nopath": "path がありません",
+  "watch.csv.quote": "引用符が閉じていません",
   "watch.empty.shared": "共有リストを開く",
   "watch.filter": "フィルター",
   "watch.filter.close": "フィルターを閉じる",

@@ -31,4 +31,25 @@ describe("a watch list as CSV", () => {
       expect.stringMatching(/^Line 5: .*group/),
     ]);
   });
+
+  it("is no formula in a spreadsheet, and comes back without the guard", () => {
+    const groups = ["=1+1", "+x", "-x", "@SUM(A1)", "'=kept", "''@", "'plain", "a=b"];
+    const listed = groups.map((group): WatchEntry => ({ path: "D1", format: "default", group }));
+    const text = toCsv(listed);
+    for (const line of text.split("\r\n").slice(1, -1)) expect(line.split(";")[2]).not.toMatch(/^[=+\-@]/);
+    expect(text).toContain("D1;default;'=1+1\r\n");
+    expect(fromCsv(text)).toEqual({ entries: listed, bad: [] });
+  });
+
+  it("reads cells with line breaks, and counts the lines behind them", () => {
+    const listed: WatchEntry[] = [{ path: "D1", format: "hex", group: "two\r\nlines" }];
+    expect(fromCsv(toCsv(listed))).toEqual({ entries: listed, bad: [] });
+    expect(fromCsv(`${toCsv(listed)}D2;octal;`).bad).toEqual([expect.stringMatching(/^Line 4: /)]);
+  });
+
+  it("loses one line, not all, to a quote that nothing closes", () => {
+    const { entries: good, bad } = fromCsv('path;format;group\nD1;hex;"open\nD2;hex;\nD3;hex;g');
+    expect(good.map(({ path }) => path)).toEqual(["D2", "D3"]);
+    expect(bad).toEqual([expect.stringMatching(/^Line 2: .*quot/)]);
+  });
 });

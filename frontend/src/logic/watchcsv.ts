@@ -16,29 +16,33 @@ export function toCsv(entries: readonly WatchEntry[]): string {
   return `${[HEAD.join(";"), ...lines].join("\r\n")}\r\n`;
 }
 
-const quoted = (text: string) => (/[";\r\n]/.test(text) ? `"${text.replaceAll('"', '""')}"` : text);
+const quoted = (text: string) => {
+  const safe = guarded(text);
+  return /[";\r\n]/.test(safe) ? `"${safe.replaceAll('"', '""')}"` : safe;
+};
+
+/** A spreadsheet takes a cell that begins like this for a formula: another's list could hold one. */
+const guarded = (text: string) => (/^'*[=+\-@\t\r]/.test(text) ? `'${text}` : text);
+const unguarded = (text: string) => (/^'+[=+\-@\t\r]/.test(text) ? text.slice(1) : text);
 
 export function fromCsv(text: string): ReadList {
-  const lines = text.replace(/^\uFEFF/, "").split(/\r\n|\n|\r/);
-  const head = lines[0] ?? "";
+  const whole = text.replace(/^\uFEFF/, "");
+  const head = /^[^\r\n]*/.exec(whole)?.[0] ?? "";
   const separator = [";", "\t", ","].find((each) => head.includes(each)) ?? ";";
-  const names = cells(head, separator).map((name) => name.trim().toLowerCase());
+  const lines = records(whole, separator);
+  const names = (lines[0]?.cells ?? []).map((name) => name.trim().toLowerCase());
   const titled = names.includes("path");
   const column = (name: string) => (titled ? names.indexOf(name) : HEAD.indexOf(name));
   const [path, format, group] = HEAD.map(column) as [number, number, number];
   const read: ReadList = { entries: [], bad: [] };
-  lines.forEach((line, index) => {
-    if ((titled && index === 0) || line.trim() === "") return;
-    const found = cells(line, separator);
-    const entry = {
-      path: (found[path] ?? "").trim(),
-      format: (found[format] ?? "").trim().toLowerCase() || "default",
-      group: (found[group] ?? "").trim(),
-    };
-    const wrong = wrongWith(entry);
+  for (const { line, cells, open } of titled ? lines.slice(1) : lines) {
+    if (cells.every((cell) => cell.trim() === "") && cells.length === 1) continue;
+    const text = (at: number) => unguarded((cells[at] ?? "").trim());
+    const entry = { path: text(path), format: text(format).toLowerCase() || "default", group: text(group) };
+    const wrong = open ? t("watch.csv.quote") : wrongWith(entry);
     if (wrong === null) read.entries.push(entry as WatchEntry);
-    else read.bad.push(t("watch.csv.line", { line: index + 1, why: wrong }));
-  });
+    else read.bad.push(t("watch.csv.line", { line, why: wrong }));
+  }
   return read;
 }
 
@@ -49,21 +53,46 @@ function wrongWith({ path, format, group }: Record<keyof WatchEntry, string>): s
   return group.length > 100 ? t("watch.csv.group") : null;
 }
 
-/** The cells of a line; a cell in quotes may hold the separator, and two quotes for one. */
-function cells(line: string, separator: string): string[] {
-  const found: string[] = [];
+interface Line {
+  /** Where it begins. */
+  line: number;
+  cells: string[];
+  /** A quote that nothing closes: it ends with its line, so that the others are read. */
+  open: boolean;
+}
+
+/** Lines of cells; a cell in quotes may hold the separator, line breaks, and two quotes for one. */
+function records(text: string, separator: string): Line[] {
+  const found: Line[] = [];
+  let line = 1;
+  for (let at = 0; at < text.length; ) {
+    const one = record(text, at, separator);
+    found.push({ line, cells: one.cells, open: one.open });
+    line += text.slice(at, one.end).match(/\r\n|\n|\r/g)?.length ?? 0;
+    at = one.end;
+  }
+  return found;
+}
+
+function record(text: string, from: number, separator: string): { cells: string[]; end: number; open: boolean } {
+  const cells: string[] = [];
   let cell = "";
   let inside = false;
-  for (let at = 0; at < line.length; at += 1) {
-    const c = line[at] as string;
-    if (c === '"' && inside && line[at + 1] === '"') {
+  let firstEnd = -1;
+  for (let at = from; at < text.length; at += 1) {
+    const c = text[at] as string;
+    const ends = c === "\n" || c === "\r";
+    const next = c === "\r" && text[at + 1] === "\n" ? at + 2 : at + 1;
+    if (ends && firstEnd < 0) firstEnd = next;
+    if (ends && !inside) return { cells: [...cells, cell], end: next, open: false };
+    if (c === '"' && inside && text[at + 1] === '"') {
       cell += c;
       at += 1;
     } else if (c === '"' && (inside || cell === "")) inside = !inside;
     else if (c === separator && !inside) {
-      found.push(cell);
+      cells.push(cell);
       cell = "";
     } else cell += c;
   }
-  return [...found, cell];
+  return { cells: [...cells, cell], end: inside && firstEnd >= 0 ? firstEnd : text.length, open: inside };
 }

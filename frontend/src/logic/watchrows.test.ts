@@ -86,7 +86,7 @@ describe("watchRows", () => {
   });
 
   it("says where an in-out leads, and knows what stands below it", () => {
-    const zone = symbol("Main.fb.zone", { expandable: true, section: "VAR_IN_OUT" });
+    const zone = symbol("Main.fb.zone", { expandable: true, section: "VAR_IN_OUT", in_out: true });
     const rows = watchRows({
       ...view,
       entries: [entry("Main.fb.zone")],

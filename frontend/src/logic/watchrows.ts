@@ -105,13 +105,11 @@ export function watchRows(view: WatchListView): WatchRow[] {
     }
     for (const { path, format } of entries) {
       const symbol = view.symbols.get(path) ?? null;
-      addRows(rows, view, { path, root: path, group, format, level: 0, symbol, inOut: inOutOf(symbol, path) });
+      addRows(rows, view, { path, root: path, group, format, level: 0, symbol, inOut: symbol?.in_out ? path : null });
     }
   }
   return rows;
 }
-
-const inOutOf = (symbol: PlcSymbol | null, path: string) => (symbol?.section === "VAR_IN_OUT" ? path : null);
 
 function sortedEntries({ entries, sort, symbols, keyOf }: WatchListView): readonly WatchEntry[] {
   if (sort === null) return entries;
@@ -156,7 +154,7 @@ function addRows(
   const members = view.members.get(path) ?? [];
   const shown = Math.max(PAGE, view.shown.get(path) ?? 0);
   for (const member of members.slice(0, shown)) {
-    const below = inOutOf(member, member.path) ?? inOut;
+    const below = member.in_out ? member.path : inOut;
     addRows(rows, view, { path: member.path, root, group, format, level: level + 1, symbol: member, inOut: below });
   }
   if (members.length > shown) {

@@ -12,7 +12,11 @@ const int: PlcSymbol = {
   writable: true,
   section: "VAR",
   expandable: false,
+  in_out: false,
+  range: null,
   values: [],
+  range: "",
+  in_out: false,
 };
 
 const frame = (id: number, value: number) => ({

@@ -1,7 +1,7 @@
 /** What this browser shows of its watch list: what is unfolded and in sight, how it is sorted and filtered, what was typed, what was refused. */
 import { create } from "zustand";
 import { literalOf } from "../logic/formats";
-import { splitPath } from "../logic/paths";
+import { chosenFor, splitPath } from "../logic/paths";
 import { t } from "../logic/text";
 import type { Format } from "../logic/values";
 import { addEntries, removeEntry, replacePath, setFormat as withFormat } from "../logic/watchlist";
@@ -222,12 +222,7 @@ export function chooseSite(path: string, site: string | null): void {
 }
 
 /** Where a write of this row goes when somebody picked a call: the row's own choice, or that of the in-out that it is in. */
-function siteOf(path: string): string {
-  for (const [inOut, site] of get().sites) {
-    if (path === inOut || path.startsWith(`${inOut}.`) || path.startsWith(`${inOut}[`)) return site;
-  }
-  return "";
-}
+const siteOf = (path: string): string => chosenFor(get().sites, path) ?? "";
 
 export async function write(path: string, root: string, value: string): Promise<void> {
   const answer = await send({ type: "write", path, value: meant(path, root, value), site: siteOf(path) });

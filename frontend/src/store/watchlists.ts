@@ -48,12 +48,14 @@ const set = useWatchLists.setState;
 const HISTORY = 100;
 let history: ListContent[] = [];
 let first: readonly string[] = [];
-let saving: Promise<void> | null = null;
+/** What is being saved, by project: one that was left is saved to its end beside the one that is shown. */
+const saving = new Map<number, Promise<void>>();
 /** The newest version of the list that is shown, as far as anybody told. */
 let newest = 0;
 
 const chosenKey = (project: number | null) => `watchlist.${project}`;
 const pendingKey = (project: number | null) => `watchlist.unsaved.${project}`;
+const isSaving = () => saving.has(get().project ?? -1);
 const isEdited = () => !sameContent(get().base, get().content);
 
 /** Another project: the list that was shown last, else a shared one, else a new one with what the project begins with. */
@@ -61,6 +63,7 @@ export async function loadWatchLists(project: number | null, begin: readonly str
   if (project === get().project) return;
   first = begin;
   history = [];
+  newest = 0;
   set({ ...nothing, ...fresh(), project });
   if (project === null) return;
   const unsaved = recall<Shown | null>(pendingKey(project), null);
@@ -116,18 +119,24 @@ function take(list: WatchList): void {
 
 export async function chooseList(id: number): Promise<void> {
   const { project } = get();
-  if (isEdited()) await save();
+  if (!(await saved(project))) return;
   try {
     const list = await rest.watchList(id);
-    if (get().project === project) take(list);
+    if (await saved(project)) take(list); // what was typed meanwhile, too
   } catch (error) {
-    set({ trouble: messageOf(error) });
+    if (get().project === project) set({ trouble: messageOf(error) });
   }
+}
+
+/** Whether another list may take the place of the one that is shown: nothing of it would be lost. */
+async function saved(project: number | null): Promise<boolean> {
+  if (get().project === project && isEdited()) await save();
+  return get().project === project && !isEdited();
 }
 
 /** An empty list of one's own; it is stored with its first entry. */
 export async function newList(): Promise<void> {
-  if (isEdited()) await save();
+  if (!(await saved(get().project))) return;
   history = [];
   set({ ...fresh([]), trouble: null, deletedBy: null });
 }
@@ -159,33 +168,55 @@ function save(): Promise<void> {
   const { project, id, version, base, content } = get();
   if (project === null) return Promise.resolve();
   keep(pendingKey(project), { id, version, base, content } satisfies Shown);
-  saving ??= saveAll(project);
-  return saving;
+  const begun = saving.get(project) ?? saveAll(project);
+  saving.set(project, begun);
+  return begun;
 }
 
 async function saveAll(project: number): Promise<void> {
   try {
     do await saveOnce(project);
     while (get().project === project && isEdited());
-    if (get().project === project) set({ trouble: null });
-    forget(pendingKey(project));
+    if (get().project === project) {
+      set({ trouble: null });
+      forget(pendingKey(project));
+    }
   } catch (error) {
-    if (get().project !== project) return;
+    if (get().project !== project) return; // it is kept, and tried again when the project is shown
     if (error instanceof Refused && error.status === 404 && get().id !== null) onGone("");
     else set({ trouble: messageOf(error) });
   } finally {
-    saving = null;
+    saving.delete(project);
   }
+  if (get().project !== project) return;
   const { id, version } = get();
   if (id !== null && newest > version) void pull(id);
   void refreshLists();
+}
+
+/** A list was saved whose project was left meanwhile: what was changed since goes on from there when it is shown again. */
+function settle(project: number, sent: ListContent, now: WatchList): void {
+  const kept = recall<Shown | null>(pendingKey(project), null);
+  if (kept === null || (kept.id !== null && kept.id !== now.id)) return;
+  if (sameContent(kept.content, sent)) {
+    forget(pendingKey(project));
+    return;
+  }
+  const name = kept.content.name === sent.name ? now.name : kept.content.name;
+  const content = { ...kept.content, name };
+  keep(pendingKey(project), { id: now.id, version: now.version, base: contentOf(now), content } satisfies Shown);
 }
 
 async function saveOnce(project: number): Promise<void> {
   const { id, version, content } = get();
   if (id === null) {
     const made = await created(project, content);
-    if (get().project !== project || get().id !== null) return;
+    if (get().project !== project) {
+      settle(project, content, made);
+      keep(chosenKey(project), made.id);
+      return;
+    }
+    if (get().id !== null) return;
     const now = get().content;
     const named = now.name === content.name ? { ...now, name: made.name } : now;
     set({ id: made.id, version: made.version, base: contentOf(made), content: named, deletedBy: null });
@@ -194,7 +225,11 @@ async function saveOnce(project: number): Promise<void> {
     return;
   }
   const answer = await rest.saveWatchList(id, content, version);
-  if (get().project !== project || get().id !== id) return;
+  if (get().project !== project) {
+    if ("saved" in answer) settle(project, content, answer.saved);
+    return;
+  }
+  if (get().id !== id) return;
   if ("saved" in answer) set({ version: answer.saved.version, base: contentOf(answer.saved) });
   else takeTheirs(answer.theirs);
 }
@@ -223,9 +258,9 @@ export async function onWatchList({ id, version, author }: WatchListChanged): Pr
   if (id === get().id && version === 0) onGone(author);
   else if (id === get().id) {
     newest = Math.max(newest, version);
-    if (version > get().version && !saving) await pull(id);
+    if (version > get().version && !isSaving()) await pull(id);
   }
-  if (!saving) await refreshLists();
+  if (!isSaving()) await refreshLists();
 }
 
 async function pull(id: number): Promise<void> {
@@ -263,7 +298,7 @@ export function renameList(name: string): void {
 
 export async function duplicateList(): Promise<void> {
   const { content } = get();
-  if (isEdited()) await save();
+  if (!(await saved(get().project))) return;
   await begin({ ...content, shared: false, name: freeName(t("watch.list.copy", content)) });
 }
 
@@ -275,6 +310,7 @@ export function shareList(): void {
 
 /** Deletes the list that is shown. It can be taken back: the same list, under another number. */
 export async function deleteList(): Promise<void> {
+  await saving.get(get().project ?? -1); // else what is on its way would make it anew
   const { id, content, project } = get();
   try {
     set({ id: null }); // what is told of it is no news

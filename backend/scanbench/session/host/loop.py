@@ -54,6 +54,8 @@ class Loop:
         self._go_on(start)
         self.debugging = Debugging(timeline, link, Covering(timeline, programs.sources))
         self._debugger = self.debugging.debugger
+        if start.halted:
+            self._debugger.stand("it was halted in this scan when its process ended")
         self._services = Services(timeline, self._course, link, note, tiers, programs.sources, self._debugger)
         self.traces = Traces(timeline, link)
 
@@ -69,9 +71,7 @@ class Loop:
             compiled = compile_condition(self.resource.program, start.condition)
             condition = compiled if isinstance(compiled, Condition) else None
         left = None if start.end is None else start.end - scan
-        if start.halted:
-            self._course.lose(f"it was halted in scan {scan} when its process ended: it goes on when you let it run")
-        elif not start.paused and (condition is not None or (left is not None and left > 0)):
+        if not start.paused and (condition is not None or (left is not None and left > 0)):
             self.timeline.stop_when(condition)
             self._course.run_on(scan, left, condition)
 

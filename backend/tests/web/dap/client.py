@@ -7,6 +7,7 @@ import subprocess
 import sys
 import tempfile
 import threading
+import time
 from abc import ABC, abstractmethod
 from collections.abc import Callable
 from pathlib import Path
@@ -87,6 +88,13 @@ class Client(ABC):
         assert not answer["success"], answer
         assert answer["body"]["error"]["format"] == answer["message"]
         return str(answer["message"])
+
+    def until(self, condition: Callable[[], bool]) -> None:
+        """Waits for what comes without being told."""
+        end = time.monotonic() + PATIENCE_S
+        while not condition():
+            assert time.monotonic() < end
+            time.sleep(0.05)
 
     def halt(self, command: str, **arguments: object) -> Message:
         """Asks, and waits for the halt that comes of it."""

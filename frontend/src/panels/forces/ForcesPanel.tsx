@@ -5,13 +5,14 @@ import { splitPath } from "../../logic/paths";
 import { t } from "../../logic/text";
 import { useForces, useForceValues } from "../../store/forces";
 import { useForbidden } from "../../store/plc";
-import { watch } from "../../store/watches";
 import { addToTrace } from "../../store/traces";
+import { watch } from "../../store/watches";
 import { addToWatch, releaseForce, useWatchList } from "../../store/watchlist";
 import { Empty } from "../../ui/Empty";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import { Menu, type MenuItem } from "../../ui/Menu";
+import { useKeptScroll } from "../../ui/useKeptScroll";
 import type { ForceInfo } from "../../wire/types";
 import { NowCell } from "./NowCell";
 import "./forces.css";
@@ -64,6 +65,7 @@ const COLUMNS = ["value", "before", "program", "after", "now"] as const;
 
 function ForceGrid({ forces }: { forces: readonly ForceInfo[] }) {
   const scroll = useRef<HTMLDivElement>(null);
+  useKeptScroll(scroll);
   const [selected, setSelected] = useState(0);
   const [menu, setMenu] = useState<{ items: MenuItem[]; at: { x: number; y: number } } | null>(null);
   const virtual = useVirtualizer({
@@ -193,9 +195,9 @@ function ForceLine({ force, index, style, selected, onSelect, onMenu }: LineProp
         <span className="st forced">
           <Icon name="forced" small />
         </span>
-        <span className="cut">
+        <span className="path">
           <span className="own">{own}</span>
-          {name}
+          <span className="last">{name}</span>
           {through && <span className="ui faint"> {t("forces.through", { through })}</span>}
         </span>
       </span>

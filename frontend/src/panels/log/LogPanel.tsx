@@ -7,6 +7,7 @@ import { useCatalogue } from "../../store/catalogue";
 import { usePlc } from "../../store/plc";
 import { Icon, type IconName } from "../../ui/Icon";
 import { MenuButton } from "../../ui/Menu";
+import { useKeptScroll } from "../../ui/useKeptScroll";
 import type { ErrorInfo, LogLine } from "../../wire/types";
 
 const LOOK: Record<LogLine["kind"], { icon: IconName; tone: string }> = {
@@ -67,6 +68,7 @@ function KindMenu({ kind, onKind }: { kind: Filter; onKind: (kind: Filter) => vo
 function Lines({ log }: { log: readonly LogLine[] }) {
   const { errors } = useCatalogue();
   const scroll = useRef<HTMLDivElement>(null);
+  useKeptScroll(scroll);
   const virtual = useVirtualizer({
     count: log.length,
     getScrollElement: () => scroll.current,

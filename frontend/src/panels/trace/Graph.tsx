@@ -75,14 +75,7 @@ export function Graph({ ref, shown, samples, whole, layout, compared }: Props) {
               compared={compared}
             />
           ))}
-        <Lanes
-          layout={layout}
-          samples={samples}
-          scale={scale}
-          xTicks={xTicks}
-          theme={theme}
-          compared={compared}
-        />
+        <Lanes layout={layout} samples={samples} scale={scale} xTicks={xTicks} theme={theme} compared={compared} />
         {samples?.scans.length === 0 && <p className="trnone faint">{t("trace.nothing")}</p>}
         {shown.triggered !== null && <TriggerMark x={xOf(shown.triggered, scale)} width={width} />}
         <DragBox ref={box} />

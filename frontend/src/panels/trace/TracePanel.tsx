@@ -48,14 +48,7 @@ export function TracePanel() {
       <Trouble />
       {shown ? (
         <div className="trbody">
-          <Graph
-            ref={graph}
-            shown={shown}
-            samples={samples}
-            whole={whole}
-            layout={layout}
-            compared={compared}
-          />
+          <Graph ref={graph} shown={shown} samples={samples} whole={whole} layout={layout} compared={compared} />
           <div className="trside">
             <CursorTable shown={shown} samples={samples} />
             {shown.trace && <Settings trace={shown.trace} key={shown.trace.id} />}

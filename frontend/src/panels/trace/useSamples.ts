@@ -95,10 +95,12 @@ async function fetched(key: string, held: Held | null): Promise<Held | null> {
     const data = await readSamples(shown.source, mine.to + 1, null, POINTS);
     if (!data) return held;
     const more = decode(data, shown.signals);
-    if (more.generation !== mine.samples.generation || more.decimated) return null; // the next turn takes all anew
+    if (more.generation !== mine.samples.generation) return null;
     if (more.scans.length === 0) return held;
-    const samples = appended(mine.samples, more, Math.max(2 * Math.ceil(rows) + 100, 4000));
-    return { key, samples, from: samples.scans[0] ?? 0, to: samples.scans.at(-1) ?? 0 };
+    if (!more.decimated) {
+      const samples = appended(mine.samples, more, Math.max(2 * Math.ceil(rows) + 100, 4000));
+      return { key, samples, from: samples.scans[0] ?? 0, to: samples.scans.at(-1) ?? 0 };
+    }
   }
   const grown = grows && atEnd && mine?.samples.decimated === true;
   const whole = wholeOf({ ...shown, end });
@@ -107,11 +109,15 @@ async function fetched(key: string, held: Held | null): Promise<Held | null> {
   const width = wanted.to - wanted.from;
   const from = Math.max(whole.from, Math.floor(wanted.from - width / 2));
   const to = Math.ceil(wanted.to + width / 2);
-  const wide = (to - from) / shown.every;
-  // A PLC that runs as fast as it can has more rows than was told: never more of them than are wanted.
-  const points = wide <= FULL ? Math.max(POINTS, Math.ceil(wide)) : POINTS;
+  const points = (to - from) / shown.every <= FULL ? Math.max(POINTS, Math.ceil((to - from) / shown.every)) : POINTS;
   const data = await readSamples(shown.source, from, atEnd ? null : to, points);
   if (!data) return held;
   const samples = decode(data, shown.signals);
-  return { key, samples, from, to: atEnd ? (samples.scans.at(-1) ?? from) : to };
+  if (!atEnd) return { key, samples, from, to };
+  // A PLC that runs as fast as it can has many more rows than were told: those at its end are taken in full.
+  const tail = samples.decimated && rows <= FULL ? samples.end - 1 - (to - from) : null;
+  const again = tail === null ? null : await readSamples(shown.source, tail, samples.end - 1, points);
+  const latest = again ? decode(again, shown.signals) : samples;
+  if (latest.scans.length === 0) return { key, samples, from, to: samples.scans.at(-1) ?? from };
+  return { key, samples: latest, from: Math.max(from, tail ?? from), to: latest.scans.at(-1) ?? from };
 }

@@ -1,6 +1,6 @@
 import { type CSSProperties, useEffect } from "react";
 import { grouped } from "../../logic/numbers";
-import { baseName } from "../../logic/paths";
+import { baseName, chosenFor } from "../../logic/paths";
 import { t } from "../../logic/text";
 import type { BindingRow } from "../../logic/watchrows";
 import { lookAtBinding, useBindings } from "../../store/bindings";
@@ -25,7 +25,7 @@ export function BindingLine({ row, style, index }: { row: BindingRow; style: CSS
 }
 
 function Told({ path, binding }: { path: string; binding: Binding }) {
-  const chosen = useWatchList((list) => list.sites.get(path));
+  const chosen = useWatchList((list) => chosenFor(list.sites, path));
   const site = siteShown(binding, chosen);
   const message = binding.message || site?.message || "";
   return (

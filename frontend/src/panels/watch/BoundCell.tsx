@@ -1,3 +1,4 @@
+import { chosenFor } from "../../logic/paths";
 import { t } from "../../logic/text";
 import { actualOf, type ValueRow } from "../../logic/watchrows";
 import { useBindings } from "../../store/bindings";
@@ -25,7 +26,7 @@ export function BoundCell({ row, symbol }: { row: ValueRow; symbol: PlcSymbol | 
 
 function Actual({ path, inOut }: { path: string; inOut: string }) {
   const binding = useBindings((bindings) => bindings.of.get(inOut));
-  const chosen = useWatchList((list) => list.sites.get(inOut));
+  const chosen = useWatchList((list) => chosenFor(list.sites, inOut));
   const site = binding && siteShown(binding, chosen);
   if (!binding || !site?.actual) {
     return (
@@ -47,7 +48,7 @@ function Actual({ path, inOut }: { path: string; inOut: string }) {
 /** Where the value lives; of an in-out, where that of the variable that was passed does. */
 export function AddressCell({ row, symbol }: { row: ValueRow; symbol: PlcSymbol | null }) {
   const binding = useBindings((bindings) => (row.inOut === row.path ? bindings.of.get(row.path) : undefined));
-  const chosen = useWatchList((list) => list.sites.get(row.path));
+  const chosen = useWatchList((list) => chosenFor(list.sites, row.path));
   const address = symbol?.address ?? ((binding && siteShown(binding, chosen)?.address) || null);
   return (
     <span className="mono muted" role="gridcell" title={address ?? undefined}>

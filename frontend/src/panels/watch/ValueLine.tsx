@@ -8,7 +8,7 @@ import { useWatches } from "../../store/watches";
 import { releaseForce, removeFromWatch, select, toggleOpen, useWatchList } from "../../store/watchlist";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
-import type { ForceInfo } from "../../wire/types";
+import type { ForceInfo, PlcSymbol } from "../../wire/types";
 import { AddressCell, BoundCell } from "./BoundCell";
 import { ChangeCell } from "./ChangeCell";
 import { CurrentCell } from "./CurrentCell";
@@ -87,9 +87,9 @@ export function ValueLine({ row, style, index, selected, target, onMenu }: Props
         ) : (
           <span className="tw" />
         )}
-        <span className="cut">
+        <span className="path">
           <span className="own">{own}</span>
-          {name}
+          <span className="last">{name}</span>
         </span>
       </span>
       <CurrentCell
@@ -99,8 +99,8 @@ export function ValueLine({ row, style, index, selected, target, onMenu }: Props
         format={(row.level > 0 && ownFormat) || row.format}
       />
       <ChangeCell row={row} symbol={symbol} forced={forced !== undefined} />
-      <span className="mono muted c-type" role="gridcell" title={symbol?.type}>
-        {symbol?.type ?? ""}
+      <span className="mono muted c-type" role="gridcell" title={symbol ? typeTitle(symbol) : undefined}>
+        {symbol?.range || symbol?.type || ""}
       </span>
       <AddressCell row={row} symbol={symbol} />
       <BoundCell row={row} symbol={symbol} />
@@ -117,6 +117,9 @@ export function ValueLine({ row, style, index, selected, target, onMenu }: Props
     </div>
   );
 }
+
+/** A subrange with a name is read by its bounds; the name is told besides. */
+const typeTitle = ({ type, range }: PlcSymbol) => (range && range !== type ? `${type}: ${range}` : type);
 
 const forcedBy = ({ value, author }: ForceInfo) => t("force.by", { value, author });
 

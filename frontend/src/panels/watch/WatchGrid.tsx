@@ -7,6 +7,7 @@ import { pathsToWatch, type WatchRow } from "../../logic/watchrows";
 import { useColumns } from "../../store/columns";
 import { addAll, addToWatch, select, useWatchList, watchInSight, watchNothing } from "../../store/watchlist";
 import { Menu, type MenuItem } from "../../ui/Menu";
+import { useKeptScroll } from "../../ui/useKeptScroll";
 import { BindingLine } from "./BindingLine";
 import { GridHead } from "./GridHead";
 import { GroupLine } from "./GroupLine";
@@ -28,6 +29,7 @@ interface Props {
 /** The rows: only those in sight exist in the page, and are watched. The grid holds the focus, the selected row is its active descendant. */
 export function WatchGrid({ rows, onNewGroup, onRenameGroup }: Props) {
   const scroll = useRef<HTMLDivElement>(null);
+  useKeptScroll(scroll);
   const [menu, setMenu] = useState<{ items: MenuItem[]; at: { x: number; y: number } } | null>(null);
   const selected = useWatchList((list) => list.selected);
   const columns = useColumnStyle();
@@ -46,6 +48,7 @@ export function WatchGrid({ rows, onNewGroup, onRenameGroup }: Props) {
   const items = virtual.getVirtualItems();
   useInSight(rows, items[0]?.index ?? 0, (items.at(-1)?.index ?? -1) + 1);
   useReveal(now, (index) => virtual.scrollToIndex(index));
+  useRevealNote(rows, (index) => virtual.scrollToIndex(index));
 
   function go(to: number, by: 1 | -1): void {
     for (let i = Math.max(0, Math.min(rows.length - 1, to)); i >= 0 && i < rows.length; i += by) {
@@ -168,6 +171,20 @@ function useReveal(index: number, reveal: (index: number) => void): void {
     last.current = selected;
     reveal(index);
   }, [index, selected, reveal]);
+}
+
+/** Why an entry was not taken is brought into sight: it may stand below the last row that is. */
+function useRevealNote(rows: readonly WatchRow[], reveal: (index: number) => void): void {
+  const notes = useWatchList((list) => list.notes);
+  const before = useRef(notes);
+  useEffect(() => {
+    if (before.current === notes) return;
+    const index = rows.findIndex(
+      (row) => row.kind === "note" && notes.has(row.path) && before.current.get(row.path) !== notes.get(row.path),
+    );
+    before.current = notes;
+    if (index >= 0) reveal(index);
+  }, [rows, notes, reveal]);
 }
 
 /** Many lines are many entries; what was copied from a CSV file has formats and groups, too. */

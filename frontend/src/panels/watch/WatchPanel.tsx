@@ -31,7 +31,7 @@ export function WatchPanel() {
   const [filtering, setFiltering] = useState(false);
   const [naming, setNaming] = useState<Naming | null>(null);
   const rows = useRows();
-  const shown = rows.filter((row) => row.kind === "value" && row.level === 0).length;
+  const shown = filtering ? rows.filter((row) => row.kind === "value" && row.level === 0).length : 0;
   useUndoOffer();
 
   function onDrop(event: DragEvent): void {

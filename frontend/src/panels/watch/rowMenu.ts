@@ -1,4 +1,5 @@
 import { formatsFor } from "../../logic/formats";
+import { chosenFor } from "../../logic/paths";
 import { forbidden } from "../../logic/permits";
 import { t } from "../../logic/text";
 import { moveEntry, removeGroup } from "../../logic/watchlist";
@@ -127,7 +128,7 @@ function breakItems({ path }: ValueRow, symbol: PlcSymbol | null): MenuItem[] {
 /** The variable behind an in-out can be watched itself. */
 function actualItems({ path, inOut }: ValueRow): MenuItem[] {
   const binding = inOut === null ? undefined : useBindings.getState().of.get(inOut);
-  const site = binding && siteShown(binding, useWatchList.getState().sites.get(inOut ?? ""));
+  const site = binding && siteShown(binding, chosenFor(useWatchList.getState().sites, inOut ?? ""));
   if (inOut === null || !site?.actual) return [];
   const actual = actualOf(path, inOut, site.actual);
   return [{ label: t("watch.add.path", { path: actual }), icon: "bound", onSelect: () => addToWatch([actual]) }];

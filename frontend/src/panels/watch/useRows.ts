@@ -1,4 +1,5 @@
 import { useEffect, useMemo, useState } from "react";
+import { useShallow } from "zustand/react/shallow";
 import type { WatchRow } from "../../logic/watchrows";
 import { watchRows } from "../../logic/watchrows";
 import type { SortColumn, SortKey } from "../../logic/watchsort";
@@ -16,14 +17,24 @@ const LOOK_AGAIN = 1000;
 /** The rows of the list that is shown, in their order. */
 export function useRows(): readonly WatchRow[] {
   const { entries, groups } = useWatchLists((lists) => lists.content);
-  const list = useWatchList();
+  // Not what is typed, nor what is selected: both change with every key.
+  const { open, collapsed, shown, notes, sort, filter, since, drafts } = useWatchList(
+    useShallow((list) => ({
+      open: list.open,
+      collapsed: list.collapsed,
+      shown: list.shown,
+      notes: list.notes,
+      sort: list.sort,
+      filter: list.filter,
+      since: list.since,
+      drafts: list.sort?.column === "change" ? list.drafts : null,
+    })),
+  );
   const members = useMembers((state) => state.of);
   const symbols = useWatches((state) => state.symbols);
   const refusals = useWatches((state) => state.refusals);
   const forces = useForces((state) => state.held);
-  const { open, collapsed, shown, notes, sort, filter, since } = list;
   const turn = useTurns(sort?.column === "current" || sort?.column === "bound" || filter.only === "changed");
-  const drafts = sort?.column === "change" ? list.drafts : null;
 
   // biome-ignore lint/correctness/useExhaustiveDependencies: each turn looks at the values again
   return useMemo(
