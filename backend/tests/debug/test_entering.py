@@ -43,7 +43,9 @@ def test_what_needs_the_seam_is_never_entered_inside_of_a_scan(kind: str, tmp_pa
     walker.set(line(14, condition="Main.n = 3") if kind == "line" else Breakpoint(1, "trap", "Ann"))
     walker.run()
     scan = walker.halt.scan
-    walker.set(line(14), Breakpoint(2, "line", "Ann", file="main.st", line=20, log="{total}"), Breakpoint(3, "trap", "A"))
+    walker.set(
+        line(14), Breakpoint(2, "line", "Ann", file="main.st", line=20, log="{total}"), Breakpoint(3, "trap", "A")
+    )
     entry = walker.submit(Restart("Bob", "cold"))
     assert (entry.scan, entry.step) == (scan + (kind == "line"), 0)
     assert (walker.timeline.resource.inside, value(walker.timeline.resource, "Main.n")) == (None, 0)

@@ -148,7 +148,7 @@ def test_a_scan_on_in_the_past_leaves_the_statement_that_was_shown(tmp_path: Pat
         set_breakpoints(child, at_line(11, condition="n > 20"))
         live = child.halted()
         for action in ("back", "back"):
-            assert child.step(action).ok  # type: ignore[arg-type]
+            assert child.step(action).ok
         child.ask(lambda ref: protocol.Travel(ref, 9, "Ann"), protocol.Ack)
         assert child.step("in").ok
         halt = child.wait(protocol.HostState, lambda state: state.halt is not None and state.halt.scan == 9).halt

@@ -12,8 +12,6 @@ const int: PlcSymbol = {
   writable: true,
   section: "VAR",
   expandable: false,
-  in_out: false,
-  range: null,
   values: [],
   range: "",
   in_out: false,

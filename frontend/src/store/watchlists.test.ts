@@ -1,5 +1,7 @@
 import { beforeEach, describe, expect, it, vi } from "vitest";
-import type { WatchEntry, WatchList } from "../wire/types";
+import type { WatchList as Told, WatchEntry } from "../wire/types";
+
+type WatchList = Told & { project: number };
 
 const server = vi.hoisted(() => ({
   lists: new Map<number, unknown>(),
