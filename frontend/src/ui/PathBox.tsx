@@ -1,6 +1,5 @@
 import { type ClipboardEvent, type KeyboardEvent, useEffect, useId, useRef, useState } from "react";
 import { t } from "../logic/text";
-import type { PlcSymbol } from "../wire/types";
 import { Icon } from "./Icon";
 
 /** What is in the line now; and why what was typed is not taken. */
@@ -9,14 +8,20 @@ interface Taken {
   odd?: string;
 }
 
-interface Props {
+/** A path, and what stands beside it. */
+interface Offer {
+  path: string;
+  type: string;
+}
+
+interface Props<T extends Offer> {
   label: string;
   placeholder: string;
   className?: string;
   /** What the program has that begins like this. */
-  complete: (text: string) => Promise<readonly PlcSymbol[]>;
+  complete: (text: string) => Promise<readonly T[]>;
   onType: (text: string) => Taken | Promise<Taken>;
-  onTake: (symbol: PlcSymbol) => Taken | Promise<Taken>;
+  onTake: (symbol: T) => Taken | Promise<Taken>;
   /** Takes what is pasted; false: it goes into the line as usual. */
   onPaste?: (text: string) => boolean;
 }
@@ -24,9 +29,10 @@ interface Props {
 const DELAY = 80;
 
 /** Typing a path, with what the running program has to offer: arrows choose, Tab takes into the line, Enter takes. */
-export function PathBox({ label, placeholder, className = "", complete, onType, onTake, onPaste }: Props) {
+export function PathBox<T extends Offer>(props: Props<T>) {
+  const { label, placeholder, className = "", complete, onType, onTake, onPaste } = props;
   const [text, setText] = useState("");
-  const [offers, setOffers] = useState<readonly PlcSymbol[]>([]);
+  const [offers, setOffers] = useState<readonly T[]>([]);
   const [chosen, setChosen] = useState(-1);
   const [odd, setOdd] = useState("");
   const turn = useRef(0);
