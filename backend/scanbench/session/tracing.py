@@ -102,7 +102,7 @@ class Tracing:
                 raise Refused(f"the trace {status.definition.name} was begun anew meanwhile: stop it, then try again")
             generation = status.generation
             yield status, samples
-            if not len(samples) or samples.scans[0] <= first:
+            if not len(samples) or samples.scans[0] <= max(first, status.first):
                 return
             last = int(samples.scans[0]) - 1
 

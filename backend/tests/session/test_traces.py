@@ -2,6 +2,7 @@
 
 import asyncio
 from collections.abc import Callable, Mapping
+from dataclasses import replace
 from pathlib import Path
 from queue import SimpleQueue
 from typing import cast
@@ -67,6 +68,17 @@ def test_all_pages_are_taken_from_the_newest_on() -> None:
         list(range(60, 100)), list(range(20, 60)), list(range(10, 20)), []
     ]  # fmt: skip
     assert asked == [(None, True), (59, True), (19, True), (9, True)]
+
+
+def test_what_fits_on_one_page_is_asked_for_once() -> None:
+    """A trace that is armed again and again would be another one by the second time."""
+    generations = iter((3, 4))
+
+    def answer(ask: ReadTrace) -> TraceRead:
+        whole = replace(status(next(generations)), first=500, end=800)
+        return TraceRead(ask.ref, page(500, 300).pack(500, 800, 3), status=whole)
+
+    assert [len(each) for each in asyncio.run(gathered(tracing(answer)))] == [300]
 
 
 def test_pages_of_two_records_are_refused() -> None:
