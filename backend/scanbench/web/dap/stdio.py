@@ -140,7 +140,7 @@ class Front:
             self._begin(self._forward())
         elif command == "attach" and isinstance(message, dict) and self._initialize:
             self._waiting = []
-            self._attaching = message.get("seq"), self._begin(self._attach(message))
+            self._begin_attach(message)
         else:
             if command == "initialize" and isinstance(message, dict) and not self._initialize:
                 self._initialize = message
@@ -152,6 +152,15 @@ class Front:
         task.add_done_callback(self._tasks.discard)
         return task
 
+    def _begin_attach(self, message: Body) -> None:
+        def on_done(task: asyncio.Task[None]) -> None:
+            if task.cancelled() and self._attaching is not None:  # perhaps before it had begun
+                self._stay(message, "cancelled")
+
+        task = self._begin(self._attach(message))
+        self._attaching = message.get("seq"), task
+        task.add_done_callback(on_done)
+
     async def _attach(self, message: Body) -> None:
         try:
             args = shapes.Attach.model_validate(message.get("arguments") or {})
@@ -160,8 +169,6 @@ class Front:
             self._stay(message, str(error), error.near)
         except ValidationError as error:
             self._stay(message, f"attach: {fault(error)}")
-        except asyncio.CancelledError:
-            self._stay(message, "cancelled")
         except Exception as error:  # whatever happened, the client waits for an answer
             log.exception("attaching failed")
             self._stay(message, f"attach failed: {error}")

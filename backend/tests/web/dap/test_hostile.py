@@ -149,7 +149,7 @@ def test_nonsense_between_messages_is_answered(program: Path) -> None:
             client.put_bytes(b"Content-Length: %d\r\n\r\n%s" % (len(nonsense), nonsense))
             assert "no JSON object" in client.response(0)["message"]
         assert "no Unicode" in client.refused("evaluate", expression="\ud800", context="watch")
-        assert "'\ud800'" in client.refused("\ud800")
+        assert r"'\ud800'" in client.refused("\ud800")
         assert "変数" in client.refused("evaluate", expression="変数", context="watch")
         deep: dict[str, object] = {}
         for _ in range(900):

@@ -34,7 +34,7 @@ export function EditorBar({ path }: { path: string }) {
   // A global variable is one line of the file, not what the file is about.
   const pou = found?.kind === "global" ? { name: path, kind: found.kind } : found;
   return (
-    <div className="sub">
+    <div className="sub edbar">
       <span className="cut">{pou?.name ?? path}</span>
       {pou && INSTANCED.includes(pou.kind) ? (
         <SeenAs pou={pou.name} />
@@ -120,10 +120,11 @@ function RollBack() {
       className="btn quiet sm"
       disabled={forbidden !== null}
       title={forbidden ?? t("change.rollback.hint", { note })}
+      aria-label={t("change.rollback")}
       onClick={() => void rollBack()}
     >
       <Icon name="past" small />
-      {t("change.rollback")}
+      <span className="wide-only">{t("change.rollback")}</span>
     </button>
   );
 }

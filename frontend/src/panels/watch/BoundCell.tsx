@@ -3,7 +3,7 @@ import { t } from "../../logic/text";
 import { actualOf, type ValueRow } from "../../logic/watchrows";
 import { useBindings } from "../../store/bindings";
 import { useCatalogue } from "../../store/catalogue";
-import { useForcedAt } from "../../store/forces";
+import { useForcedAt, useForceValues } from "../../store/forces";
 import { useWatchList } from "../../store/watchlist";
 import { Icon } from "../../ui/Icon";
 import type { PlcSymbol } from "../../wire/types";
@@ -12,9 +12,10 @@ import { siteShown } from "./sites";
 /** What stands behind the row: the actual of an in-out, what the program wants under a force, the error behind a flag. */
 export function BoundCell({ row, symbol }: { row: ValueRow; symbol: PlcSymbol | null }) {
   const forced = useForcedAt(row.path);
+  const did = useForceValues((values) => (forced ? values.of.get(forced.path) : undefined));
   const { errors } = useCatalogue();
   if (row.inOut !== null) return <Actual path={row.path} inOut={row.inOut} />;
-  const wanted = forced?.after_program;
+  const wanted = did?.after_program ?? forced?.after_program;
   const flag = symbol?.address ? errors.find(({ flag }) => flag === symbol.address)?.name : undefined;
   const says = wanted ? t("force.programwrites", { value: wanted }) : flag;
   return (

@@ -8,13 +8,15 @@ import type { PlcSymbol, Refusal } from "../../wire/types";
 
 interface Props {
   path: string;
+  /** Whose value is shown: of an in-out with a picked call another variable's. */
+  from: string;
   symbol: PlcSymbol | null;
   refusal: Refusal | null;
   format: Format;
 }
 
 /** The live value. Frames write into this cell directly; React only places it. */
-export function CurrentCell({ path, symbol, refusal, format }: Props) {
+export function CurrentCell({ path, from, symbol, refusal, format }: Props) {
   if (refusal) {
     return (
       <span className="val sum bad" role="gridcell" title={refusal.message}>
@@ -23,7 +25,7 @@ export function CurrentCell({ path, symbol, refusal, format }: Props) {
     );
   }
   if (symbol?.expandable) return <MemberCount path={path} />;
-  return <LiveCell path={path} known={symbol !== null} format={format} />;
+  return <LiveCell path={path} from={from} known={symbol !== null} format={format} />;
 }
 
 function MemberCount({ path }: { path: string }) {
@@ -38,7 +40,7 @@ function MemberCount({ path }: { path: string }) {
 const FADE_AFTER = 120;
 const MARK_FOR = 1000;
 
-function LiveCell({ path, known, format }: { path: string; known: boolean; format: Format }) {
+function LiveCell({ path, from, known, format }: { path: string; from: string; known: boolean; format: Format }) {
   const cell = useRef<HTMLSpanElement>(null);
   const lamp = useRef<HTMLSpanElement>(null);
   const text = useRef<HTMLSpanElement>(null);
@@ -47,7 +49,7 @@ function LiveCell({ path, known, format }: { path: string; known: boolean; forma
   useEffect(() => {
     let fade: ReturnType<typeof setTimeout> | undefined;
     let unmark: ReturnType<typeof setTimeout> | undefined;
-    const unbind = bindCell(path, format, (reading) => {
+    const unbind = bindCell(from, format, (reading) => {
       if (text.current) text.current.textContent = reading.text;
       lamp.current?.classList.toggle("on", reading.lamp === true);
       lamp.current?.toggleAttribute("hidden", reading.lamp === null);
@@ -64,7 +66,7 @@ function LiveCell({ path, known, format }: { path: string; known: boolean; forma
       clearTimeout(fade);
       clearTimeout(unmark);
     };
-  }, [path, format, known]);
+  }, [from, format, known]);
 
   return (
     <span

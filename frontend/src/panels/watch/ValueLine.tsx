@@ -12,6 +12,7 @@ import type { ForceInfo, PlcSymbol } from "../../wire/types";
 import { AddressCell, BoundCell } from "./BoundCell";
 import { ChangeCell } from "./ChangeCell";
 import { CurrentCell } from "./CurrentCell";
+import { usePicked } from "./usePicked";
 import { ROW_DRAG } from "./useRowDrop";
 
 interface Props {
@@ -28,7 +29,8 @@ interface Props {
 export function ValueLine({ row, style, index, selected, target, onMenu }: Props) {
   const answered = useWatches((state) => state.symbols.get(row.path));
   const refusal = useWatches((state) => state.refusals.get(row.path));
-  const forced = useForcedAt(row.path);
+  const picked = usePicked(row);
+  const forced = useForcedAt(picked);
   const by = useForces((forces) => forces.written.get(row.path));
   const ownFormat = useWatchList((list) => list.formats.get(row.path));
   const symbol = row.symbol ?? answered ?? null;
@@ -94,6 +96,7 @@ export function ValueLine({ row, style, index, selected, target, onMenu }: Props
       </span>
       <CurrentCell
         path={row.path}
+        from={picked}
         symbol={symbol}
         refusal={refusal ?? null}
         format={(row.level > 0 && ownFormat) || row.format}
