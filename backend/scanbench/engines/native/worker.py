@@ -56,7 +56,11 @@ def main() -> int:
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the server's business
     os.nice(_NICENESS)
     while (text := _receive(sys.stdin.buffer)) is not None:
-        _send(sys.stdout.buffer, jit.compile_object(text.decode(), FAST, jit.Timings()))
+        code = jit.compile_object(text.decode(), FAST, jit.Timings())
+        try:
+            _send(sys.stdout.buffer, code)
+        except BrokenPipeError:  # nobody wants it any more
+            os._exit(0)  # what is left in the buffer has nowhere to go, and need not be told of
     return 0
 
 

@@ -80,6 +80,8 @@ class ForTool:
         await session.debugging.forget_group(plc.group)
         if session.state.halt is not None and not session.users:
             with suppress(Refused):  # somebody was faster
+                if session.state.past_by:
+                    await session.travel(None, plc.author)
                 await proceed(plc)
         return False
 
