@@ -20,6 +20,15 @@ test('main window, light', async ({ openAs }) => {
   await take(mika, 'main-light');
 });
 
+test('halted at a breakpoint, and gone into the block', async ({ openAs }) => {
+  const { mika } = await atWork(openAs);
+  await mika.debug.clickGutter('Main.st', 'belt(run := motor);');
+  await expect(mika.top.state).toContainText('Halted');
+  await mika.debug.step('Step into');
+  await expect(mika.debug.frames).toHaveCount(2);
+  await take(mika, 'halted');
+});
+
 test('a fatal error', async ({ openAs }) => {
   const { mika } = await atWork(openAs);
   await mika.simulator.select('Memory error');
