@@ -29,7 +29,7 @@ from scanbench.check.program import (
     Return,
     Stmt,
 )
-from scanbench.check.symbols import PART, Symbol, UnknownPath, around, resolve, roots
+from scanbench.check.symbols import PART, Symbol, UnknownPath, holding, resolve
 from scanbench.check.types import Elementary, Kind, Member, Record, Section, actual_of, is_derived
 from scanbench.problems import Span
 
@@ -143,7 +143,7 @@ class Calls:
         own = this.type if this is not None else pou.instance
         behind_this = this is not None and instance.slot is not None and instance.slot.offset == this.offset
         if instance.reference is None and (behind_this or (instance.base is Base.SELF and instance.slot is None)):
-            for symbol in _around(self._program, at):
+            for symbol in holding(self._program, at):
                 if isinstance(symbol.type, Record) and isinstance(own, Record) and is_derived(symbol.type, own):
                     if _reaches(instance, at - symbol.offset - instance.offset):
                         yield symbol.path, symbol.offset
@@ -272,21 +272,6 @@ def _leaves(stmt: Stmt) -> bool:
 
 
 # ---- instances ------------------------------------------------------------------------------------------------------
-
-
-def _around(program: Program, offset: int) -> Iterator[Symbol]:
-    """Everything that holds a byte of the image, from the outermost; what tells where it is by its own address is left out."""
-    ahead = list(roots(program))
-    while ahead:
-        inner = next((each for each in ahead if _holds(each, offset)), None)
-        if inner is None:
-            return
-        yield inner
-        ahead = around(inner, offset)
-
-
-def _holds(symbol: Symbol, offset: int) -> bool:
-    return not symbol.slots and symbol.address is None and symbol.offset <= offset < symbol.offset + symbol.type.size
 
 
 def _reaches(place: Place, distance: int) -> bool:

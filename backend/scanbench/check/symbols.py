@@ -466,6 +466,17 @@ def starting_at(program: Program, offset: int) -> Iterator[Symbol]:
         open_ += [each for each in around(symbol, offset) if _holds(each, offset) and each.address is None]
 
 
+def holding(program: Program, offset: int) -> Iterator[Symbol]:
+    """Everything that holds a byte of the image, from the outermost; what tells where it is by its own address is left out."""
+    ahead = list(roots(program))
+    while ahead:
+        inner = next((each for each in ahead if not each.slots and each.address is None and _holds(each, offset)), None)
+        if inner is None:
+            return
+        yield inner
+        ahead = around(inner, offset)
+
+
 def _holds(symbol: Symbol, offset: int) -> bool:
     return not symbol.slots and symbol.offset <= offset < symbol.offset + symbol.type.size
 

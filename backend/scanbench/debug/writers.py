@@ -17,7 +17,7 @@ from scanbench.check.program import (
     Stmt,
 )
 from scanbench.check.sites import Sites
-from scanbench.check.symbols import Symbol, around, roots
+from scanbench.check.symbols import Symbol, holding
 from scanbench.check.types import Elementary, Kind, Record, Section, Type, base_of
 from scanbench.problems import Span
 
@@ -33,7 +33,7 @@ class _Search:
     def __init__(self, program: Program, sites: Sites, symbol: Symbol) -> None:
         self._program, self._sites, self._symbol = program, sites, symbol
         self._begin, self._end = symbol.offset, symbol.offset + symbol.type.size
-        enclosing = list(_around(program, symbol.offset))
+        enclosing = list(holding(program, symbol.offset))
         self._instances = [each for each in enclosing if isinstance(each.type, Record)]
         mixed = any(isinstance(each.type, Record) and each.type.overlaps for each in self._instances)
         self._typed = symbol.address is None and not mixed
@@ -207,18 +207,3 @@ def _derived(type: Type, record: Record) -> bool:
             return True
         known = known.base
     return False
-
-
-def _around(program: Program, offset: int) -> Iterator[Symbol]:
-    """Everything that holds a byte of the image, from the outermost."""
-    ahead = list(roots(program))
-    while ahead:
-        inner = next((each for each in ahead if _holds(each, offset)), None)
-        if inner is None:
-            return
-        yield inner
-        ahead = around(inner, offset)
-
-
-def _holds(symbol: Symbol, offset: int) -> bool:
-    return not symbol.slots and symbol.address is None and symbol.offset <= offset < symbol.offset + symbol.type.size

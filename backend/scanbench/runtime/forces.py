@@ -17,7 +17,7 @@ from scanbench.check.values import format_value
 from scanbench.runtime.command import Command, Entry, Patch, Plan, Refusal, Restarted, Swapped, View
 from scanbench.runtime.journal import Fold
 from scanbench.runtime.rights import Right, may
-from scanbench.runtime.target import Meant, everywhere, find, meant, writable_target
+from scanbench.runtime.target import Meant, Naming, everywhere, find, meant, writable_target
 
 _ENTRY = struct.Struct("<IBBBB")
 _COUNT = struct.Struct("<I")
@@ -25,28 +25,15 @@ Known = TypeVar("Known")
 
 
 @dataclass(frozen=True, slots=True)
-class Force(Command):
+class Force(Naming):
     """Holds a variable or address at a value. A path through an in-out means a variable, as with `Write`: that is held, also
     when the block is called with another one from then on."""
 
-    path: str
-    value: str
-    through: str = ""
-    site: str = ""
-
-    def settled(self, view: View) -> Command:
-        """With the variable that is meant now."""
-        found = meant(view, self.path, self.site)
-        if not isinstance(found, Meant) or not found.through:
-            return self
-        return replace(self, path=found.path, through=found.through, site="")
-
     def plan(self, view: View) -> Plan | Refusal:
         """The new force table, and the value at once, so that a paused PLC shows it."""
-        if self.site:
-            found = meant(view, self.path, self.site)
-            if isinstance(found, Refusal):
-                return found
+        refusal = self.unsettled(view)
+        if refusal is not None:
+            return refusal
         patch = self.bits(view)
         if isinstance(patch, Refusal):
             return patch

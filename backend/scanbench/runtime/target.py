@@ -4,7 +4,7 @@ A path may lead through an in-out or a reference: `Main.fb1.level`. What is mean
 execution was given, so that is what a command names in the journal.
 """
 
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 
 from scanbench.check.bound import Copies, Copy, Image, Spot
 from scanbench.check.call_sites import Calls, CallSite, Formal, address, formal_of
@@ -13,8 +13,30 @@ from scanbench.check.program import Pou
 from scanbench.check.symbols import Symbol, UnknownPath, resolve
 from scanbench.check.types import Elementary, StringType, Subrange
 from scanbench.check.values import parse_value
-from scanbench.runtime.command import Patch, Refusal, View
+from scanbench.runtime.command import Command, Patch, Refusal, View
 from scanbench.runtime.rights import Right, may
+
+
+@dataclass(frozen=True, slots=True)
+class Naming(Command):
+    """A command about one variable; see `Write`."""
+
+    path: str
+    value: str
+    through: str = ""
+    site: str = ""
+
+    def settled(self, view: View) -> Command:
+        """With the variable that is meant now."""
+        found = meant(view, self.path, self.site)
+        if not isinstance(found, Meant) or not found.through:
+            return self
+        return replace(self, path=found.path, through=found.through, site="")
+
+    def unsettled(self, view: View) -> Refusal | None:
+        """Why the call that `site` names passes nothing that could be meant."""
+        found = meant(view, self.path, self.site) if self.site else None
+        return found if isinstance(found, Refusal) else None
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,39 +1,26 @@
 """Write: gives a variable or an address a value, once."""
 
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 
-from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
+from scanbench.runtime.command import Patch, Plan, Refusal, View
 from scanbench.runtime.forces import read_table
 from scanbench.runtime.rights import Right
-from scanbench.runtime.target import Meant, everywhere, meant, writable_target
+from scanbench.runtime.target import Naming, everywhere, writable_target
 
 
 @dataclass(frozen=True, slots=True)
-class Write(Command):
+class Write(Naming):
     """`value` as typed: TRUE, 42, 16#FF, T#5s, 1.5, 'text'.
 
     A path through an in-out means the variable that the block's last execution was given, or, with `site` (`Main.st:12`), what
     that call passes; the journal has the path of the variable, and the in-out in `through`.
     """
 
-    path: str
-    value: str
-    through: str = ""
-    site: str = ""
-
-    def settled(self, view: View) -> Command:
-        """With the variable that is meant now."""
-        found = meant(view, self.path, self.site)
-        if not isinstance(found, Meant) or not found.through:
-            return self
-        return replace(self, path=found.path, through=found.through, site="")
-
     def plan(self, view: View) -> Plan | Refusal:
         """The patch of the value's bytes, and of copies of them."""
-        if self.site:
-            found = meant(view, self.path, self.site)
-            if isinstance(found, Refusal):
-                return found
+        refusal = self.unsettled(view)
+        if refusal is not None:
+            return refusal
         target = writable_target(view, self.path, Right.WRITE, self.through)
         if isinstance(target, Refusal):
             return target

@@ -209,6 +209,9 @@ class Instance:
             case protocol.Entered():
                 self._memory.scan = max(self._memory.scan, message.entries[-1].scan)
                 self._on_message(message)
+            case protocol.Frame():
+                self._memory.scan = max(self._memory.scan, message.live_scan)
+                self._on_message(message)
             case protocol.Ready():
                 self._memory.sources = message.sources
                 if message.fresh:

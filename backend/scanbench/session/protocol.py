@@ -312,6 +312,8 @@ class Frame:
     """A value frame (`web/frames.py`), for all subscribers or for one."""
 
     data: bytes
+    live_scan: int
+    """Where the PLC was: what somebody saw is not lost with the process."""
     to: int | None = None
 
 

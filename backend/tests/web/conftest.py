@@ -10,3 +10,13 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
     """One server for all tests here; each test makes its own project and instance."""
     with Server(tmp_path_factory.mktemp("bench")) as server:
         yield server
+
+
+@pytest.fixture(autouse=True)
+def _switched_off(request: pytest.FixtureRequest) -> Iterator[None]:
+    """What a test let run does not weigh on those behind it."""
+    yield
+    if "server" in request.fixturenames:
+        server = request.getfixturevalue("server")
+        while server.made:
+            server.http.patch(f"/api/instances/{server.made.pop()}", json={"power": False})

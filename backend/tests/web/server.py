@@ -29,6 +29,8 @@ class Server:
 
     def __init__(self, data: Path) -> None:
         self.data = data
+        self.made: list[int] = []
+        """Instances that `instance` made and nobody switched off."""
         script = data / "serve_main.py"
         data.mkdir(parents=True, exist_ok=True)
         script.write_text(_MAIN)
@@ -58,7 +60,8 @@ class Server:
         project = self.project(name, model, **files)
         reply = self.http.post("/api/instances", json={"project": project, "name": name})
         assert reply.status_code == 201, reply.text
-        return int(reply.json()["id"])
+        self.made.append(int(reply.json()["id"]))
+        return self.made[-1]
 
     def project(self, name: str, model: str, **files: str) -> int:
         reply = self.http.post("/api/projects", json={"name": name, "model": model})

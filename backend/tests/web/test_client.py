@@ -69,8 +69,11 @@ def test_a_run_until_ends_where_the_condition_holds(plc: Plc) -> None:
     assert plc.state["state"] == "paused"
 
 
-def test_the_example_of_the_docs_runs(server: Server) -> None:
+def test_the_example_of_the_docs_runs(tmp_path: Path) -> None:
     page = (Path(__file__).parents[3] / "docs" / "scripts.md").read_text("utf-8")
     found = re.search(r"```python\n(.*?)```", page, re.DOTALL)
     assert found is not None
-    exec(found[1].replace("http://127.0.0.1:8700/?token=...", server.address), {})
+    with Server(tmp_path) as server:  # it leaves the sample paused
+        sample = connect(server.address).plc("line-1")
+        sample.run(scans=3)
+        exec(found[1].replace("http://127.0.0.1:8700/?token=...", server.address), {})

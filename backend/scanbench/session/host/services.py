@@ -102,7 +102,7 @@ class Services:
             case protocol.WantSnapshot():
                 header = self._resource.header
                 frame = self._plan.snapshot(self._resource.memory, header.scan, self._time_ns)
-                self._link.post(protocol.Frame(frame, message.to))
+                self._link.post(protocol.Frame(frame, self._timeline.live_scan, message.to))
             case protocol.PreviewErrors():
                 self._preview(message)
             case protocol.Attend():
@@ -132,7 +132,7 @@ class Services:
         if len(self._plan) and not self._link.backlogged:
             frame = self._plan.sample(self._resource.memory, header.scan, self._time_ns)
             if frame is not None:
-                self._link.post(protocol.Frame(frame))
+                self._link.post(protocol.Frame(frame, self._timeline.live_scan))
         state = self.state
         if state != self._last_state and (now >= self._state_at or self._differs(state)):
             self._last_state, self._state_at = state, now + COUNTING_NS

@@ -1,0 +1,262 @@
+"""What the parent and a job process say to each other about verification and about the past of a run.
+
+One process belongs to one verification: it re-runs the run file natively (the control device), runs the monitor beside it,
+and keeps the rows. All requests are answered in order, each with `Done`-like answers of its own; rows come as they are made.
+"""
+
+from dataclasses import dataclass
+
+from scanbench.session.protocol import Sources
+from scanbench.verify.findings import Changes, Divergence, RerunChange, Writer
+from scanbench.verify.verified import Column, Range, Row
+
+# ---- parent to job: a verification ---------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class BeginVerify:
+    """Opens the run file (read-only; its PLC may go on writing it). Answered with `VerifyBegun`."""
+
+    ref: int
+    run: str
+    range: Range
+    limit: int
+    """Uses of variables that are recorded of a scan."""
+    until: int
+    """Scans in front of this one are over."""
+    first: int
+    """The first scan that is wanted: columns are named for the program that ran then."""
+
+
+@dataclass(frozen=True, slots=True)
+class BeginTrace:
+    """As `BeginVerify`, for a trace of a real controller: the file as it was uploaded, and how its columns are meant (JSON of
+    `verify.mapping.TraceMapping`). Answered with `VerifyBegun`."""
+
+    ref: int
+    sources: Sources
+    file: str
+    name: str
+    mapping: str
+    range: Range
+    limit: int
+
+
+@dataclass(frozen=True, slots=True)
+class VerifyScans:
+    """Verifies scans `first` to `last`, both included, in order; what of them is not over when its turn comes is left out.
+    Answered with `ScansVerified` a few times a second, the last one with `done`. Between two scans newer requests are
+    looked at: `StopVerify` ends it at once."""
+
+    ref: int
+    first: int
+    last: int
+    until: int
+    """Scans in front of this one are over."""
+
+
+@dataclass(frozen=True, slots=True)
+class VerifyStep:
+    """Both sides at the statement of this count of a scan (0: the end of the scan in front of it), compared there. Answered
+    with `ScansVerified`, one row of kind `step`.
+
+    `entries` of the scan that is halted are in the run file already."""
+
+    ref: int
+    scan: int
+    count: int
+    until: int
+
+
+@dataclass(frozen=True, slots=True)
+class SetInputs:
+    """The monitor runs these passes again on edited inputs: (scan, call, column) -> value as typed; an empty text takes an
+    edit back. Answered with `ScansVerified` with the rows as they are now, or `VerifyRefused`."""
+
+    ref: int
+    edits: tuple[tuple[int, int, str, str], ...]
+
+
+@dataclass(frozen=True, slots=True)
+class UsesOf:
+    """The used-variable record of one pass. Answered with `UsesAre`."""
+
+    ref: int
+    scan: int
+    call: int
+
+
+@dataclass(frozen=True, slots=True)
+class StopVerify:
+    """What is under way ends behind the scan that runs. Not answered."""
+
+    ref: int
+
+
+# ---- job to parent -------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class VerifyBegun:
+    """The range is understood: how it reads for people, and the scans that are kept."""
+
+    ref: int
+    title: str
+    """`FB_Belt, lines 33 to 42`."""
+    instances: tuple[str, ...]
+    first: int
+    end: int
+    interval_ns: int
+    version: int
+    """Of the program."""
+
+
+@dataclass(frozen=True, slots=True)
+class VerifyRefused:
+    """Why not, and what to do."""
+
+    ref: int
+    message: str
+    near: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class ScansVerified:
+    """Rows, in order, those of a scan all in one message; `scan` is the last one that is verified."""
+
+    ref: int
+    scan: int
+    compared: int
+    """Scans since the last message."""
+    rows: tuple[Row, ...]
+    columns: tuple[Column, ...]
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+    used: int
+    done: bool = False
+    message: str = ""
+    """Why it ended before its last scan."""
+
+
+@dataclass(frozen=True, slots=True)
+class UseRow:
+    """See `verified.Use`."""
+
+    name: str
+    written: bool
+    control: bytes | None
+    monitor: bytes | None
+    file: str
+    line: int
+    instance: str
+
+
+@dataclass(frozen=True, slots=True)
+class UsesAre:
+    """The used-variable record, in the order of use."""
+
+    ref: int
+    uses: tuple[UseRow, ...]
+
+
+# ---- the past: one job process of an instance answers all of these -------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class FindWriter:
+    """Who last wrote a variable before `scan` began. Answered with `WriterFound`."""
+
+    ref: int
+    run: str
+    path: str
+    scan: int
+    until: int
+    """Scans in front of this one are over, here and below."""
+
+
+@dataclass(frozen=True, slots=True)
+class WriterFound:
+    """Who, or why that cannot be told."""
+
+    ref: int
+    writer: Writer | None
+    message: str = ""
+    near: tuple[str, ...] = ()
+
+
+@dataclass(frozen=True, slots=True)
+class FindChanges:
+    """What is another at the beginning of scan `last` than at that of scan `first`; with `other`, a second run file: what is
+    another in that at `last` than in `run` at `first`. Answered with `ChangesFound`."""
+
+    ref: int
+    run: str
+    first: int
+    last: int
+    until: int
+    other: str = ""
+    other_until: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class ChangesFound:
+    """What, or why that cannot be told."""
+
+    ref: int
+    changes: Changes | None
+    message: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class CompareRuns:
+    """Two run files scan by scan, in as far as both go. Answered with `PastAt` a few times a second, then `RunsCompared`."""
+
+    ref: int
+    run: str
+    other: str
+    until: int
+    other_until: int
+
+
+@dataclass(frozen=True, slots=True)
+class PastAt:
+    """How far it is."""
+
+    ref: int
+    done: int
+    of: int
+    """Scans."""
+
+
+@dataclass(frozen=True, slots=True)
+class RunsCompared:
+    """Where they part, or why they cannot be compared."""
+
+    ref: int
+    divergence: Divergence | None
+    message: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class RerunRun:
+    """The run once more with one thing another, up to scan `until`, into a new run file. Answered with `PastAt` a few times a
+    second, then `RerunDone`."""
+
+    ref: int
+    run: str
+    to: str
+    change: RerunChange
+    until: int
+    author: str
+
+
+@dataclass(frozen=True, slots=True)
+class RerunDone:
+    """The file is there, or why not. `refused`: commands that were not taken this time, and why."""
+
+    ref: int
+    ok: bool
+    scan: int
+    """The file ends in front of it."""
+    refused: tuple[str, ...] = ()
+    message: str = ""

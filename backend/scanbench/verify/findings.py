@@ -1,0 +1,107 @@
+"""The contract of questions about the past of a run: who wrote this, what changed, where two runs part, what if."""
+
+from dataclasses import dataclass
+from typing import Literal
+
+from scanbench.verify.verified import Place
+
+MAX_CHANGES = 5000
+"""Variables that are listed; how many there are is told in any case."""
+
+
+@dataclass(frozen=True, slots=True)
+class Writer:
+    """The last write of a variable before a moment."""
+
+    path: str
+    """The variable that is meant, behind in-outs."""
+    by: Literal["program", "command", "plc", "start"]
+    """program: a statement. command: somebody, or an armed fault. plc: the PLC itself (system words, plant, input refresh).
+    start: nobody wrote it since the first scan that is kept."""
+    scan: int
+    """In which it was written; a command's is the scan in front of which it was entered."""
+    count: int
+    """Of a statement: the position in front of it (`engines.debug`); else 0."""
+    place: Place | None
+    author: str
+    """Of a command."""
+    text: str
+    """For people: `Main.st:31, Main.belt[3]: speed := LIMIT(...)`, `Write by Ada: Main.level := 7`."""
+    value: bytes
+    """What stands there behind the write."""
+    shown: str
+    """The value as text."""
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """A variable, or an address without one, that is another."""
+
+    path: str
+    type: str
+    kind: str
+    size: int
+    values: tuple[tuple[str, int], ...]
+    before: bytes
+    after: bytes
+    before_shown: str
+    after_shown: str
+
+
+@dataclass(frozen=True, slots=True)
+class Changes:
+    """What changed between two moments."""
+
+    first: int
+    last: int
+    changes: tuple[Change, ...]
+    count: int
+    """So many there are, those that found no room included."""
+    entries: tuple[tuple[int, str, str], ...]
+    """What was entered in between: scan, author, text; of two runs none."""
+    note: str = ""
+    """That the program changed in between, say: then variables are compared by their names."""
+
+
+@dataclass(frozen=True, slots=True)
+class Divergence:
+    """Where two runs part first."""
+
+    compared: int
+    """Scans, from the first one that both keep."""
+    first: int
+    last: int
+    """The scans that were compared."""
+    scan: int | None
+    """The first scan behind which anything is another; None: the same, as far as both go."""
+    cause: Literal["", "command", "program", "start"]
+    """command: something was entered in one of them only, or something else. program: another program runs. start: they are
+    different where they begin."""
+    text: str
+    """One sentence: the scan, the task, the variable, why."""
+    place: Place | None
+    """The statement that wrote the first variable which is another, where that is known."""
+    changes: Changes | None
+    """All variables that are another behind that scan."""
+    entries: tuple[tuple[int, str, str, str], ...]
+    """Commands that only one of them has, up to there and a few behind: scan, `A` or `B`, author, text."""
+    marks: tuple[tuple[int, int], ...] = ()
+    """Stretches of scans in which they differ, for a timeline: at most 200, joined where there are more."""
+
+
+@dataclass(frozen=True, slots=True)
+class RerunChange:
+    """What is to be another this time: an error that was raised, raised earlier or later, or another one instead of it, or not
+    at all. What else was entered is entered again as commands, planned anew."""
+
+    scan: int
+    """In front of which the error was raised, in the original."""
+    error: str
+    """Its id."""
+    by: int = 0
+    """So many scans later; negative: earlier. Its recovery and whatever an armed fault does move with it."""
+    instead: str = ""
+    """Id of another error; empty: the same."""
+    leave_out: bool = False
+    behind: int = 0
+    """So many scans it goes on behind the end of the original."""

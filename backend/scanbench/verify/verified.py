@@ -1,0 +1,175 @@
+"""The contract of verification: what is compared, and what came out.
+
+The *control device* ran the program (native code, perhaps disturbed; or a real controller, of which there is a trace), the
+*monitor* runs the same program a second time, on the inputs that the control device really used. `A` is what the control
+device came to, `A'` what the monitor came to.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass, field
+from typing import Literal
+
+Memory = Literal["recorded", "set"]
+"""What the monitor runs on: the inputs of the control device, or a copy of them that somebody has edited."""
+RowKind = Literal["pass", "scan", "step", "none"]
+"""A run through the range; a whole scan; one statement (pace step by step); the range did not run in this scan."""
+Cause = Literal["logic", "input", "order", "trap", "outside", "recorded"]
+"""logic: the same inputs gave another result. input: a value that nobody wrote since it was right (a disturbance between two
+scans, or of an input refresh). order: another statement ran, or another variable was used. trap: one of them ended by a
+run-time error. outside: a variable that the range does not use. recorded: code that ran live came to something else than
+the same code run again (the run file's checkpoint differs)."""
+
+DEFAULT_LIMIT = 4096
+"""Uses of variables that are recorded in a scan, unless somebody wants another limit."""
+MAX_LIMIT = 1_000_000
+MAX_COLUMNS = 400
+
+
+class BadRange(ValueError):
+    """No such stretch of the program; the message says what there is. `near` was perhaps meant."""
+
+    def __init__(self, message: str, near: tuple[str, ...] = ()) -> None:
+        super().__init__(message)
+        self.near = near
+
+
+@dataclass(frozen=True, slots=True)
+class Range:
+    """A stretch of one POU, as it was asked for. Neither file nor POU: the whole scan."""
+
+    pou: str = ""
+    """Name of a PROGRAM, FUNCTION_BLOCK, FUNCTION or method (`FB.method`); empty: the POU in which the lines of `file` stand."""
+    file: str = ""
+    first: int = 0
+    """Line of the file, counted from 1; 0: from the POU's first statement."""
+    last: int = 0
+    """Included; 0: to the POU's last statement."""
+    instance: str = ""
+    """Path of the only instance that counts; empty: all of them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Column:
+    """A variable that the range reads or writes. Of a function block or method the name is that inside of it (`speed`,
+    `zone.parts` behind an in-out), so rows of several instances share the column; else it is a path or an address."""
+
+    name: str
+    type: str
+    kind: str
+    """As in the watch table: bool, int, uint, real, bits, time, date, string, enum, ..."""
+    size: int
+    """Bytes of a value."""
+    values: tuple[tuple[str, int], ...] = ()
+    """Names of an enumeration's numbers."""
+
+
+@dataclass(frozen=True, slots=True)
+class Place:
+    """Where in the program something happened."""
+
+    task: str
+    instance: str
+    """Instance path of the POU that ran: `Main.belt[3]`; of a FUNCTION its name."""
+    pou: str
+    file: str
+    line: int
+    text: str = ""
+    """The source line, trimmed."""
+
+
+@dataclass(frozen=True, slots=True)
+class Output:
+    """What was written: the last value in the pass. None: that side did not write it."""
+
+    control: bytes | None
+    monitor: bytes | None
+    """A' on the recorded inputs."""
+    set: bytes | None = None
+    """A' on edited inputs, where somebody has edited any of this row and the monitor ran on them."""
+
+
+@dataclass(frozen=True, slots=True)
+class Input:
+    """What was read before the pass wrote it."""
+
+    recorded: bytes
+    expected: bytes | None = None
+    """What the monitor would have read by itself, when that is something else: a disturbed input."""
+    set: bytes | None = None
+    """What somebody has edited it to."""
+
+
+@dataclass(frozen=True, slots=True)
+class Mismatch:
+    """The first place where control and monitor part, or a byte that nobody should have changed."""
+
+    cause: Cause
+    name: str
+    """The column, or the path or address of the variable."""
+    control: bytes
+    """A, `was` for people; empty where it did nothing."""
+    monitor: bytes
+    """A'."""
+    place: Place | None
+    message: str
+    """One sentence: `Main.belt[3].speed is 536, the reference gives 600, at FB_Belt.st:34 in scan 128388`."""
+    type: str = ""
+    kind: str = ""
+    size: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Row:
+    """One line of the table."""
+
+    kind: RowKind
+    scan: int
+    call: int = 0
+    """Which run through the range it is in this scan, from 1; 0 where that means nothing."""
+    count: int = 0
+    """Of a step: the count of the statement that is next (`engines.debug`)."""
+    instance: str = ""
+    place: Place | None = None
+    """Of a step: its statement."""
+    outputs: Mapping[str, Output] = field(default_factory=dict)
+    inputs: Mapping[str, Input] = field(default_factory=dict)
+    """By the names of columns, both in the order of use."""
+    differences: tuple[Mismatch, ...] = ()
+    disturbances: tuple[str, ...] = ()
+    """What was injected in this scan, for people: `Memory D120, bit 0`."""
+    used: int = 0
+    """Uses of variables, the ones that found no room included."""
+    note: str = ""
+    """`record full: 4,096 of 5,120 uses kept`, `not run in this scan`, `ended by a run-time error: ...`."""
+
+    @property
+    def differs(self) -> bool:
+        """Whether anything is not as it should be."""
+        return bool(self.differences)
+
+
+@dataclass(frozen=True, slots=True)
+class Use:
+    """One entry of the used-variable record."""
+
+    name: str
+    written: bool
+    control: bytes | None
+    monitor: bytes | None
+    place: Place
+
+
+@dataclass(frozen=True, slots=True)
+class ScanVerified:
+    """What came of one scan."""
+
+    scan: int
+    rows: tuple[Row, ...]
+    columns: tuple[Column, ...]
+    """New ones, in the order of their first use."""
+    inputs: tuple[str, ...] = ()
+    """Names that were inputs for the first time."""
+    outputs: tuple[str, ...] = ()
+    """Names that were outputs for the first time."""
+    used: int = 0
+    """The most uses of a row."""

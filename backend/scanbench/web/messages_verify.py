@@ -1,0 +1,319 @@
+"""Wire shapes of verification. Bytes of values are hex, as they lie in the image: `5802` is INT 600; null: there is none.
+
+What it means is said in `verify/verified.py`; rows, columns and cells have the same names there.
+"""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from scanbench.web.messages_base import Id, Scan, Wire
+
+VerifyState = Literal["starting", "verifying", "waiting", "stopped", "done", "failed"]
+"""verifying: scans are compared. waiting: for the user (paces scan and step), or for the PLC's next scan. stopped: by
+somebody. done: all the scans that were asked for. failed: `message` says why."""
+VerifyPace = Literal["free", "scan", "step"]
+VerifyMemory = Literal["recorded", "set"]
+Hex = str
+Limit = Annotated[int, Field(ge=1, le=1_000_000)]
+Text = Annotated[str, Field(max_length=200)]
+
+
+class VerifyRange(Wire):
+    """A stretch of one POU; all empty: the whole scan."""
+
+    pou: Text = Field(default="", description="name of a POU, or FB.method; empty: the one in which the lines of `file` stand")
+    file: Text = ""
+    first: int = Field(default=0, ge=0, le=10_000_000, description="line, from 1; 0: from the POU's first statement")
+    last: int = Field(default=0, ge=0, le=10_000_000, description="included; 0: to its last statement")
+    instance: Text = Field(default="", description="the only instance that counts; empty: all")
+
+
+class NewVerification(Wire):
+    range: VerifyRange = VerifyRange()
+    pace: VerifyPace = "free"
+    first: Scan | None = Field(default=None, description="a past stretch; null: live, from the scan that is next")
+    last: Scan | None = Field(default=None, description="included; null with `first`: to the scan that was over last")
+    limit: Limit = Field(default=4096, description="uses of variables that are recorded of a scan")
+
+
+class NewTraceVerification(Wire):
+    """A trace of a real controller as the control device; the file is uploaded before, see `UploadedTrace`."""
+
+    file: str = Field(min_length=1, max_length=80, description="as `UploadedTrace.file`")
+    mapping: "TraceMapping"
+    range: VerifyRange = VerifyRange()
+    limit: Limit = 4096
+
+
+class VerifyColumn(Wire):
+    name: str
+    type: str
+    kind: str
+    size: int
+    values: list[tuple[str, int]]
+    output: bool = Field(description="written in some row")
+    input: bool = Field(description="read before it was written, in some row")
+
+
+class VerifyPlace(Wire):
+    task: str
+    instance: str
+    pou: str
+    file: str
+    line: int
+    text: str
+
+
+class VerifyOutput(Wire):
+    control: Hex | None
+    monitor: Hex | None
+    set: Hex | None
+
+
+class VerifyInput(Wire):
+    recorded: Hex
+    expected: Hex | None
+    set: Hex | None
+
+
+class VerifyDifference(Wire):
+    cause: Literal["logic", "input", "order", "trap", "outside", "recorded"]
+    name: str
+    control: Hex
+    monitor: Hex
+    place: VerifyPlace | None
+    message: str
+    type: str
+    kind: str
+    size: int
+
+
+class VerifyRow(Wire):
+    index: int = Field(description="of all rows, from 0; those that were forgotten keep theirs")
+    kind: Literal["pass", "scan", "step", "none"]
+    scan: int
+    call: int
+    count: int
+    instance: str
+    place: VerifyPlace | None
+    outputs: dict[str, VerifyOutput]
+    inputs: dict[str, VerifyInput]
+    differences: list[VerifyDifference]
+    disturbances: list[str]
+    used: int
+    note: str
+
+
+class VerifyRows(Wire):
+    """Rows `first` and on, as many as were asked for, with all columns."""
+
+    columns: list[VerifyColumn]
+    rows: list[VerifyRow]
+    first: int = Field(description="index of the first row that is kept")
+    count: int = Field(description="rows that there were; the last has index `count` - 1")
+    differing: list[int] = Field(description="indices of rows that differ, at most 10,000")
+
+
+class VerificationInfo(Wire):
+    """How a verification stands. Everybody at the PLC sees the same."""
+
+    id: int
+    by: str
+    title: str
+    range: VerifyRange
+    source: Literal["live", "past", "trace"]
+    trace: str = Field(description="name of the trace's file")
+    pace: VerifyPace
+    auto: bool = Field(description="paces scan and step: goes on by itself")
+    memory: VerifyMemory
+    state: VerifyState
+    message: str
+    instances: list[str]
+    limit: int
+    first: int = Field(description="the first scan that is, or was, to be verified")
+    last: int | None = Field(description="the last one; null: as long as it runs")
+    scan: int | None = Field(description="verified last")
+    compared: int = Field(description="scans")
+    skipped: int
+    stretches: list[tuple[int, int]] = Field(description="the skipped scans, the last 100 stretches, both ends included")
+    differing: int = Field(description="rows that differ")
+    first_difference: VerifyDifference | None
+    first_scan: int | None = Field(description="scan of the first difference")
+    rows: int
+    forgotten: int = Field(description="rows at the front that found no room any more")
+    used: int = Field(description="the most uses of a row")
+    generation: int = Field(description="another one when rows that were told are others now")
+
+
+class Verifications(Wire):
+    """All verifications of the instance, whenever one changes, and a few times a second while one goes on."""
+
+    type: Literal["verifications"] = "verifications"
+    verifications: list[VerificationInfo]
+
+
+class DriveVerification(Wire):
+    """What is null stays as it is. `go_on`: one scan or statement further (paces scan and step)."""
+
+    pace: VerifyPace | None = None
+    auto: bool | None = None
+    memory: VerifyMemory | None = None
+    action: Literal["go_on", "stop", "resume"] | None = None
+
+
+class SetCell(Wire):
+    scan: Scan
+    call: int = Field(ge=0, le=1_000_000)
+    column: str = Field(min_length=1, max_length=500)
+    value: str = Field(max_length=500, description="as typed in the watch table; empty takes the edit back")
+
+
+class SetCells(Wire):
+    cells: list[SetCell] = Field(min_length=1, max_length=10_000)
+
+
+class VerifyUse(Wire):
+    name: str
+    written: bool
+    control: str | None = Field(description="as text")
+    monitor: str | None
+    file: str
+    line: int
+    instance: str
+
+
+class KeepVerification(Wire):
+    name: str = Field(min_length=1, max_length=100)
+
+
+class VerificationRecord(Wire):
+    """A verification that was kept in the project."""
+
+    id: int
+    project: int
+    name: str
+    instance: str
+    by: str
+    at: str
+    program_version: int
+    info: VerificationInfo
+
+
+# ---- disturbances ----------------------------------------------------------------------------------------------------
+
+
+class NewDisturbance(Wire):
+    """flip: one bit of memory. late: an input refresh comes so many scans late (1: it is lost). stuck: an input stays as it is.
+    result: what a statement writes has bits turned over."""
+
+    kind: Literal["flip", "late", "stuck", "result"]
+    path: str = Field(default="", max_length=500, description="variable or address; empty with late, stuck: all inputs")
+    bit: int | None = Field(default=None, ge=0, le=1023, description="flip, result: which bit; null: any, by the seed")
+    site: str = Field(default="", max_length=300, description="result: `Main.st:34`")
+    scan: Scan | None = Field(default=None, description="in which scan; null with probability 0: the next one")
+    probability: float = Field(default=0, ge=0, le=1, description="of each scan, from `scan` on; 0: once")
+    seed: int = Field(default=0, ge=0, lt=1 << 63)
+    scans: int = Field(default=1, ge=1, le=1_000_000, description="late, stuck: how long; stuck with 1,000,000: until taken back")
+    times: int = Field(default=0, ge=0, le=1_000_000, description="with a probability: at most so often; 0: for ever")
+
+
+class Disturb(Wire):
+    """Disturbs the PLC; the journal keeps it."""
+
+    type: Literal["disturb"] = "disturb"
+    ref: int
+    disturbance: NewDisturbance
+
+
+class Calm(Wire):
+    """Takes disturbances back; null is all."""
+
+    type: Literal["calm"] = "calm"
+    ref: int
+    ids: list[Id] | None
+
+
+class DisturbanceInfo(Wire):
+    id: int
+    text: str = Field(description="for people: `Memory D120, bit 0, once in scan 500`")
+    kind: Literal["flip", "late", "stuck", "result"]
+    by: str
+    state: Literal["waiting", "active"]
+    fired: int = Field(description="how often until now")
+    next_scan: int | None
+
+
+class Disturbances(Wire):
+    """Those that are not over, whenever they change."""
+
+    type: Literal["disturbances"] = "disturbances"
+    disturbances: list[DisturbanceInfo]
+
+
+# ---- traces of real controllers --------------------------------------------------------------------------------------
+
+Role = Literal["input", "output", "ignore"]
+
+
+class TraceColumnMap(Wire):
+    column: str = Field(max_length=500, description="as the file names it")
+    path: str = Field(default="", max_length=500, description="variable or address of the project")
+    role: Role
+
+
+class TraceMapping(Wire):
+    """How a trace file is meant; see docs/trace-format.md."""
+
+    axis: str = Field(default="", max_length=500, description="column with scan or time; empty: a row is a scan")
+    unit: Literal["scan", "ns", "us", "ms", "s"] = "scan"
+    gaps: Literal["refuse", "skip", "hold"] = Field(
+        default="refuse", description="scans that are missing: refuse the file, compare nothing there and begin anew, or hold the values"
+    )
+    columns: list[TraceColumnMap] = Field(max_length=1000)
+
+
+class TraceProblem(Wire):
+    row: int | None = Field(description="line of a CSV file, index in a JSON file; null: the file as a whole")
+    column: str
+    message: str
+
+
+class UploadedTrace(Wire):
+    """A trace file that the server has read; nothing is kept of one that has problems."""
+
+    file: str = Field(description="handle for NewTraceVerification, good for an hour")
+    name: str
+    columns: list[str]
+    rows: int
+    sample: list[list[str]] = Field(description="the first rows, as text")
+    mapping: TraceMapping = Field(description="a proposal: a saved mapping that fits, else by names")
+    problems: list[TraceProblem]
+
+
+class CheckTraceMapping(Wire):
+    file: str = Field(min_length=1, max_length=80)
+    mapping: TraceMapping
+
+
+class TraceMappingChecked(Wire):
+    ok: bool
+    problems: list[TraceProblem] = Field(description="the first 200")
+    first: int | None = Field(description="scans `first` to `last`")
+    last: int | None
+    missing: int = Field(description="scans in between that the file does not have")
+
+
+class SavedMapping(Wire):
+    id: int
+    name: str
+    by: str
+    mapping: TraceMapping
+
+
+class SaveMapping(Wire):
+    name: str = Field(min_length=1, max_length=100)
+    mapping: TraceMapping
+
+
+NewTraceVerification.model_rebuild()
