@@ -6,7 +6,8 @@ const backend = process.env.SCANBENCH_URL ?? "http://127.0.0.1:8765";
 
 export default defineConfig({
   plugins: [react()],
-  base: "./",
+  // The page also stands at `/i/3/scan/4711`: what it needs is at the root.
+  base: "/",
   build: {
     // Monaco is one chunk of 4 MB by nature; it is loaded after the shell has painted.
     chunkSizeWarningLimit: 5000,

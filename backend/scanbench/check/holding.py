@@ -43,8 +43,9 @@ class Holders:
     Variables of programs and outputs of the user's blocks are always named: people and panels look at them by their paths.
     """
 
-    def __init__(self, program: Program) -> None:
-        self._layout = program.layout
+    def __init__(self, program: Program, every: bool = False) -> None:
+        """`every`: all that the user declared, and the outputs of the library's blocks, whether anything reads it or not."""
+        self._layout, self._every = program.layout, every
         self._reads = Reads(program)
         self._library = {pou.instance.name for pou in program.pous if in_library(pou.span)}
         every = [*_SYSTEM, *roots(program)]
@@ -97,6 +98,9 @@ class Holders:
                 elif inside.block:
                     yield Held(symbol, inside.block)
             return
+        if self._every:
+            yield from self._each(symbol, offset, mask)
+            return
         inside = self._into(symbol, inside)
         of_block = symbol.type.kind is Kind.BLOCK and symbol.section != "PROGRAM"
         for each in around(symbol, offset):
@@ -106,6 +110,14 @@ class Holders:
                 continue
             private = inside.private or (of_block and each.section == Section.VAR)
             yield from self._down(each, offset, mask, inside._replace(private=private))
+
+    def _each(self, symbol: Symbol, offset: int, mask: int) -> Iterator[Held]:
+        of_library = isinstance(symbol.type, Record) and symbol.type.name in self._library
+        for each in around(symbol, offset):
+            if each.slots or _in_area(each) or "$" in each.name:
+                continue
+            if not of_library or each.section == Section.OUTPUT:
+                yield from self._down(each, offset, mask, _Inside())
 
     def _into(self, symbol: Symbol, inside: _Inside) -> _Inside:
         """What is known of the members of a block or structure; of the elements of an array as much as of it."""

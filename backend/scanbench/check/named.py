@@ -57,7 +57,7 @@ def _paths(program: Program, place: Spot, type: Type) -> Iterator[str]:
     offset, bit = place
     found = program.layout.area_at(offset)
     if found is not None:
-        for each in _located(program):
+        for each in located(program):
             if each.offset <= offset < each.offset + each.type.size and (each.bit is None or each.bit == bit):
                 yield from _below(each, place, type)
         area, byte = found
@@ -89,8 +89,8 @@ def _below(symbol: Symbol, place: Spot, type: Type) -> Iterator[str]:
             yield from _below(inner, place, type)
 
 
-def _located(program: Program) -> Iterator[Symbol]:
-    """The variables at addresses of the model."""
+def located(program: Program) -> Iterator[Symbol]:
+    """The declared variables at addresses of the model."""
     known: dict[int, bool] = {}
     ahead = list(roots(program))[::-1]
     while ahead:

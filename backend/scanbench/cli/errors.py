@@ -11,6 +11,7 @@ import typer
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
 from scanbench.cli.inputs import below, find_model, find_model_named, problem_json, read_sources, usage
+from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.run_options import read_interval
 from scanbench.cli.sweep_states import START, BadStates, FromRun, State, read_states, run_state
 from scanbench.engines.observe import MakeObserved
@@ -134,7 +135,7 @@ def sweep_errors(
     effect), or the program does not compile; 2: wrong usage.
     """
     for path in filter(None, (junit, html)):
-        _must_be_writable(path)
+        must_be_writable(path)
     sources = read_sources([project])
     plc = find_model(model, sources)
     given = Sources(plc.name, below(project, sources.texts), read_interval(interval), _VERSION)
@@ -150,9 +151,9 @@ def sweep_errors(
     unhandled = result.unhandled(severities)
     _tell(result, unhandled, as_json)
     if junit is not None:
-        _write(junit, sweep_junit(result, severities))
+        write_text(junit, sweep_junit(result, severities))
     if html is not None:
-        _write(html, sweep_page(result, iso(wall_time())))
+        write_text(html, sweep_page(result, iso(wall_time())))
     raise typer.Exit(1 if unhandled else 0)
 
 
@@ -267,21 +268,3 @@ def _read_outcomes(path: Path) -> list[Outcome]:
         return outcomes_in(told)
     except ValueError as error:
         usage(f"{path}: {error}")
-
-
-def _must_be_writable(path: Path) -> None:
-    """Before anything is computed: nobody waits for a sweep whose report has no place."""
-    new = not path.exists()
-    try:
-        path.open("ab").close()
-        if new:
-            path.unlink()
-    except OSError as error:
-        usage(f"{path} cannot be written: {error.strerror}")
-
-
-def _write(path: Path, text: str) -> None:
-    try:
-        path.write_text(text, "utf-8")
-    except OSError as error:
-        usage(f"{path} cannot be written: {error.strerror}")

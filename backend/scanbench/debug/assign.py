@@ -11,7 +11,7 @@ from scanbench.check.values import format_value
 from scanbench.debug.called import called
 from scanbench.engines.interpreter.evaluate import Evaluator, NoValue
 from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
-from scanbench.runtime.forces import read_table
+from scanbench.runtime.forces import forced_table
 from scanbench.runtime.rights import Right, may
 from scanbench.runtime.target import everywhere
 
@@ -102,7 +102,7 @@ def refused(view: View, spot: Spot, type: Type, shown: str) -> Refusal | None:
     if found is not None and found[0].access(found[1] // 2, "tool") != "write":
         where = called(view.program, offset, bit, type)
         return Refusal(f"{shown}: {where} is read-only for tools on {view.model.name}, as on the device")
-    table = read_table(view.memory)
+    table = forced_table(view)
     one = 1 << bit if bit is not None else 0xFF
     size = 1 if bit is not None else type.size
     if any(table.get(at, (0, 0))[0] & one for at in range(offset, offset + size)):

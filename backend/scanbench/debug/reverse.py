@@ -91,10 +91,11 @@ class Search:
 
     def __init__(
         self, timeline: Timeline, breakpoints: Breakpoints, wanted: Sequence[Breakpoint], here: Position,
-        prober: Prober | None, raised: Raised,
+        prober: Prober | None, raised: Raised, first: int = 0,
     ) -> None:  # fmt: skip
+        """Scans in front of `first` are not looked at."""
         self._timeline, self._breakpoints, self._wanted, self._here = timeline, breakpoints, wanted, here
-        self._prober, self._raised = prober, raised
+        self._prober, self._raised, self._first = prober, raised, first
         self._probed: dict[Loaded, ProbedEngine | None] = {}
         self._sound, self._flaw = False, ""
         """Whether any program has a meaning for them; why one has not."""
@@ -103,7 +104,7 @@ class Search:
     def run(self) -> Noted | Refusal | None:
         """Where, and what; None: nowhere."""
         recorded = self._recorded()
-        found = self._search(recorded.position[0] if recorded is not None else 0)
+        found = self._search(recorded.position[0] if recorded is not None else self._first)
         if found is None and recorded is None:
             return Refusal(self._flaw) if self._flaw and not self._sound else None
         if isinstance(found, Refusal) or recorded is None:
@@ -243,10 +244,10 @@ def search(
         return noted
     if noted is None:
         return Refusal(f"that did not happen since scan {timeline.recording.first_scan}, the first one that is kept")
-    return timeline.goto(*_in_front(timeline, noted)) or noted.found
+    return timeline.goto(*in_front(timeline, noted)) or noted.found
 
 
-def _in_front(timeline: Timeline, noted: Noted) -> Position:
+def in_front(timeline: Timeline, noted: Noted) -> Position:
     """The position in front of a statement that made an access."""
     scan, count = noted.position
     if noted.writer is None or timeline.goto(scan, 1) is not None:

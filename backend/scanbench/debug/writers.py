@@ -24,7 +24,7 @@ from scanbench.problems import Span
 
 def writers(program: Program, sites: Sites, symbol: Symbol) -> frozenset[int] | None:
     """The sites; None when nothing can be said, as where it lies changes while the program runs."""
-    if symbol.slots or symbol.bit is not None:
+    if symbol.slots:
         return None
     return _Search(program, sites, symbol).found()
 
@@ -36,7 +36,7 @@ class _Search:
         enclosing = list(holding(program, symbol.offset))
         self._instances = [each for each in enclosing if isinstance(each.type, Record)]
         mixed = any(isinstance(each.type, Record) and each.type.overlaps for each in self._instances)
-        self._typed = symbol.address is None and not mixed
+        self._typed = symbol.address is None and symbol.bit is None and not mixed
         self._passed: bool | None = None
 
     def found(self) -> frozenset[int]:

@@ -59,6 +59,8 @@ class Listen:
     """When the statement of this count is to begin; 0: none."""
     bytes: Mapping[int, int] = field(default_factory=dict)
     """Byte offset (anywhere in the image) -> READ | WRITE: which accesses of the user's program are told."""
+    accesses: int = 0
+    """READ | WRITE: which accesses are told, whatever their bytes are."""
 
 
 NOTHING = Listen()
@@ -90,6 +92,11 @@ class DebugEngine(Engine):
     @abstractmethod
     def listen(self, listen: Listen) -> None:
         """What the hook is called for from now on, at once when it is called from the hook."""
+
+    @property
+    @abstractmethod
+    def bits(self) -> int:
+        """While the hook's `access` is called: the bits of its one byte that it is about; 0xFF where it is about whole bytes."""
 
     @property
     @abstractmethod

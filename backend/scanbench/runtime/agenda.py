@@ -9,6 +9,7 @@ from typing import Protocol
 from scanbench.check.condition import Condition
 from scanbench.engines.observe import Observed
 from scanbench.runtime.command import Command, Refusal, View
+from scanbench.runtime.inside import Insider
 from scanbench.runtime.programs import Loaded
 
 
@@ -21,6 +22,8 @@ class Waits:
     conditions: tuple[Condition, ...] = ()
     sites: frozenset[int] = frozenset()
     """Statements (`check.sites`): while there are any, the run comes back after every scan."""
+    inside: Insider | None = None
+    """Who enters something inside of the scan that is next: that one runs alone, in the debug flavour."""
 
 
 @dataclass(frozen=True, slots=True)

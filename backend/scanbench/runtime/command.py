@@ -67,7 +67,25 @@ class Numbered:
     number: int
 
 
-Effect = Restarted | Swapped | Numbered
+@dataclass(frozen=True, slots=True)
+class Held:
+    """Bits of the image stay as they are, whatever inputs or the program say, until they are `Freed`: a disturbed input.
+    They stand in the force table, and are nobody's force (`runtime.holds`)."""
+
+    number: int
+    """By which they are freed."""
+    spots: tuple[tuple[int, int, int], ...]
+    """Offset, mask, value."""
+
+
+@dataclass(frozen=True, slots=True)
+class Freed:
+    """What was held by these numbers is not any more."""
+
+    numbers: tuple[int, ...]
+
+
+Effect = Restarted | Swapped | Numbered | Held | Freed
 """What a plan does that no patch can say."""
 
 
@@ -122,8 +140,8 @@ class Entry:
     command: Command
     plan: Plan
     step: int = 0
-    """Applied in front of the statement of this count of the scan (`engines.debug`); 0 is the seam. Such a plan has
-    patches only, and may reach temporaries behind `Layout.state_size`."""
+    """Applied in front of the statement of this count of the scan (`engines.debug`); 0 is the seam; one more than there are:
+    behind the last one. Such a plan has patches only, and may reach temporaries behind `Layout.state_size`."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -119,14 +119,14 @@ def read_state(file: RunFile, checkpoint: Checkpoint, size: int) -> bytes:
     return base if checkpoint.whole else delta(other, base)
 
 
-def read_contents(file: RunFile, codec: Codec) -> Contents:
+def read_contents(file: RunFile, codec: Codec) -> "Reader":
     """Reads it up to where it is damaged; `RunFileError` when that does not leave enough, or cannot be understood."""
-    reader: _Reader | None = None
+    reader: Reader | None = None
     for block in file.scan_blocks():
         if reader is not None:
             reader.take(block)
         elif block.kind is Kind.ABOUT:
-            reader = _Reader(file, codec, _read_about(file, block))
+            reader = Reader(file, codec, _read_about(file, block))
         else:
             break
     if reader is None:
@@ -135,18 +135,26 @@ def read_contents(file: RunFile, codec: Codec) -> Contents:
         raise RunFileError(
             f"{file.path.name} is damaged before its first checkpoint: nothing of the run can be recovered"
         )
-    return reader.found
+    return reader
 
 
-class _Reader:
+class Reader:
     """Takes one block after the other."""
 
     def __init__(self, file: RunFile, codec: Codec, about: About) -> None:
         self.found = Contents(about)
         self._file, self._codec = file, codec
+        self._entries = 0
         self._base: Block | None = None
         self._version = self._scan = 0
         self._left = _UNPACKED
+
+    def read_on(self) -> list[Entry]:
+        """Takes the blocks that were appended since; the entries among them."""
+        self.found.entries = []
+        for block in self._file.scan_blocks():
+            self.take(block)
+        return self.found.entries
 
     def take(self, block: Block) -> None:
         """The next block."""
@@ -158,6 +166,7 @@ class _Reader:
                 return
             case Kind.ENTRY:
                 found.entries.append(self._entry(block))
+                self._entries += 1
             case Kind.KEYFRAME:
                 head = self._file.beginning(block, _VERSION.size)
                 if len(head) < _VERSION.size:
@@ -177,9 +186,7 @@ class _Reader:
         self._scan = found.last_scan = block.scan
 
     def _checkpoint(self, block: Block, base: Block) -> None:
-        self.found.checkpoints.append(
-            Checkpoint(block.scan, len(self.found.entries), self._version, block, base)
-        )  # fmt: skip
+        self.found.checkpoints.append(Checkpoint(block.scan, self._entries, self._version, block, base))
 
     def _need(self, block: Block, version: object) -> None:
         if not isinstance(version, int) or version not in self.found.programs:

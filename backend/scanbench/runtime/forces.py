@@ -15,6 +15,7 @@ from scanbench.check.symbols import Symbol
 from scanbench.check.types import Elementary
 from scanbench.check.values import format_value
 from scanbench.runtime.command import Command, Entry, Patch, Plan, Refusal, Restarted, Swapped, View
+from scanbench.runtime.holds import held, holder
 from scanbench.runtime.journal import Fold
 from scanbench.runtime.rights import Right, may
 from scanbench.runtime.target import Meant, Naming, everywhere, find, meant, writable_target
@@ -40,6 +41,9 @@ class Force(Naming):
         other = self._held_as(view, patch)
         if other is not None:
             return Refusal(f"{self.path} is forced already, as {other.path} by {other.author}: release that first")
+        number = holder(view.journal, patch)
+        if number:
+            return Refusal(f"{self.path} is held by disturbance {number}: take that back first")
         table = read_table(view.memory)
         hold(table, patch)
         if len(table) > Layout.FORCE_LIMIT:
@@ -132,7 +136,7 @@ class Release(Command):
         forces = view.derived(FORCED)
         if self.path is None:
             count = len(forces)
-            return Plan(table_patches(view, {}), f"{count} force{'s' * (count != 1)} released")
+            return Plan(table_patches(view, _held_table(view)), f"{count} force{'s' * (count != 1)} released")
         symbol = find(view, self.path)
         if isinstance(symbol, Refusal):
             return symbol
@@ -169,7 +173,7 @@ class ForcedValue:
 
 def forced_values(view: View) -> tuple[ForcedValue, ...]:
     """All forces that hold, in the order in which they were entered."""
-    since, notes, found = view.derived(FORCED_SINCE), _notes(view.memory), []
+    since, notes, found = view.derived(FORCED_SINCE), notes_of(view.memory), []
     for key, force in view.derived(FORCED).items():
         symbol = find(view, force.path)
         place = None if isinstance(symbol, Refusal) else symbol.locate(view.memory)
@@ -192,7 +196,19 @@ def read_table(memory: bytearray | bytes | memoryview) -> dict[int, tuple[int, i
     return {offset: (mask, value) for offset, mask, value, _, _ in _entries(memory)}
 
 
-def _notes(memory: bytearray | bytes | memoryview) -> dict[int, tuple[int, int]]:
+def forced_table(view: View) -> dict[int, tuple[int, int]]:
+    """As `read_table`, without what is only held (`runtime.holds`)."""
+    bits = held(view.journal)
+    table = {at: (mask & ~bits.get(at, 0), value) for at, (mask, value) in read_table(view.memory).items()}
+    return {at: (mask, value & mask) for at, (mask, value) in table.items() if mask}
+
+
+def _held_table(view: View) -> dict[int, tuple[int, int]]:
+    bits, table = held(view.journal), read_table(view.memory)
+    return {at: (table[at][0] & mask, table[at][1] & mask) for at, mask in bits.items() if at in table}
+
+
+def notes_of(memory: bytearray | bytes | memoryview) -> dict[int, tuple[int, int]]:
     """Offset -> what the byte was before the force, and after the program."""
     return {offset: (before, after) for offset, _, _, before, after in _entries(memory)}
 
@@ -211,7 +227,7 @@ def hold(table: dict[int, tuple[int, int]], patch: Patch) -> None:
 
 def table_patches(view: View, table: dict[int, tuple[int, int]]) -> tuple[Patch, ...]:
     """Patches that make this the force table; rows that fall free are cleared."""
-    notes = _notes(view.memory)
+    notes = notes_of(view.memory)
     rows = b"".join(
         _ENTRY.pack(offset, mask, value, *notes.get(offset, 2 * (view.memory[offset],)))
         for offset, (mask, value) in sorted(table.items())

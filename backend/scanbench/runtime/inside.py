@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 from typing import Protocol
 
 from scanbench.check.layout import Layout
-from scanbench.engines.debug import NOTHING, DebugEngine, Frame, Hook, Listen
-from scanbench.runtime.command import Entry, Patch, Plan, Restarted, Swapped
+from scanbench.engines.debug import NOTHING, READ, WRITE, DebugEngine, Frame, Hook, Listen
+from scanbench.runtime.command import Command, Entry, Patch, Plan, Restarted, Swapped
 
 
 class Diverged(Exception):
@@ -55,6 +55,20 @@ class Onlooker(Hook, Protocol):
         """Something was entered in front of the statement that is to begin."""
 
 
+class Insider(Protocol):
+    """Enters something by itself behind a statement of one scan, having seen what that wrote."""
+
+    def wrote(self, site: int, offset: int, size: int, bits: int) -> bool:
+        """The statement has written these bytes, or these bits of one; whether something is to be entered behind it."""
+
+    def due(self) -> tuple[Command, ...]:
+        """What is to be entered, now that the next statement is to begin, or the scan is over."""
+
+    @property
+    def over(self) -> bool:
+        """Whether it wants nothing more in this scan."""
+
+
 class Passage:
     """Runs scans on a debug engine: enters what is to be entered inside of them, and lets a hook listen in between."""
 
@@ -65,26 +79,40 @@ class Passage:
         self._listen = NOTHING
         self._waiting: list[Entry] = []
         self._apply: Callable[[Entry], None] = lambda entry: None
+        self._insider: Insider | None = None
+        self._enter: Callable[[Command, int], None] = lambda command, count: None
+        self._wrote = False
+        """The insider has something to enter."""
         self._sent: Listen | None = None
         self._count = 0
 
     def begin(
         self, hook: Onlooker | None, halts: bool, listen: Listen, waiting: Sequence[Entry],
-        apply: Callable[[Entry], None],
+        apply: Callable[[Entry], None], insider: Insider | None = None,
+        enter: Callable[[Command, int], None] = lambda command, count: None,
     ) -> None:  # fmt: skip
-        """Before `engine.run`: who listens and whether that may halt, and what is entered in the one scan that is run then."""
+        """Before `engine.run`: who listens and whether that may halt, what is entered in the one scan that is run then, and
+        who enters more."""
+        self._insider, self._enter, self._wrote = insider, enter, False
         self._halts = halts
         self._inner, self._listen, self._waiting, self._apply = hook, listen, list(waiting), apply
         self._count = 0
         self.engine.hook(self)
         self._tell(0)
 
-    def end(self, ended: bool, lenient: bool) -> None:
-        """Behind `engine.run`; `ended`: the scan went to its end. What could not be entered is an error then, or is entered
-        now."""
+    def end(self, ended: bool, whole: bool, lenient: bool) -> None:
+        """Behind `engine.run`; `ended`: the scan went to its end, `whole`: not by a trap. What was entered behind its last
+        statement is entered now; what could not be entered is an error then, or is entered now, too."""
         self.engine.hook(None)
         self._inner = None
         waiting, self._waiting = self._waiting, []
+        behind = self.engine.count + 1
+        while whole and waiting and waiting[0].step == behind:
+            self._apply(waiting.pop(0))
+        insider, self._insider = self._insider, None
+        if whole and insider is not None and self._wrote and not waiting:
+            for command in insider.due():
+                self._enter(command, behind)
         if ended and lenient:
             for entry in waiting:
                 self._apply(entry)
@@ -105,9 +133,25 @@ class Passage:
         if self._waiting:
             counts = [each for each in (listen.count, self._waiting[0].step) if each > passed]
             listen = replace(listen, count=min(counts, default=listen.count))
+        if self._insider is not None:
+            listen = replace(listen, every=listen.every or self._wrote, accesses=listen.accesses | WRITE)
         if listen is not self._sent:
             self._sent = listen
             self.engine.listen(listen)
+
+    def _step_inside(self, count: int) -> None:
+        """The insider's turn, unless something is to be entered later in this scan: entries are in order."""
+        insider, self._wrote = self._insider, False
+        if insider is None or self._waiting:
+            self._insider = None
+        else:
+            for command in insider.due():
+                self._enter(command, count)
+                if self._inner is not None:
+                    self._inner.entered()
+            if insider.over:
+                self._insider = None
+        self._tell(count)
 
     # ---- as the engine's hook ---------------------------------------------------------------------------------------
 
@@ -120,6 +164,8 @@ class Passage:
                 if self._inner is not None:
                     self._inner.entered()
             self._tell(count)
+        if self._wrote:
+            self._step_inside(count)
         listen, hook = self._listen, self._inner
         if hook is None or not (listen.every or site in listen.sites or count == listen.count):
             return False
@@ -127,8 +173,21 @@ class Passage:
 
     def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
         """See `Hook`."""
-        if self._inner is not None:
+        insider, wanted = self._insider, True
+        if insider is not None:
+            wanted = _listens(self._listen, offset, size, WRITE if written else READ)
+            if written and insider.wrote(site, offset, size, self.engine.bits) and not self._wrote:
+                self._wrote = True
+                self._tell(count)
+        if wanted and self._inner is not None:
             self._inner.access(site, count, offset, size, written)
+
+
+def _listens(listen: Listen, offset: int, size: int, kind: int) -> bool:
+    """Whether an access is one that is listened for."""
+    if listen.accesses & kind:
+        return True
+    return bool(listen.bytes) and any(listen.bytes.get(at, 0) & kind for at in range(offset, offset + size))
 
 
 class HaltAt:

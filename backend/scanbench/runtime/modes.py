@@ -5,7 +5,7 @@ from dataclasses import dataclass
 
 from scanbench.check.layout import Layout
 from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
-from scanbench.runtime.forces import read_table
+from scanbench.runtime.forces import forced_table
 from scanbench.runtime.header import Halt, Mode
 
 
@@ -90,7 +90,7 @@ def held(view: View) -> bool:
 
 def _forced_values(view: View) -> tuple[Patch, ...]:
     """The force table does not act while nothing runs, so a patch has to."""
-    table = read_table(view.memory)
+    table = forced_table(view)
     return tuple(Patch(offset, bytes((mask,)), bytes((value,))) for offset, (mask, value) in sorted(table.items()))
 
 

@@ -26,12 +26,14 @@ class Loaded:
     """Makes `fresh`, always the same, where that may be needed; in any thread."""
     debug: DebugEngine | None = None
     """The debug flavour on the same memory, once there is any."""
+    make_debug: Callable[[Program, bytearray], DebugEngine] | None = None
+    """Makes it when it is first needed, where that may take its time."""
 
     def debugged(self) -> DebugEngine:
         """The debug flavour: the reference engine's, if nobody has put another one in place. So a run can be replayed that
         was debugged, wherever it is."""
         if self.debug is None:
-            self.debug = debug_engine(self.settled(), self.memory)
+            self.debug = (self.make_debug or debug_engine)(self.settled(), self.memory)
         return self.debug
 
     def settled(self) -> Program:

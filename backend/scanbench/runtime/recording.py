@@ -18,11 +18,21 @@ from typing import Self
 from scanbench.check.program import Program
 from scanbench.runtime.clock import iso, wall_time
 from scanbench.runtime.command import Entry
-from scanbench.runtime.contents import About, Codec, Contents, KeptProgram, delta, keyframe, read_contents, read_state
+from scanbench.runtime.contents import (
+    About,
+    Codec,
+    Contents,
+    KeptProgram,
+    Reader,
+    delta,
+    keyframe,
+    read_contents,
+    read_state,
+)
 from scanbench.runtime.errands import Errands
 from scanbench.runtime.fingerprints import libm_fingerprint, program_digest
 from scanbench.runtime.header import Mode, fresh_image
-from scanbench.runtime.runfile import Block, Damage, Kind, RunFile
+from scanbench.runtime.runfile import Block, Damage, Kind, RunFile, RunFileError
 from scanbench.runtime.smaller import Bounds, Seen, Smaller, Standing, make_smaller, refuse_existing, write_copy
 from scanbench.runtime.thinning import Checkpoint
 
@@ -70,6 +80,10 @@ class _Thinning:
     done: bool = False
 
 
+class Replaced(RunFileError):
+    """Another file has taken the place of the one that is read, a smaller one mostly, or it is gone: open it anew."""
+
+
 class Recording:
     """A run file in use; the `Recorder` of a resource. All in the thread that runs the scans."""
 
@@ -93,6 +107,8 @@ class Recording:
         self._key: _Key | None = None
         self._bounds = Bounds(limit)
         self._thinning: _Thinning | None = None
+        self._reader: Reader | None = None
+        """Of a file that is only read."""
         self._errands = Errands("recording", self._sync)
 
     @classmethod
@@ -121,18 +137,15 @@ class Recording:
         """
         file = RunFile.open(path, read_only)
         try:
-            found = read_contents(file, codec)
-            damage = file.damage
-            text = "" if damage is None else _put_aside(file, damage, found.last_scan, read_only)
+            reader = read_contents(file, codec)
+            found, damage = reader.found, file.damage
+            text = _flaws(file, found, read_only)
         except BaseException:
             file.close()
             raise
-        if found.about.libm != libm_fingerprint():
-            text += "; " * bool(text) + (
-                "recorded on a machine with another mathematical library: results of SIN, EXP and the like may differ "
-                "in their last digit, and a replay with them"
-            )
-        return cls(file, codec, found, limit, text, damage is not None and not damage.torn)
+        recording = cls(file, codec, found, limit, text, damage is not None and not damage.torn)
+        recording._reader = reader if read_only else None
+        return recording
 
     def __enter__(self) -> Self:
         return self
@@ -281,6 +294,32 @@ class Recording:
 
     # ---- reading --------------------------------------------------------------------------------------------------
 
+    def read_on(self) -> list[Entry]:
+        """Reads what somebody else has appended since the file was opened to be read only, or since this was called last:
+        `programs`, `checkpoints` and `last_scan` have it then; the new entries.
+
+        A block that is not whole yet is read another time; `damage` speaks of it until then. `Replaced` when this is not the
+        file of its name any more: nothing will ever be appended to it. `RunFileError` when it cannot be understood.
+        """
+        file, reader = self._file, self._reader
+        if reader is None:
+            raise RuntimeError("this recording writes its file")
+        here = os.fstat(file.fd)
+        try:
+            there = file.path.stat()
+        except FileNotFoundError as error:
+            raise Replaced(f"{file.path.name} is gone: its run was deleted, or moved away") from error
+        if not os.path.samestat(here, there):
+            raise Replaced(f"{file.path.name} was made smaller, or put in place anew: open it again")
+        if here.st_size < file.end:
+            raise RunFileError(f"{file.path.name} was cut off at byte {here.st_size} while it was read")
+        entries = reader.read_on()
+        self._written += len(entries)
+        self.last_scan = reader.found.last_scan
+        self.damage = _flaws(file, reader.found, read_only=True)
+        self.lost = file.damage is not None and not file.damage.torn
+        return entries
+
     def before(self, scan: int) -> Checkpoint | None:
         """The last checkpoint at or before a scan."""
         index = bisect_right(self.checkpoints, scan, key=attrgetter("scan"))
@@ -376,6 +415,17 @@ def _aside(path: Path) -> Path:
     while (aside := path.with_name(f"{path.name}.damaged-{number}")).exists():
         number += 1
     return aside
+
+
+def _flaws(file: RunFile, found: Contents, read_only: bool) -> str:
+    """What people have to know of a file that was read; what is damaged is put aside."""
+    text = "" if file.damage is None else _put_aside(file, file.damage, found.last_scan, read_only)
+    if found.about.libm != libm_fingerprint():
+        text += "; " * bool(text) + (
+            "recorded on a machine with another mathematical library: results of SIN, EXP and the like may differ "
+            "in their last digit, and a replay with them"
+        )
+    return text
 
 
 def _put_aside(file: RunFile, damage: Damage, last_scan: int, read_only: bool) -> str:

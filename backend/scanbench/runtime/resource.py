@@ -3,6 +3,7 @@
 import errno
 from collections.abc import Callable
 from dataclasses import dataclass
+from functools import partial
 from operator import is_
 
 from scanbench.check.condition import Condition
@@ -18,7 +19,7 @@ from scanbench.runtime.clock import monotonic_ns, wall_time
 from scanbench.runtime.command import Command, Entry, Plan, Refusal, View
 from scanbench.runtime.detect import Detect, read_asked
 from scanbench.runtime.header import Header, Mode, fresh_image, pass_time
-from scanbench.runtime.inside import Diverged, Inside, Onlooker, Passage, front, needs_seam
+from scanbench.runtime.inside import Diverged, Inside, Insider, Onlooker, Passage, front, needs_seam
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.programs import Loaded, Programs, Shelf
 from scanbench.runtime.recorder import Recorder
@@ -177,7 +178,11 @@ class Resource:
         if waits.scan is not None:
             scans = min(scans, waits.scan - first)
         self._observe(waits)
-        stop = self._run(self.engine, min(scans, 1) if waits.sites else scans, pace, self._conditions(waits))
+        insider = waits.inside
+        if insider is not None and self._probes():
+            return Stop(Reason.KNOCKED)
+        alone = bool(waits.sites) or insider is not None
+        stop = self._run(self.engine, min(scans, 1) if alone else scans, pace, self._conditions(waits), insider)
         if stop.reason is Reason.HALTED:
             if self.inside is None and self.on_probe is not None:
                 self.on_probe()
@@ -209,6 +214,13 @@ class Resource:
     def enter_here(self, command: Command, plan: Plan, count: int) -> Entry | Refusal:
         """For the hook: enters a command, whose plan it has, in front of the statement of this count, which is to begin."""
         return self._keep(command, plan, must=False, step=count)
+
+    def _probes(self) -> bool:
+        """Whether a scan that is to run in the debug flavour would miss its probes: whoever wants them listens from now on."""
+        if self.probed is None or self.hook is not None or self.on_probe is None or self._finishing:
+            return False
+        self.on_probe()
+        return True
 
     def idle(self, scans: int) -> None:
         """Up to `scans` scans pass while the program is stopped: no further than to what is due."""
@@ -302,41 +314,53 @@ class Resource:
 
     # ---- what is waited for ---------------------------------------------------------------------------------------
 
-    def _run(self, engine: Engine, scans: int, pace: Pace | None, conditions: tuple[Condition, ...]) -> Stop:
+    def _run(
+        self, engine: Engine, scans: int, pace: Pace | None, conditions: tuple[Condition, ...],
+        insider: Insider | None = None,
+    ) -> Stop:  # fmt: skip
         if self.inside is not None:
             self.memory[:] = self.inside.begin
             self.inside = None
         if not self.runnable:
             raise RuntimeError("the program is stopped: it must not be run")
         waiting = self._waiting()
-        if waiting:
+        if waiting or insider is not None:
             engine, scans = self.loaded.debugged(), min(scans, 1)
         self._stops.set(engine, conditions)
         self._sample(engine, tuple(each for each in self.samplings if each.program is self.program))
         first, start = self.header.scan, monotonic_ns()
         busy = pace.busy_ns if pace is not None else 0
-        if waiting or self.hook is not None:
-            stop = self._pass(scans, pace, waiting)
+        if waiting or self.hook is not None or insider is not None:
+            stop = self._pass(scans, pace, waiting, insider)
         else:
             stop = engine.run(scans, pace)
         self.measured.scans += self.header.scan - first
         self.measured.busy_ns += pace.busy_ns - busy if pace is not None else monotonic_ns() - start
         return stop
 
-    def _pass(self, scans: int, pace: Pace | None, waiting: list[Entry]) -> Stop:
+    def _pass(self, scans: int, pace: Pace | None, waiting: list[Entry], insider: Insider | None) -> Stop:
         """Runs the debug flavour."""
         passage, scan = self._passing(), self.header.scan
-        passage.begin(self.hook, not self._finishing, self._listen, waiting, self._again)
-        ended = False
+        enter = partial(self._enter_inside, scan)
+        passage.begin(self.hook, not self._finishing, self._listen, waiting, self._again, insider, enter)
+        trapped = whole = False
         try:
             stop = passage.engine.run(scans, pace)
-            ended = stop.reason is Reason.TRAP or self.header.scan > scan
+            trapped, whole = stop.reason is Reason.TRAP, self.header.scan > scan
         finally:
-            passage.end(ended, self.lenient)
+            passage.end(trapped or whole, whole, self.lenient)
+        if insider is not None and self.hook is None:
+            self._reached |= passage.engine.observer.take().reached
         if stop.reason is Reason.HALTED:
             engine = passage.engine
             self.inside = Inside(engine.begin, engine.count, engine.frames())
         return stop
+
+    def _enter_inside(self, scan: int, command: Command, count: int) -> None:
+        """What an insider enters. If it is refused, the agenda finds that it was not entered."""
+        plan = command.plan(self.view)
+        if isinstance(plan, Plan):
+            self._keep(command, plan, must=True, step=count, scan=scan)
 
     def _again(self, entry: Entry) -> None:
         seam.apply(self.loaded, self.programs, entry.plan)
@@ -392,8 +416,10 @@ class Resource:
             return plan
         return self._keep(command, plan, must, step)
 
-    def _keep(self, command: Command, plan: Plan, must: bool, step: int) -> Entry | Refusal:
-        entry = Entry(self.header.scan, wall_time(), command, plan, step)
+    def _keep(
+        self, command: Command, plan: Plan, must: bool, step: int, scan: int | None = None
+    ) -> Entry | Refusal:
+        entry = Entry(self.header.scan if scan is None else scan, wall_time(), command, plan, step)
         if self.recorder is not None:
             try:
                 self.recorder.entry(entry, must)

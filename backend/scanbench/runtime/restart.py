@@ -45,14 +45,18 @@ def restarted(program: Program, memory: Image, kind: RestartKind) -> bytearray:
     go_on(program, memory, image)
     if kind == "cold":
         return image
-    spans = [*_words(program, memory), *_variables(program)]
-    for offset, size in spans:
+    for offset, size in retained(program, memory):
         image[offset : offset + size] = memory[offset : offset + size]
     if kind == "warm":
         image[Layout.FORCE_COUNT : Layout.FORCES_END] = memory[Layout.FORCE_COUNT : Layout.FORCES_END]
         for offset, (mask, value) in read_table(memory).items():
             image[offset] = image[offset] & ~mask | value & mask
     return image
+
+
+def retained(program: Program, memory: Image) -> list[tuple[int, int]]:
+    """What a warm restart keeps of this image: offset and size."""
+    return [*_words(program, memory), *_variables(program)]
 
 
 def go_on(program: Program, memory: Image, image: bytearray) -> None:

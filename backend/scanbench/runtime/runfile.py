@@ -208,9 +208,10 @@ class RunFile:
             offset = block.end
 
     def scan_blocks(self) -> Iterator[Block]:
-        """Every good block from the beginning, each with a right checksum; `end` moves behind them, `damage` says why they end."""
+        """Every good block behind `end`, in the beginning all of them, each with a right checksum; `end` moves behind them,
+        `damage` says why they end."""
         size = os.fstat(self.fd).st_size
-        offset, block = _HEAD.size, None
+        offset, block = self.end, None
         self.damage = None
         while offset < size:
             good = self._good_block(offset, size)
@@ -281,6 +282,12 @@ class RunFile:
             while at >= 0:
                 yield begin + at
                 at = chunk.find(_SYNC, at + 1)
+
+
+def is_run_file(path: Path) -> bool:
+    """Whether a file begins like one, of whatever format; `OSError`."""
+    with path.open("rb") as file:
+        return file.read(len(_MAGIC)) == _MAGIC
 
 
 def _check_head(path: Path, head: bytes) -> None:

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from scanbench.runtime.command import Patch, Plan, Refusal, View
-from scanbench.runtime.forces import read_table
+from scanbench.runtime.forces import forced_table
 from scanbench.runtime.rights import Right
 from scanbench.runtime.target import Naming, everywhere, writable_target
 
@@ -27,7 +27,7 @@ class Write(Naming):
         patch = target.patch(self.value)
         if not isinstance(patch, Patch):
             return patch
-        table = read_table(view.memory)
+        table = forced_table(view)
         forced = any(table.get(at, (0, 0))[0] & mask for at, mask in enumerate(patch.mask, patch.offset))
         if forced:
             return Refusal(f"{target.shown} is forced, so a write would be lost: release the force first")

@@ -34,9 +34,12 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped
 from scanbench.runtime.write import Write
-from scanbench.session import debug_protocol, job_protocol, protocol, trace_protocol
+from scanbench.session import debug_protocol, job_protocol, protocol, trace_protocol, verify_protocol
 from scanbench.taps.covered import CoveredFile, CoveredSite
 from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
+from scanbench.verify.disturb import DisturbanceInfo
+from scanbench.verify.findings import Change, Changes, Divergence, RerunChange, Writer
+from scanbench.verify.verified import Column, Input, Mismatch, Output, Place, Range, Row
 
 LENGTH = struct.Struct("<I")
 LARGEST = 1 << 30
@@ -69,6 +72,13 @@ _CLASSES: dict[str, type] = {
         TraceDefinition, TraceSignal, TraceTrigger, trace_protocol.DefineTrace, trace_protocol.DriveTrace,
         trace_protocol.ReadTrace, trace_protocol.TraceStatus, trace_protocol.TracesAre, trace_protocol.TraceRead,
         trace_protocol.RecordFlight, trace_protocol.FlightAt, trace_protocol.FlightDone,
+        Column, Input, Mismatch, Output, Place, Range, Row, Change, Changes, Divergence, RerunChange, Writer, DisturbanceInfo,
+        verify_protocol.BeginVerify, verify_protocol.BeginTrace, verify_protocol.VerifyScans, verify_protocol.VerifyStep,
+        verify_protocol.SetInputs, verify_protocol.UsesOf, verify_protocol.VerifyBegun, verify_protocol.VerifyRefused,
+        verify_protocol.PackedRow, verify_protocol.ScansVerified, verify_protocol.UseRow, verify_protocol.UsesAre,
+        verify_protocol.FindWriter, verify_protocol.WriterFound, verify_protocol.FindChanges, verify_protocol.ChangesFound,
+        verify_protocol.CompareRuns, verify_protocol.PastAt, verify_protocol.RunsCompared, verify_protocol.RerunRun,
+        verify_protocol.RerunDone,
     )
 }  # fmt: skip
 _CLASSES["FaultStart"] = FaultStart  # there is another Start

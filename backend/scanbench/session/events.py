@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
-from typing import Protocol
+from typing import Literal, Protocol
 
 from scanbench.check.violations import Violations
 from scanbench.debug.breakpoint import Verdict
@@ -18,6 +18,12 @@ from scanbench.session.builds import BuildOutcome
 from scanbench.session.protocol import RunMark, WatchItem
 from scanbench.session.trace_protocol import TraceStatus
 from scanbench.store.records import AcceptedRow, CellRow, SweepRow
+from scanbench.verify.disturb import DisturbanceInfo
+from scanbench.verify.findings import Divergence
+from scanbench.verify.verified import DEFAULT_LIMIT, Memory, Mismatch, Range
+
+VerifyPace = Literal["free", "scan", "step"]
+"""How a verification goes on: by itself, scan by scan, statement by statement."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -235,6 +241,99 @@ class FlightChanged:
 
 
 @dataclass(frozen=True, slots=True)
+class Wanted:
+    """What somebody wants verified."""
+
+    range: Range
+    pace: VerifyPace = "free"
+    first: int | None = None
+    """The first scan of a stretch of the past; None: live."""
+    last: int | None = None
+    limit: int = DEFAULT_LIMIT
+
+
+@dataclass(frozen=True, slots=True)
+class VerificationStatus:
+    """How a verification stands."""
+
+    id: int
+    instance: int
+    by: str
+    wanted: Wanted
+    source: Literal["live", "past", "trace"]
+    pace: VerifyPace
+    auto: bool = False
+    memory: Memory = "recorded"
+    state: Literal["starting", "verifying", "waiting", "stopped", "done", "failed"] = "starting"
+    message: str = ""
+    title: str = ""
+    trace: str = ""
+    """Name of the trace's file."""
+    instances: tuple[str, ...] = ()
+    version: int = 0
+    interval_ns: int = 0
+    first: int = 0
+    last: int | None = None
+    scan: int | None = None
+    """Verified last."""
+    compared: int = 0
+    skipped: int = 0
+    stretches: tuple[tuple[int, int], ...] = ()
+    """The skipped scans, the last ones, both ends included."""
+    differing: int = 0
+    first_difference: Mismatch | None = None
+    first_scan: int | None = None
+    rows: int = 0
+    forgotten: int = 0
+    used: int = 0
+    generation: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class VerificationsChanged:
+    """All verifications of the PLC, whenever one changes or goes on."""
+
+    verifications: tuple[VerificationStatus, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class DisturbancesChanged:
+    """What is to disturb the PLC, or does."""
+
+    disturbances: tuple[DisturbanceInfo, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class ComparisonChanged:
+    """How far a comparison of the run of instance `a` with that of `b` is, and what came of it."""
+
+    id: int
+    a: int
+    b: int
+    by: str
+    done: int = 0
+    of: int = 0
+    result: Divergence | None = None
+    message: str = ""
+    """Why nothing came of it."""
+
+
+@dataclass(frozen=True, slots=True)
+class RerunChanged:
+    """How far a replay with a change is, and the instance that came of it."""
+
+    id: int
+    by: str
+    name: str
+    done: int = 0
+    of: int = 0
+    instance: int | None = None
+    refused: tuple[str, ...] = ()
+    message: str = ""
+    """Why nothing came of it."""
+
+
+@dataclass(frozen=True, slots=True)
 class WrittenInside:
     """Something was written into the scan that is halted: what is shown of it is not what it was."""
 
@@ -260,6 +359,10 @@ Told = (
     | CoverageChanged
     | TracesChanged
     | FlightChanged
+    | VerificationsChanged
+    | DisturbancesChanged
+    | ComparisonChanged
+    | RerunChanged
     | Watching
 )
 

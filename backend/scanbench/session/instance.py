@@ -258,9 +258,9 @@ class Instance:
         """Changes pace, pauses, goes on."""
         return self._ack(await self._ask(lambda ref: replace(drive, ref=ref)))
 
-    async def travel(self, scan: int | None, author: str) -> protocol.Ack:
+    async def travel(self, scan: int | None, author: str, count: int = 0) -> protocol.Ack:
         """Shows the past, or live again."""
-        return self._ack(await self._ask(lambda ref: protocol.Travel(ref, scan, author)))
+        return self._ack(await self._ask(lambda ref: protocol.Travel(ref, scan, author, count)))
 
     async def copy(self, path: Path, scan: int | None, author: str) -> protocol.Ack:
         """A run file of its own."""

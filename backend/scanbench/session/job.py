@@ -1,13 +1,15 @@
-"""The job process: finds out reactions and runs sweeps, so that neither the server nor a PLC has to wait for them.
+"""The job process: reactions, sweeps, records of earlier scans, verifications, questions about the past; so that neither the server nor a PLC has to wait for them.
 
 `python -m scanbench.session.job CACHE`; see `job_protocol.py`. Whatever goes wrong with a request is told in its answer.
 """
 
 import logging
 import os
+import select
 import signal
 import sys
-from collections.abc import Iterator
+from collections import deque
+from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import BinaryIO
 
@@ -21,6 +23,7 @@ from scanbench.faults.sweep import sweep
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram
+from scanbench.session import past_job, verify_job, verify_protocol
 from scanbench.session.codec import BadMessage, Splitter, pack
 from scanbench.session.flight import BadSignal, fly, plain_engines
 from scanbench.session.job_protocol import CellFound, FindReaction, JobDone, Reacted, RunSweep, Trying
@@ -39,8 +42,12 @@ _PROGRAMS = 4
 class Job:
     """Answers requests, one after the other."""
 
-    def __init__(self, cache: Path | None, answers: BinaryIO) -> None:
+    def __init__(self, cache: Path | None, answers: BinaryIO, asked: Callable[[], bool] = lambda: False) -> None:
+        """`asked`: whether another request waits."""
         self._cache = BlobCache(cache) if cache is not None else None
+        self._asked = asked
+        self._verify: verify_job.VerifyJob | None = None
+        self._past: past_job.PastJob | None = None
         self._answers = answers
         self._make = _engines(self._cache)
         self._programs: dict[str, Program] = {}
@@ -54,8 +61,34 @@ class Job:
                 self._say(self._swept(request))
             case RecordFlight():
                 self._say(self._flown(request))
+            case (
+                verify_protocol.BeginVerify() | verify_protocol.BeginTrace() | verify_protocol.VerifyScans()
+                | verify_protocol.VerifyStep() | verify_protocol.SetInputs() | verify_protocol.UsesOf()
+            ):  # fmt: skip
+                self._verified(request)
+            case (
+                verify_protocol.FindWriter() | verify_protocol.FindChanges() | verify_protocol.CompareRuns()
+                | verify_protocol.RerunRun()
+            ):  # fmt: skip
+                self._asked_about_past(request)
             case _:
                 raise BadMessage(f"{type(request).__name__} is no request to a job process")
+
+    def _verified(self, request: verify_job.Request) -> None:
+        if self._verify is None:
+            self._verify = verify_job.VerifyJob(self._program, self._cache, self._say, self._asked)
+        try:
+            self._verify.on_request(request)
+        except Exception as error:  # whatever it is, somebody waits for the answer
+            self._say(verify_protocol.VerifyRefused(request.ref, _unexpected(error)))
+
+    def _asked_about_past(self, request: past_job.Request) -> None:
+        if self._past is None:
+            self._past = past_job.PastJob(self._program, self._cache, self._say)
+        try:
+            self._past.on_request(request)
+        except Exception as error:  # as above
+            self._say(_FAILED[type(request)](request.ref, _unexpected(error)))
 
     def _reacted(self, ask: FindReaction) -> Reacted:
         try:
@@ -134,6 +167,14 @@ class Job:
         self._answers.flush()
 
 
+_FAILED: dict[type, Callable[[int, str], object]] = {
+    verify_protocol.FindWriter: lambda ref, why: verify_protocol.WriterFound(ref, None, why),
+    verify_protocol.FindChanges: lambda ref, why: verify_protocol.ChangesFound(ref, None, why),
+    verify_protocol.CompareRuns: lambda ref, why: verify_protocol.RunsCompared(ref, None, why),
+    verify_protocol.RerunRun: lambda ref, why: verify_protocol.RerunDone(ref, False, 0, (), why),
+}
+
+
 def _engines(cache: BlobCache | None) -> MakeObserved:
     """Native where LLVM is there, else the reference engine."""
     try:
@@ -161,12 +202,18 @@ def main() -> int:
     os.nice(_NICENESS)
     answers = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
     os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # what anything prints is no answer
-    job = Job(Path(sys.argv[1]) if len(sys.argv) > 1 else None, answers)
-    splitter = Splitter()
+    requests = sys.stdin.fileno()
+    splitter, waiting = Splitter(), deque[object]()
+
+    def asked() -> bool:
+        return bool(waiting) or bool(select.select([requests], [], [], 0)[0])
+
+    job = Job(Path(sys.argv[1]) if len(sys.argv) > 1 else None, answers, asked)
     try:
-        while data := os.read(sys.stdin.fileno(), 1 << 16):
-            for request in splitter.feed(data):
-                job.on_request(request)
+        while data := os.read(requests, 1 << 16):
+            waiting.extend(splitter.feed(data))
+            while waiting:
+                job.on_request(waiting.popleft())
     except BadMessage as error:
         log.error("a job process was asked what it does not understand: %s", error)
         return 1

@@ -18,6 +18,7 @@ from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import ForcedValue
 from scanbench.runtime.recording import RecordingInfo
 from scanbench.runtime.trap import TrapInfo
+from scanbench.verify.disturb import DisturbanceInfo
 
 # ---- parent to host ------------------------------------------------------------------------------------------------
 
@@ -77,11 +78,13 @@ class Drive:
 
 @dataclass(frozen=True, slots=True)
 class Travel:
-    """Shows the PLC as it was before `scan`; None returns to live. Answered with `Ack`."""
+    """Shows the PLC as it was before `scan`, or where the scan's statement of this count is next; None returns to live.
+    Answered with `Ack`."""
 
     ref: int
     scan: int | None
     author: str
+    count: int = 0
 
 
 @dataclass(frozen=True, slots=True)
@@ -247,10 +250,11 @@ class HostState:
 
 @dataclass(frozen=True, slots=True)
 class Standing:
-    """What holds at the scan that is shown: the errors that are present, the faults that are armed."""
+    """What holds at the scan that is shown: the errors that are present, the faults that are armed, what disturbs it."""
 
     errors: dict[str, Active]
     armed: tuple[ArmedInfo, ...] = ()
+    disturbances: tuple[DisturbanceInfo, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)

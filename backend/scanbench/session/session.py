@@ -33,6 +33,7 @@ from scanbench.session.trace_protocol import TracesAre
 from scanbench.session.tracing import Tracing
 from scanbench.session.watches import Watches
 from scanbench.store.records import InstanceRow, Json
+from scanbench.verify.disturb import DisturbanceInfo
 
 LOG_LINES = 500
 LISTED = 100
@@ -59,6 +60,7 @@ class Session:
         self._lines = list(lines)[-LOG_LINES:]
         self._subscribers: dict[int, Subscriber] = {}
         self._next_subscriber = 1
+        self._listeners: list[Callable[[Event], None]] = []
         self._watches = Watches()
         self._questions: dict[int, tuple[int, int, tuple[tuple[int, str], ...]]] = {}
         self._next_question = _EVERYBODY + 1
@@ -67,6 +69,7 @@ class Session:
         self._forces: tuple[ForcedValue, ...] = ()
         self._past_rows: list[ErrorRow] = []
         self._armed: tuple[ArmedInfo, ...] = ()
+        self._disturbances: tuple[DisturbanceInfo, ...] = ()
         self._reacting = Reacting(reactions, lambda: self.run_file, self._on_reaction)
         self._compare(rows)  # the run goes on, so what was being recorded is found out yet
         self._timeline = Marks()
@@ -171,6 +174,11 @@ class Session:
         return self._armed
 
     @property
+    def disturbances(self) -> tuple[DisturbanceInfo, ...]:
+        """What is to disturb the PLC, or does."""
+        return self._disturbances
+
+    @property
     def violations(self) -> Violations:
         """The runtime diagnostics."""
         return self._violations
@@ -220,9 +228,9 @@ class Session:
         drive = protocol.Drive(0, action, speed, author, scans, until)
         return self._logged(await self._refusing(self._instance.drive(drive)), author)
 
-    async def travel(self, scan: int | None, author: str) -> protocol.Ack:
-        """Shows the past to everybody, or live again."""
-        return await self._refusing(self._instance.travel(scan, author))
+    async def travel(self, scan: int | None, author: str, count: int = 0) -> protocol.Ack:
+        """Shows the past to everybody, in front of a statement of the scan if there is a count; or live again."""
+        return await self._refusing(self._instance.travel(scan, author, count))
 
     async def begin_anew(self, author: str, sources: protocol.Sources | None = None) -> protocol.Ack:
         """A new run from scan 0, of other sources if there are any; the old run file is kept aside."""
@@ -467,6 +475,9 @@ class Session:
         if standing.armed != self._armed:
             self._armed = standing.armed
             self._publish(events.ArmedChanged(self._armed))
+        if standing.disturbances != self._disturbances:
+            self._disturbances = standing.disturbances
+            self._publish(events.DisturbancesChanged(self._disturbances))
         if self.state.past_by:
             self._past_rows = self._history.as_of(standing.errors, wall_time(), self.state.version)
             self._tell_rows(self._past_rows)
@@ -536,6 +547,17 @@ class Session:
         self._keeper.keep_line(self.id, line, self._history.version)
         self._publish(events.Logged((line,)))
 
+    def listen(self, listener: Callable[[Event], None]) -> None:
+        """Has somebody of the server's own told what happens; people are subscribers."""
+        self._listeners.append(listener)
+
+    def ignore(self, listener: Callable[[Event], None]) -> None:
+        """The end of that."""
+        if listener in self._listeners:
+            self._listeners.remove(listener)
+
     def _publish(self, event: Event) -> None:
+        for listener in list(self._listeners):
+            listener(event)
         for subscriber in list(self._subscribers.values()):
             subscriber.on_event(event)

@@ -16,7 +16,7 @@ from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.session.trace_file import Spool, read_pages
 from scanbench.session.trace_protocol import FlightAt, FlightDone, RecordFlight, TraceStatus
-from scanbench.store.records import Json, TraceRecordRow
+from scanbench.store.records import Json, KeptRow
 from scanbench.store.store import Store
 from scanbench.taps.trace import TraceSignal
 from scanbench.taps.trace_buffer import Samples, TooMany, TraceBuffer, buffer_of
@@ -34,7 +34,7 @@ _OPEN_BYTES = 512 << 20
 class TraceRecord:
     """A kept record: what of, when, and whose."""
 
-    row: TraceRecordRow
+    row: KeptRow
     origin: str
     """`trace` or `flight`."""
     signals: tuple[TraceSignal, ...]
@@ -73,7 +73,7 @@ class TraceRecords:
     def tidy(self) -> None:
         """Removes files that belong to nothing any more. Waits for the disk."""
         self._directory.mkdir(parents=True, exist_ok=True)
-        rows = [row for project in self._store.projects() for row in self._store.trace_records(project.id)]
+        rows = [row for project in self._store.projects() for row in self._store.kept("trace", project.id)]
         known = {self._path(row.id) for row in rows}
         for path in self._directory.iterdir():
             if path not in known:
@@ -88,11 +88,11 @@ class TraceRecords:
 
     async def of_project(self, project: int) -> list[TraceRecord]:
         """The newest first."""
-        return list(map(_record, await asyncio.to_thread(self._store.trace_records, project)))
+        return list(map(_record, await asyncio.to_thread(self._store.kept, "trace", project)))
 
     async def one(self, id: int) -> TraceRecord:
         """One record."""
-        return _record(await asyncio.to_thread(self._store.trace_record, id))
+        return _record(await asyncio.to_thread(self._store.kept_one, "trace", id))
 
     async def keep(self, session: Session, trace: int, name: str, author: str) -> TraceRecord:
         """Keeps what a trace has recorded until now."""
@@ -129,14 +129,14 @@ class TraceRecords:
         self, session: Session, name: str, content: Json, write: Callable[[Path], object], author: str
     ) -> TraceRecord:  # fmt: skip
         row = await asyncio.to_thread(
-            lambda: self._store.create_trace_record(
-                session.project_id, name=name, instance=session.name, content=content, by=author
+            lambda: self._store.keep(
+                "trace", session.project_id, name=name, instance=session.name, content=content, by=author
             )
         )
         try:
             await asyncio.to_thread(write, self._path(row.id))
         except BaseException as error:
-            await asyncio.to_thread(self._store.delete_trace_record, row.id)
+            await asyncio.to_thread(self._store.forget, "trace", row.id)
             if isinstance(error, OSError):
                 raise Refused(f"the record cannot be kept: {error.strerror}") from error
             raise
@@ -144,7 +144,7 @@ class TraceRecords:
 
     async def delete(self, id: int) -> None:
         """Forgets a record."""
-        await asyncio.to_thread(self._store.delete_trace_record, id)
+        await asyncio.to_thread(self._store.forget, "trace", id)
         self._open.pop(id, None)
         await asyncio.to_thread(self._path(id).unlink, True)
 
@@ -274,7 +274,7 @@ def _loaded(path: Path, record: TraceRecord) -> TraceBuffer:
     return buffer_of(pages, [(each.kind, each.size) for each in record.signals], record.rows)
 
 
-def _record(row: TraceRecordRow) -> TraceRecord:
+def _record(row: KeptRow) -> TraceRecord:
     content = row.content
     signals = tuple(map(_signal, cast("list[dict[str, object]]", content["signals"])))
     number: Callable[[str], int] = lambda name: cast(int, content[name])  # noqa: E731

@@ -8,7 +8,10 @@ from dataclasses import dataclass
 
 from scanbench.session.protocol import Sources
 from scanbench.verify.findings import Changes, Divergence, RerunChange, Writer
-from scanbench.verify.verified import Column, Range, Row
+from scanbench.verify.verified import Column, Mismatch, Range
+
+NOW = (1 << 63) - 1
+"""As a scan: the end of the run."""
 
 # ---- parent to job: a verification ---------------------------------------------------------------------------------
 
@@ -44,9 +47,8 @@ class BeginTrace:
 
 @dataclass(frozen=True, slots=True)
 class VerifyScans:
-    """Verifies scans `first` to `last`, both included, in order; what of them is not over when its turn comes is left out.
-    Answered with `ScansVerified` a few times a second, the last one with `done`. Between two scans newer requests are
-    looked at: `StopVerify` ends it at once."""
+    """Verifies scans `first` to `last`, both included, in order. Answered with `ScansVerified` a few times a second, the last
+    one with `done`. It ends early, behind the scan that runs, when another request waits."""
 
     ref: int
     first: int
@@ -86,13 +88,6 @@ class UsesOf:
     call: int
 
 
-@dataclass(frozen=True, slots=True)
-class StopVerify:
-    """What is under way ends behind the scan that runs. Not answered."""
-
-    ref: int
-
-
 # ---- job to parent -------------------------------------------------------------------------------------------------
 
 
@@ -109,6 +104,8 @@ class VerifyBegun:
     interval_ns: int
     version: int
     """Of the program."""
+    note: str = ""
+    """How the range was understood, where that is not plain."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -121,21 +118,34 @@ class VerifyRefused:
 
 
 @dataclass(frozen=True, slots=True)
+class PackedRow:
+    """A row, packed by the codec: whoever keeps thousands of them keeps bytes."""
+
+    scan: int
+    call: int
+    count: int
+    first: Mismatch | None
+    """Its first difference."""
+    data: bytes
+
+
+@dataclass(frozen=True, slots=True)
 class ScansVerified:
-    """Rows, in order, those of a scan all in one message; `scan` is the last one that is verified."""
+    """Rows, in order, those of a scan all in one message; `scan` is the last one that is verified, -1 where there is none."""
 
     ref: int
     scan: int
     compared: int
     """Scans since the last message."""
-    rows: tuple[Row, ...]
+    rows: tuple[PackedRow, ...]
     columns: tuple[Column, ...]
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
     used: int
     done: bool = False
     message: str = ""
-    """Why it ended before its last scan."""
+    """Why it cannot go on, when it failed; or why there was nothing to do."""
+    failed: bool = False
 
 
 @dataclass(frozen=True, slots=True)
@@ -144,8 +154,9 @@ class UseRow:
 
     name: str
     written: bool
-    control: bytes | None
-    monitor: bytes | None
+    control: str | None
+    """As text."""
+    monitor: str | None
     file: str
     line: int
     instance: str
@@ -170,8 +181,9 @@ class FindWriter:
     run: str
     path: str
     scan: int
+    """`NOW`: where the run ends."""
     until: int
-    """Scans in front of this one are over, here and below."""
+    """Scans in front of this one are over, here and below; 0: those that the file knows of."""
 
 
 @dataclass(frozen=True, slots=True)

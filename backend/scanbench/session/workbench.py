@@ -19,6 +19,7 @@ from scanbench.session.instance import Remembered
 from scanbench.session.keeper import Keeper, breakpoint_of, line_of, row_of
 from scanbench.session.load import Loads
 from scanbench.session.nursery import nursery
+from scanbench.session.pasts import Pasts
 from scanbench.session.projects import Projects
 from scanbench.session.reactions import Reactions
 from scanbench.session.records import Records
@@ -28,7 +29,9 @@ from scanbench.session.samples import samples
 from scanbench.session.session import LOG_LINES, Session
 from scanbench.session.states import States
 from scanbench.session.sweeps import Sweeps
+from scanbench.session.trace_files import TraceFiles
 from scanbench.session.trace_records import TraceRecords
+from scanbench.session.verifications import Verifications
 from scanbench.session.watch_lists import WatchLists
 from scanbench.store.records import InstanceRow, Limits, NotFound, ProjectRow
 from scanbench.store.store import Store
@@ -59,6 +62,9 @@ class Workbench:
         self.watch_lists = WatchLists(store, self._sessions_of)
         self.states = States(store, data / "states")
         self.trace_records = TraceRecords(store, data / "traces", self._cache)
+        self.verifications = Verifications(store, data / "verifications", self._cache)
+        self.trace_files = TraceFiles(store, data / "imports", self._cache)
+        self.pasts = Pasts(self._runs, self._cache, self._open_rerun)
         self.sweeps = Sweeps(
             store, self.states, self._cache, self._sessions_of, self.projects.built, self._open_state
         )  # fmt: skip
@@ -70,6 +76,8 @@ class Workbench:
         await asyncio.to_thread(nursery().start)
         await asyncio.to_thread(self.states.tidy)
         await asyncio.to_thread(self.trace_records.tidy)
+        await asyncio.to_thread(self.verifications.tidy)
+        await asyncio.to_thread(self.trace_files.tidy)
         await self.sweeps.start()
         if not await self.projects.all():
             await self._first_start()
@@ -95,6 +103,8 @@ class Workbench:
             await asyncio.gather(self._warming, return_exceptions=True)
         await self.sweeps.close()
         await self.trace_records.close()
+        await self.verifications.close()
+        await self.pasts.close()
         await asyncio.gather(*(session.stop() for session in self._sessions.values()))
         await self._reactions.close()
         await self._keeper.close()
@@ -198,6 +208,10 @@ class Workbench:
         session.told(author, "the run was imported")
         return session
 
+    async def _open_rerun(self, origin: Session, name: str, path: Path, author: str) -> Session:
+        """A new paused PLC that goes on where a replay with a change has ended."""
+        return await self._open_state(origin.project_id, path, name, author)
+
     async def _open_state(self, project: int, path: Path, name: str, author: str) -> Session:
         """A new paused PLC of a project that goes on where a state was kept."""
         row = await asyncio.to_thread(self._store.create_instance, project, name)
@@ -231,6 +245,7 @@ class Workbench:
         session = self._sessions.pop(id, None)
         if session is None:
             raise NotFound(f"there is no instance {id}")
+        await self.verifications.forget_instance(id)
         await session.stop()
         await self._keeper.flush()
         await asyncio.to_thread(self._store.delete_instance, id)

@@ -272,8 +272,8 @@ class WatchListRow:
 
 
 @dataclass(frozen=True, slots=True)
-class TraceRecordRow:
-    """A record of a trace that was kept; `content` says what of."""
+class KeptRow:
+    """A record of a trace or a verification that was kept; `content` says what of."""
 
     id: int
     project: int
@@ -282,6 +282,17 @@ class TraceRecordRow:
     content: Json
     by: str
     at: datetime
+
+
+@dataclass(frozen=True, slots=True)
+class MappingRow:
+    """A mapping of a trace file, by its name in the project."""
+
+    id: int
+    project: int
+    name: str
+    content: Json
+    by: str
 
 
 class ListConflict(Exception):

@@ -21,7 +21,6 @@ from scanbench.store.records import (
     SweepRow,
     SweepStatus,
     SweptError,
-    TraceRecordRow,
     WatchContent,
     WatchEntry,
     WatchListRow,
@@ -38,7 +37,6 @@ from scanbench.store.tables import (
     Sweep,
     SweepCell,
     TestRecord,
-    TraceRecord,
     WatchList,
 )
 
@@ -114,11 +112,6 @@ def cell(row: SweepCell) -> CellRow:
 def accepted(row: AcceptedFinding) -> AcceptedRow:
     """An accepted finding."""
     return AcceptedRow(row.error, row.state, row.reason, row.by, row.at)
-
-
-def trace_record(row: TraceRecord) -> TraceRecordRow:
-    """A kept record of a trace."""
-    return TraceRecordRow(row.id, row.project_id, row.name, row.instance, row.content, row.by, row.at)
 
 
 def record(row: TestRecord) -> RecordInfo:

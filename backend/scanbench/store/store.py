@@ -14,6 +14,8 @@ from scanbench.store.breakpoints import Breakpoints
 from scanbench.store.connected import check, the_instance, the_project
 from scanbench.store.errors import Errors
 from scanbench.store.imported import ImportedRecords
+from scanbench.store.kept import KeptRecords
+from scanbench.store.mappings import Mappings
 from scanbench.store.records import (
     BuildRow,
     Conflict,
@@ -32,7 +34,7 @@ from scanbench.store.traces import Traces
 from scanbench.store.watchlists import WatchLists
 
 
-class Store(Errors, Sweeps, ImportedRecords, WatchLists, Breakpoints, Traces):
+class Store(Errors, Sweeps, ImportedRecords, WatchLists, Breakpoints, Traces, KeptRecords, Mappings):
     """A database, with today's tables: here projects, files, builds, instances and their log; `close` it at the end."""
 
     # ---- projects -----------------------------------------------------------------------------------------------

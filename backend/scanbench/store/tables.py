@@ -270,6 +270,35 @@ class TraceRecord(Base):
     at: Mapped[datetime] = mapped_column(Moment)
 
 
+class VerificationRecord(Base):
+    """A verification that was kept; its rows stand beside the database."""
+
+    __tablename__ = "verification_record"
+    __table_args__ = (Index(None, "project_id"),)
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    project_id: Mapped[int] = mapped_column(ForeignKey("project.id", ondelete="CASCADE"))
+    name: Mapped[str] = mapped_column(String(NAME))
+    instance: Mapped[str] = mapped_column(String(NAME))
+    content: Mapped[dict[str, object]] = mapped_column(JSON)
+    by: Mapped[str] = mapped_column(String(AUTHOR))
+    at: Mapped[datetime] = mapped_column(Moment)
+
+
+class TraceMap(Base):
+    """How the columns of a trace file are meant."""
+
+    __tablename__ = "trace_mapping"
+    __table_args__ = (UniqueConstraint("project_id", "name"),)
+
+    id: Mapped[int] = mapped_column(primary_key=True)
+    project_id: Mapped[int] = mapped_column(ForeignKey("project.id", ondelete="CASCADE"))
+    name: Mapped[str] = mapped_column(String(NAME))
+    content: Mapped[dict[str, object]] = mapped_column(JSON)
+    by: Mapped[str] = mapped_column(String(AUTHOR))
+    at: Mapped[datetime] = mapped_column(Moment)
+
+
 class Log(Base):
     """What was done to an instance, in order."""
 

@@ -24,12 +24,14 @@ from scanbench.web import (
     routes_errors,
     routes_instances,
     routes_models,
+    routes_past,
     routes_projects,
     routes_records,
     routes_sweeps,
     routes_traces,
     routes_user_errors,
     routes_values,
+    routes_verify,
     routes_watch,
     translate,
 )
@@ -75,7 +77,8 @@ def bare_app() -> FastAPI:
     )  # fmt: skip
     for routes in (
         routes_instances, routes_dap, routes_errors, routes_sweeps, routes_records, routes_projects, routes_user_errors,
-        routes_models, routes_binding, routes_debug, routes_traces, routes_values, routes_watch,
+        routes_models, routes_binding, routes_debug, routes_traces, routes_values, routes_watch, routes_verify,
+        routes_past,
     ):  # fmt: skip
         app.include_router(routes.router)
     for error, status in _STATUS.items():
@@ -121,6 +124,7 @@ async def _on_http(_request: Request, error: Exception) -> JSONResponse:
 def _serve_page(app: FastAPI, directory: Path) -> None:
     """The built frontend, whether it is there at the start or comes later."""
 
+    @app.get("/i/{rest:path}", include_in_schema=False)
     @app.get("/", include_in_schema=False)
     async def on_page() -> HTMLResponse:
         index = directory / "index.html"

@@ -9,7 +9,7 @@ import ipaddress
 import socket
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
-from urllib.parse import parse_qs, quote, unquote, urlsplit
+from urllib.parse import parse_qs, parse_qsl, quote, unquote, urlencode, urlsplit
 
 from starlette.datastructures import Headers
 from starlette.requests import HTTPConnection
@@ -75,7 +75,7 @@ class Guard:
                     scope, receive, send, 401, "the token is missing or wrong: open the address that was printed"
                 )
                 return
-        elif scope["type"] == "http" and scope["path"] == "/":
+        elif scope["type"] == "http" and is_page(scope["path"]):
             page = self._entrance(connection)
             if page is not None:
                 await page(scope, receive, send)
@@ -127,12 +127,25 @@ class Guard:
         named = USER in connection.cookies and USER not in query
         if "token" not in query and named:
             return None
-        response = RedirectResponse("/", 303)
-        response.set_cookie(self._gate.cookie, self._gate.token, httponly=True, samesite="strict", path="/")
+        response = RedirectResponse(_without_token(connection), 303)
+        # lax: a link to a scan also opens from a chat or a report; nothing is ever changed by GET
+        response.set_cookie(self._gate.cookie, self._gate.token, httponly=True, samesite="lax", path="/")
         if not named:
             name = user_of(connection).name if USER in query else self._gate.next_guest()
-            response.set_cookie(USER, quote(name), samesite="strict", path="/", max_age=365 * 86400)
+            response.set_cookie(USER, quote(name), samesite="lax", path="/", max_age=365 * 86400)
         return response
+
+
+def is_page(path: str) -> bool:
+    """Whether the page stands there: at the root, and at the address of each instance and scan."""
+    return path == "/" or path.startswith("/i/")
+
+
+def _without_token(connection: HTTPConnection) -> str:
+    """The same address, but for what has moved into cookies."""
+    kept = [(name, value) for name, value in parse_qsl(connection.url.query) if name not in ("token", USER)]
+    path = quote(connection.url.path) if connection.url.path.startswith("/i/") else "/"
+    return f"{path}?{urlencode(kept)}" if kept else path
 
 
 async def _refuse(scope: Scope, receive: Receive, send: Send, status: int, message: str) -> None:

@@ -21,7 +21,9 @@ from scanbench.web.messages_errors import (
     Recover,
     SweepProgress,
 )
+from scanbench.web.messages_past import Comparison, Rerun
 from scanbench.web.messages_trace import Flight, Traces
+from scanbench.web.messages_verify import DisturbanceInfo, Disturbances, VerificationInfo, Verifications
 from scanbench.web.messages_watch import WatchListChanged
 
 # ---- programs, files, problems -------------------------------------------------------------------------------
@@ -463,6 +465,9 @@ class Travel(Wire):
     type: Literal["travel"] = "travel"
     ref: int
     scan: Scan | None
+    count: Scan = Field(
+        default=0, description="inside of the scan, in front of its statement of this count; 0: its beginning"
+    )
 
 
 class RollBack(Wire):
@@ -548,6 +553,8 @@ class Hello(Wire):
     timeline: Timeline
     breakpoints: list[BreakpointInfo]
     coverage: Coverage | None
+    verifications: list[VerificationInfo]
+    disturbances: list[DisturbanceInfo]
 
 
 class State(Wire):
@@ -670,6 +677,10 @@ ServerMessage = Annotated[
     | Traces
     | Flight
     | Coverage
+    | Verifications
+    | Disturbances
+    | Comparison
+    | Rerun
     | Alive,
     Field(discriminator="type"),
 ]

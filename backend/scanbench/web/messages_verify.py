@@ -7,7 +7,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from scanbench.web.messages_base import Id, Scan, Wire
+from scanbench.web.messages_base import Scan, Wire
 
 VerifyState = Literal["starting", "verifying", "waiting", "stopped", "done", "failed"]
 """verifying: scans are compared. waiting: for the user (paces scan and step), or for the PLC's next scan. stopped: by
@@ -22,7 +22,9 @@ Text = Annotated[str, Field(max_length=200)]
 class VerifyRange(Wire):
     """A stretch of one POU; all empty: the whole scan."""
 
-    pou: Text = Field(default="", description="name of a POU, or FB.method; empty: the one in which the lines of `file` stand")
+    pou: Text = Field(
+        default="", description="name of a POU, or FB.method; empty: the one in which the lines of `file` stand"
+    )
     file: Text = ""
     first: int = Field(default=0, ge=0, le=10_000_000, description="line, from 1; 0: from the POU's first statement")
     last: int = Field(default=0, ge=0, le=10_000_000, description="included; 0: to its last statement")
@@ -136,7 +138,9 @@ class VerificationInfo(Wire):
     scan: int | None = Field(description="verified last")
     compared: int = Field(description="scans")
     skipped: int
-    stretches: list[tuple[int, int]] = Field(description="the skipped scans, the last 100 stretches, both ends included")
+    stretches: list[tuple[int, int]] = Field(
+        description="the skipped scans, the last 100 stretches, both ends included"
+    )
     differing: int = Field(description="rows that differ")
     first_difference: VerifyDifference | None
     first_scan: int | None = Field(description="scan of the first difference")
@@ -214,24 +218,10 @@ class NewDisturbance(Wire):
     scan: Scan | None = Field(default=None, description="in which scan; null with probability 0: the next one")
     probability: float = Field(default=0, ge=0, le=1, description="of each scan, from `scan` on; 0: once")
     seed: int = Field(default=0, ge=0, lt=1 << 63)
-    scans: int = Field(default=1, ge=1, le=1_000_000, description="late, stuck: how long; stuck with 1,000,000: until taken back")
+    scans: int = Field(
+        default=1, ge=1, le=1_000_000, description="late, stuck: how long; stuck with 1,000,000: until taken back"
+    )
     times: int = Field(default=0, ge=0, le=1_000_000, description="with a probability: at most so often; 0: for ever")
-
-
-class Disturb(Wire):
-    """Disturbs the PLC; the journal keeps it."""
-
-    type: Literal["disturb"] = "disturb"
-    ref: int
-    disturbance: NewDisturbance
-
-
-class Calm(Wire):
-    """Takes disturbances back; null is all."""
-
-    type: Literal["calm"] = "calm"
-    ref: int
-    ids: list[Id] | None
 
 
 class DisturbanceInfo(Wire):
@@ -268,7 +258,8 @@ class TraceMapping(Wire):
     axis: str = Field(default="", max_length=500, description="column with scan or time; empty: a row is a scan")
     unit: Literal["scan", "ns", "us", "ms", "s"] = "scan"
     gaps: Literal["refuse", "skip", "hold"] = Field(
-        default="refuse", description="scans that are missing: refuse the file, compare nothing there and begin anew, or hold the values"
+        default="refuse",
+        description="scans that are missing: refuse the file, compare nothing there and begin anew, or hold the values",
     )
     columns: list[TraceColumnMap] = Field(max_length=1000)
 

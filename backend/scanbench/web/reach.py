@@ -25,13 +25,19 @@ Bench = Annotated[Workbench, Depends(_bench)]
 SocketBench = Annotated[Workbench, Depends(_socket_bench)]
 
 
-async def xml_body(request: Request) -> str:
+async def file_body(request: Request, limit: int) -> bytes:
     """The file that is the body; one that is too large is not read to its end."""
     body = bytearray()
     async for chunk in request.stream():
         body += chunk
-        if len(body) > SIZE_LIMIT:
-            raise Refused(f"nothing was imported: the file is larger than {SIZE_LIMIT >> 20} MiB")
+        if len(body) > limit:
+            raise Refused(f"nothing was imported: the file is larger than {limit >> 20} MiB")
+    return bytes(body)
+
+
+async def xml_body(request: Request) -> str:
+    """The XML file that is the body."""
+    body = await file_body(request, SIZE_LIMIT)
     try:
         return body.decode("utf-8-sig")
     except UnicodeDecodeError as error:

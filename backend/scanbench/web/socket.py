@@ -7,6 +7,7 @@ as it has taken everything else.
 import asyncio
 import json
 from collections import deque
+from collections.abc import Iterable
 from contextlib import suppress
 
 from fastapi import WebSocket, WebSocketDisconnect
@@ -27,7 +28,7 @@ from scanbench.session.session import Session
 from scanbench.web import messages as wire
 from scanbench.web import messages_debug as debugger
 from scanbench.web import messages_errors as simulator
-from scanbench.web import translate, translate_debug, translate_errors
+from scanbench.web import translate, translate_debug, translate_errors, translate_verify
 from scanbench.web.dap.attaching import ForBrowser
 from scanbench.web.dap.conversation import Conversation
 from scanbench.web.waiting import Waiting
@@ -115,7 +116,7 @@ class Client:
 
     # ---- the socket -----------------------------------------------------------------------------------------------
 
-    async def serve(self, instance: wire.Instance) -> None:
+    async def serve(self, instance: wire.Instance, verifications: Iterable[events.VerificationStatus]) -> None:
         """Speaks with the browser until it goes."""
         await self._socket.accept()
         self._id = self._session.join(self)
@@ -131,6 +132,8 @@ class Client:
             timeline=translate.timeline(self._session.timeline),
             breakpoints=list(map(translate_debug.breakpoint, self._session.debugging.verdicts)),
             coverage=translate_debug.coverage(covered) if (covered := self._session.debugging.coverage) else None,
+            verifications=list(map(translate_verify.info, verifications)),
+            disturbances=list(map(translate_verify.disturbance, self._session.disturbances)),
         )
         self._texts.first(hello.model_dump_json())
         writer = asyncio.get_running_loop().create_task(self._write())
@@ -225,7 +228,7 @@ class Client:
             case wire.Run():
                 return await session.drive(message.action, message.speed, author, message.scans, message.until)
             case wire.Travel():
-                return await session.travel(message.scan, author)
+                return await session.travel(message.scan, author, message.count)
             case wire.NewRun():
                 return await session.begin_anew(author)
             case wire.RollBack():

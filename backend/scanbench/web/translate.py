@@ -17,7 +17,14 @@ from scanbench.store.records import FileInfo, FileRow, ProjectRow
 from scanbench.web import messages as wire
 from scanbench.web import messages_debug as debugger
 from scanbench.web import messages_errors as simulator
-from scanbench.web import translate_debug, translate_errors, translate_sweeps, translate_trace
+from scanbench.web import (
+    translate_debug,
+    translate_errors,
+    translate_past,
+    translate_sweeps,
+    translate_trace,
+    translate_verify,
+)
 from scanbench.web.messages_watch import WatchListChanged
 
 
@@ -223,6 +230,11 @@ def event(happened: events.Told) -> wire.ServerMessage:
             return _of_project(happened)
         case events.BreakpointsChanged() | events.CoverageChanged() | events.TracesChanged() | events.FlightChanged():
             return _of_tools(happened)
+        case (
+            events.VerificationsChanged() | events.DisturbancesChanged() | events.ComparisonChanged()
+            | events.RerunChanged()
+        ):  # fmt: skip
+            return _of_verification(happened)
         case events.StateChanged():
             return wire.State(state=state(happened.state))
         case events.ErrorsChanged():
@@ -280,6 +292,20 @@ def _of_tools(
             return translate_trace.traces(happened)
         case events.FlightChanged():
             return translate_trace.flight(happened)
+
+
+def _of_verification(
+    happened: events.VerificationsChanged | events.DisturbancesChanged | events.ComparisonChanged | events.RerunChanged,
+) -> wire.ServerMessage:
+    match happened:
+        case events.VerificationsChanged():
+            return translate_verify.told(happened)
+        case events.DisturbancesChanged():
+            return translate_verify.disturbances(happened)
+        case events.ComparisonChanged():
+            return translate_past.comparison(happened)
+        case events.RerunChanged():
+            return translate_past.rerun(happened)
 
 
 # ---- models ------------------------------------------------------------------------------------------------------

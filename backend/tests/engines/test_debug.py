@@ -68,7 +68,7 @@ class Told:
         return count == self.halt
 
     def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
-        self.lines.append(f"{count} {self.line(site)} {'writes' if written else 'reads'} {offset} {size}")
+        self.lines.append(f"{count} {self.line(site)} {'writes' if written else 'reads'} {offset} {size} {self.engine.bits}")
 
     def line(self, site: int) -> str:
         span = self.engine.sites.statements[site].span
@@ -80,7 +80,7 @@ class Told:
 
 def everything(program: Program) -> Listen:
     """Every statement, every access."""
-    return Listen(every=True, bytes=dict.fromkeys(range(program.layout.size), READ | WRITE))
+    return Listen(every=True, accesses=READ | WRITE)
 
 
 def started(make: Make, program: Program, memory: bytearray, listen: Listen | None = None) -> tuple[DebugEngine, Told]:
@@ -275,7 +275,7 @@ def accesses(make: Make, text: str, watched: str, how: int = READ | WRITE) -> li
     engine.run(1)
     lines = []
     for line in told.lines:
-        _, where, verb, offset, _ = line.split()
+        _, where, verb, offset, _, _ = line.split()
         lines.append(f"{where.partition(':')[0]} {verb} {names.get(int(offset), '?')}")
     return lines
 

@@ -29,24 +29,24 @@ def test_the_traces_of_an_instance_are_replaced_as_a_whole(store: Store) -> None
 
 def test_records_are_kept_for_a_project_and_outlive_the_instance(store: Store) -> None:
     project, instance = made(store)
-    first = store.create_trace_record(project, name="before", instance="line", content=CONTENT, by="Ada")
-    second = store.create_trace_record(project, name="after", instance="line", content=CONTENT, by="Bob")
+    first = store.keep("trace", project, name="before", instance="line", content=CONTENT, by="Ada")
+    second = store.keep("trace", project, name="after", instance="line", content=CONTENT, by="Bob")
     store.delete_instance(instance)
-    assert [row.id for row in store.trace_records(project)] == [second.id, first.id]
-    assert store.trace_record(first.id) == first
+    assert [row.id for row in store.kept("trace", project)] == [second.id, first.id]
+    assert store.kept_one("trace", first.id) == first
     assert (first.name, first.instance, first.content, first.by) == ("before", "line", CONTENT, "Ada")
-    store.delete_trace_record(first.id)
+    store.forget("trace", first.id)
     with pytest.raises(NotFound, match=str(first.id)):
-        store.trace_record(first.id)
+        store.kept_one("trace", first.id)
     with pytest.raises(NotFound):
-        store.delete_trace_record(first.id)
+        store.forget("trace", first.id)
     store.delete_project(project)
     with pytest.raises(NotFound):
-        store.trace_record(second.id)
+        store.kept_one("trace", second.id)
 
 
 def test_what_cannot_be_stored(store: Store) -> None:
     project, _ = made(store)
     for name in ("", "x" * 101, "a\x00b"):
         with pytest.raises(NotStorable):
-            store.create_trace_record(project, name=name, instance="line", content=CONTENT, by="Ada")
+            store.keep("trace", project, name=name, instance="line", content=CONTENT, by="Ada")

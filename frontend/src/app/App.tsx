@@ -6,6 +6,7 @@ import { OnlineChange } from "../panels/change/OnlineChange";
 import { DebugSide } from "../panels/debug/DebugSide";
 import { Explorer } from "../panels/explorer/Explorer";
 import { Instances } from "../panels/instances/Instances";
+import { Past } from "../panels/past/Past";
 import { StatusBar } from "../panels/status/StatusBar";
 import { Sweeping } from "../panels/sweep/Sweeping";
 import { Timeline } from "../panels/timeline/Timeline";
@@ -82,6 +83,7 @@ function Window() {
       <Instances />
       <OnlineChange />
       <Sweeping />
+      <Past />
     </div>
   );
 }

@@ -2,12 +2,16 @@
 
 import { onProject, useBench } from "../store/bench";
 import { setClock } from "../store/clock";
+import { onComparison, refreshComparisons } from "../store/comparisons";
 import { onCoverage } from "../store/coverage";
 import { joinDebugger, onBreakpoints } from "../store/debug";
+import { onDisturbances } from "../store/disturb";
 import { catchUp, onBuilt, onDeleted, onSaved } from "../store/documents";
 import { onForces, onWritten } from "../store/forces";
+import { followLink } from "../store/links";
 import { resetMembers } from "../store/members";
 import { onErrors, onHello, onLog, onState, usePlc } from "../store/plc";
+import { onRerun } from "../store/reruns";
 import { forgetRefusals } from "../store/run";
 import { onSweep, onSweepHello } from "../store/sweeps";
 import { onTimeline } from "../store/timeline";
@@ -44,6 +48,7 @@ function dispatch(message: ServerMessage): void {
       onHello(message);
       onForces(message.forces);
       onTimeline(message.timeline);
+      onDisturbances(message.disturbances);
       onProject(message.instance.project);
       useBench.setState({ instance: message.instance });
       joinDebugger(message.breakpoints);
@@ -52,7 +57,9 @@ function dispatch(message: ServerMessage): void {
       void catchUpLists();
       onSweepHello();
       void refreshTraces();
+      void refreshComparisons();
       void catchUp();
+      followLink();
       return;
     case "state":
       onState(message.state);
@@ -119,6 +126,15 @@ function dispatch(message: ServerMessage): void {
       return;
     case "flight":
       onFlight(message);
+      return;
+    case "disturbances":
+      onDisturbances(message.disturbances);
+      return;
+    case "comparison":
+      onComparison(message);
+      return;
+    case "rerun":
+      onRerun(message);
       return;
     case "alive":
       return;

@@ -4,6 +4,7 @@ import { baseName } from "../logic/paths";
 import { t } from "../logic/text";
 import { ConsolePanel } from "../panels/console/ConsolePanel";
 import { DiagnosticsPanel } from "../panels/diagnostics/DiagnosticsPanel";
+import { DisturbPanel } from "../panels/disturb/DisturbPanel";
 import { EditorPanel } from "../panels/editor/EditorPanel";
 import { ErrorsPanel } from "../panels/errors/ErrorsPanel";
 import { PanelEnd } from "../panels/errors/PanelEnd";
@@ -34,6 +35,7 @@ export const components = {
   log: LogPanel,
   console: ConsolePanel,
   errors: ErrorsPanel,
+  disturb: DisturbPanel,
   history: HistoryPanel,
   ...pageComponents,
 };

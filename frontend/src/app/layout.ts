@@ -19,6 +19,7 @@ export function standardLayout(dock: DockviewApi): void {
     position: { referencePanel: "start", direction: "right" },
     initialWidth: narrow ? 372 : 420,
   });
+  dock.addPanel({ id: "disturb", component: "disturb", position: { referencePanel: "errors" }, inactive: true });
   dock.addPanel({
     id: "watch",
     component: "watch",
@@ -31,7 +32,7 @@ export function standardLayout(dock: DockviewApi): void {
   dock.getPanel("start")?.api.setActive();
 }
 
-const FIXED = ["errors", "watch", "trace", "forces", "problems", "diagnostics", "log", "history", "console"];
+const FIXED = ["errors", "disturb", "watch", "trace", "forces", "problems", "diagnostics", "log", "history", "console"];
 
 /** What was kept, when it still fits this version of the page; else the usual arrangement. */
 export function restoreLayout(dock: DockviewApi, kept: unknown): void {

@@ -2,6 +2,7 @@
 import type { ReactNode } from "react";
 import { t } from "../logic/text";
 import { RecordPage } from "../panels/history/RecordPage";
+import { ComparePage } from "../panels/past/ComparePage";
 import { SweepPage } from "../panels/sweep/SweepPage";
 import { UserErrorsPage } from "../panels/usererrors/UserErrorsPage";
 import type { PageName } from "../store/navigate";
@@ -20,6 +21,7 @@ interface Page {
 export const PAGES: Record<PageName, Page> = {
   sweep: { component: SweepPage, icon: "generated", useTitle: useSweepTitle },
   record: { component: RecordPage, icon: "import", useTitle: useRecordTitle },
+  compare: { component: ComparePage, icon: "swap", useTitle: () => t("compare.tab") },
   usererrors: { component: UserErrorsPage, icon: "list", useTitle: useUserErrorsTitle },
 };
 

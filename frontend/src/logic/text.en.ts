@@ -1,9 +1,13 @@
 /** English. */
 import { debugEnglish } from "./text.debug.en";
+import { disturbEnglish } from "./text.disturb.en";
+import { pastEnglish } from "./text.past.en";
 import { traceEnglish } from "./text.trace.en";
 
 export const english = {
   ...debugEnglish,
+  ...disturbEnglish,
+  ...pastEnglish,
   ...traceEnglish,
   "area.access": "{words} words · program: {program} · tools: {tool} · engine: {engine}",
   build: "Build",

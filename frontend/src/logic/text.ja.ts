@@ -1,10 +1,14 @@
 /** 日本語 */
 import { debugJapanese } from "./text.debug.ja";
+import { disturbJapanese } from "./text.disturb.ja";
 import type { TextKey } from "./text.en";
+import { pastJapanese } from "./text.past.ja";
 import { traceJapanese } from "./text.trace.ja";
 
 export const japanese: Record<TextKey, string> = {
   ...debugJapanese,
+  ...disturbJapanese,
+  ...pastJapanese,
   ...traceJapanese,
   "area.access": "{words} ワード · プログラム: {program} · ツール: {tool} · エンジン: {engine}",
   build: "ビルド",

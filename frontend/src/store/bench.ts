@@ -1,11 +1,13 @@
 /** What there is on this server, and what this browser looks at: project, instance, model. */
 import { create } from "zustand";
 import { skeleton } from "../logic/explorer";
+import { readLink } from "../logic/links";
 import { Refused, rest } from "../wire/rest";
 import { link } from "../wire/socket";
 import type { AppInfo, Instance, ModelInfo, Project } from "../wire/types";
 import { onCoverage } from "./coverage";
 import { resetDebug } from "./debug";
+import { resetDisturb } from "./disturb";
 import { loadProject, messageOf } from "./documents";
 import { resetForces } from "./forces";
 import { keep, recall } from "./keep";
@@ -39,13 +41,14 @@ export const useBench = create<Bench>(() => ({
 const get = useBench.getState;
 const set = useBench.setState;
 
-/** First thing on the page: what is here, then what was looked at last time, else the first instance. */
+/** First thing on the page: what is here, then what the address names, what was looked at last time, else the first instance. */
 export async function start(): Promise<void> {
   try {
     const app = await rest.app();
     set({ app, phase: "ready" });
-    const last = recall<number | null>("instance", null);
-    const instance = app.instances.find((known) => known.id === last) ?? app.instances[0];
+    const known = (id: number | null) => app.instances.find((instance) => instance.id === id);
+    const linked = readLink(location)?.instance ?? null;
+    const instance = known(linked) ?? known(recall<number | null>("instance", null)) ?? app.instances[0];
     if (instance) await chooseInstance(instance);
     else if (app.projects[0]) await chooseProject(app.projects[0]);
   } catch (error) {
@@ -71,6 +74,7 @@ async function look(project: Project, instance: Instance | null): Promise<void> 
   resetPlc();
   resetForces();
   resetSimulator();
+  resetDisturb();
   resetTimeline();
   resetTraces();
   resetDebug();

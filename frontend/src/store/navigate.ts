@@ -1,9 +1,24 @@
 /** Going to places: panels ask, the shell (which knows the docking) does it. */
 import { create } from "zustand";
 
-export type PanelName = "console" | "watch" | "trace" | "forces" | "problems" | "log" | "errors" | "history";
+/** What stands at the bottom and at the right, and cannot be closed. */
+const PANELS = [
+  "console",
+  "diagnostics",
+  "disturb",
+  "errors",
+  "forces",
+  "history",
+  "log",
+  "problems",
+  "trace",
+  "verify",
+  "watch",
+] as const;
+export type PanelName = (typeof PANELS)[number];
+export const isPanel = (name: string): name is PanelName => PANELS.some((known) => known === name);
 /** What stands among the files in the centre without being one: opened when asked for, closed like a file. */
-const PAGES = ["sweep", "usererrors", "record"] as const;
+const PAGES = ["sweep", "usererrors", "record", "compare"] as const;
 export type PageName = (typeof PAGES)[number];
 
 export const pageOf = (panel: string): PageName | undefined => PAGES.find((name) => name === panel);

@@ -18,11 +18,13 @@ interface Run {
   /** Where one is on the way to, until the PLC is there. */
   aim: number | null;
   refused: string | null;
+  /** The scans that are selected, both included; null while none are. */
+  selection: Axis | null;
   /** The damage report that was read and put away. */
   read: string;
 }
 
-const nothing: Run = { info: null, marks: [], view: null, follows: true, aim: null, refused: null, read: "" };
+const nothing: Run = { info: null, marks: [], view: null, follows: true, aim: null, refused: null, selection: null, read: "" };
 
 export const useTimeline = create<Run>(() => nothing);
 const get = useTimeline.getState;
@@ -49,6 +51,12 @@ function inSight(scan: number | null): Partial<Run> {
   return { view: including(view, { from: info?.first_scan ?? 0, to: liveScan() }, scan) };
 }
 
+/** Selects a stretch of the run, both scans included, in whatever order; null takes the selection away. */
+export function selectStretch(one: number | null, other = one): void {
+  if (one === null || other === null) set({ selection: null });
+  else set({ selection: { from: Math.min(one, other), to: Math.max(one, other) } });
+}
+
 export const putAwayDamage = () => set(({ info }) => ({ read: info?.damage ?? "" }));
 
 /** The newest scan there is, whatever is shown. */
@@ -57,18 +65,19 @@ export function liveScan(): number {
 }
 
 let underWay = false;
-let next: { scan: number | null } | null = null;
+let next: { scan: number | null; count: number } | null = null;
 
-/** Shows the PLC as it was before a scan; null returns to live. While one request is answered, only the last wish is kept. */
-export async function travel(scan: number | null): Promise<void> {
+/** Shows the PLC as it was before a scan, or in front of its statement of this `count`; null returns to live. While one
+ * request is answered, only the last wish is kept. */
+export async function travel(scan: number | null, count = 0): Promise<void> {
   set({ aim: scan ?? liveScan(), ...inSight(scan) });
-  next = { scan };
+  next = { scan, count };
   if (underWay) return;
   underWay = true;
   while (next !== null) {
-    const wish: { scan: number | null } = next;
+    const wish: { scan: number | null; count: number } = next;
     next = null;
-    const answer = await send({ type: "travel", scan: wish.scan });
+    const answer = await send({ type: "travel", ...wish });
     set({ refused: answer.ok ? null : answer.message });
   }
   underWay = false;

@@ -94,7 +94,7 @@ export function Menu({ label, items, at, onClose }: MenuProps) {
 }
 
 /** What is outside of a modal dialog cannot be clicked: the menu of one stands in it. */
-const layer = () => [...document.querySelectorAll("dialog:modal")].at(-1) ?? document.body;
+export const layer = () => [...document.querySelectorAll("dialog:modal")].at(-1) ?? document.body;
 
 function MenuEntry({ item, onClose }: { item: MenuItem; onClose: () => void }) {
   const icon: IconName | null = item.checked ? "check" : (item.icon ?? null);

@@ -322,7 +322,13 @@ export const drawings = {
     </>
   ),
   bound: <path d="M2.75 3v4.25a1.5 1.5 0 0 0 1.5 1.5h8.5M10 5.75l3 3-3 3" />,
+  link: (
+    <path d="M6.75 9.25a2.6 2.6 0 0 0 3.7 0l2-2a2.6 2.6 0 0 0-3.7-3.7l-.9.9M9.25 6.75a2.6 2.6 0 0 0-3.7 0l-2 2a2.6 2.6 0 0 0 3.7 3.7l.9-.9" />
+  ),
   cmd: <path d="m4 5 3 3-3 3M8.5 11.5h4" />,
+  disturbance: <path d="M1.25 8h2.5l1.5-4.25 2.75 8.5 2.25-6.5L11.75 8h3" />,
+  flip: <path d="M3.75 5.25c1.1 0 1.75 1 1.75 2.75s-.65 2.75-1.75 2.75S2 9.75 2 8s.65-2.75 1.75-2.75zM7.5 8h3.25M9.5 6.6 10.9 8 9.5 9.4M13.5 5.25v5.5" />,
+  stuck: <path d="M1.5 11H4V5h2.5v6H9V5h5.5" />,
 } as const;
 
 export type IconName = keyof typeof drawings;

@@ -20,6 +20,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/comparisons/{comparison}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * On Delete Comparison
+         * @description Cancels a comparison, or forgets what came of it.
+         */
+        delete: operations["on_delete_comparison_api_comparisons__comparison__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/flights/{flight}": {
         parameters: {
             query?: never;
@@ -133,6 +153,50 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/changes": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Changes
+         * @description What is another at the beginning of scan `last` than at that of `first`; with `other` in that instance at `last`.
+         */
+        get: operations["on_changes_api_instances__instance__changes_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/comparisons": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Comparisons
+         * @description The comparisons of this run with others, the newest first.
+         */
+        get: operations["on_comparisons_api_instances__instance__comparisons_get"];
+        put?: never;
+        /**
+         * On Compare
+         * @description Compares this run (A) with another one (B), scan by scan; how far it is comes by A's WebSocket.
+         */
+        post: operations["on_compare_api_instances__instance__comparisons_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/complete": {
         parameters: {
             query?: never;
@@ -188,6 +252,54 @@ export interface paths {
         put?: never;
         post?: never;
         delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/disturbances": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Disturbances
+         * @description Those that are not over.
+         */
+        get: operations["on_disturbances_api_instances__instance__disturbances_get"];
+        put?: never;
+        /**
+         * On Disturb
+         * @description Disturbs the PLC, now or when its time comes; the journal keeps it.
+         */
+        post: operations["on_disturb_api_instances__instance__disturbances_post"];
+        /**
+         * On Calm All
+         * @description Takes all of them back.
+         */
+        delete: operations["on_calm_all_api_instances__instance__disturbances_delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/disturbances/{disturbance}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * On Calm
+         * @description Takes one back.
+         */
+        delete: operations["on_calm_api_instances__instance__disturbances__disturbance__delete"];
         options?: never;
         head?: never;
         patch?: never;
@@ -473,6 +585,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/last-write": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Last Write
+         * @description Who last wrote a variable before `scan` began, or before what is shown now.
+         */
+        get: operations["on_last_write_api_instances__instance__last_write_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/model": {
         parameters: {
             query?: never;
@@ -527,6 +659,26 @@ export interface paths {
          * @description Ends a force, or all.
          */
         post: operations["on_release_api_instances__instance__release_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/reruns": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Rerun
+         * @description The run once more with one error another, as a new instance; how far it is comes by this instance's WebSocket.
+         */
+        post: operations["on_rerun_api_instances__instance__reruns_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -607,6 +759,46 @@ export interface paths {
         get: operations["on_symbols_api_instances__instance__symbols_get"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/trace-check": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Check Mapping
+         * @description Whether a trace file can be verified with this mapping, and if not, where it cannot.
+         */
+        post: operations["on_check_mapping_api_instances__instance__trace_check_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/trace-verifications": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On New Trace Verification
+         * @description Verifies the trace of a real controller with the program that runs.
+         */
+        post: operations["on_new_trace_verification_api_instances__instance__trace_verifications_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -775,6 +967,30 @@ export interface paths {
         get: operations["on_read_api_instances__instance__value_get"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/verifications": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Verifications
+         * @description The verifications of an instance, the oldest first.
+         */
+        get: operations["on_verifications_api_instances__instance__verifications_get"];
+        put?: never;
+        /**
+         * On New Verification
+         * @description Begins to verify, live or a stretch of the past; how it goes on comes by the instance's WebSocket.
+         */
+        post: operations["on_new_verification_api_instances__instance__verifications_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1081,6 +1297,30 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/projects/{project}/trace-mappings": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Mappings
+         * @description The mappings that were saved in a project.
+         */
+        get: operations["on_mappings_api_projects__project__trace_mappings_get"];
+        put?: never;
+        /**
+         * On Save Mapping
+         * @description Saves a mapping under a name; one of the same name is replaced.
+         */
+        post: operations["on_save_mapping_api_projects__project__trace_mappings_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/projects/{project}/trace-records": {
         parameters: {
             query?: never;
@@ -1095,6 +1335,26 @@ export interface paths {
         get: operations["on_records_api_projects__project__trace_records_get"];
         put?: never;
         post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/projects/{project}/traces": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Upload
+         * @description A trace file (see docs/trace-format.md); the body is the file.
+         */
+        post: operations["on_upload_api_projects__project__traces_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1185,6 +1445,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/projects/{project}/verification-records": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Records
+         * @description What was kept in a project, the newest first.
+         */
+        get: operations["on_records_api_projects__project__verification_records_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/projects/{project}/watch-lists": {
         parameters: {
             query?: never;
@@ -1204,6 +1484,26 @@ export interface paths {
          */
         post: operations["on_new_watch_list_api_projects__project__watch_lists_post"];
         delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/reruns/{rerun}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * On Cancel Rerun
+         * @description Cancels a replay that is under way.
+         */
+        delete: operations["on_cancel_rerun_api_reruns__rerun__delete"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1393,6 +1693,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/trace-mappings/{mapping}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * On Delete Mapping
+         * @description Forgets a mapping.
+         */
+        delete: operations["on_delete_mapping_api_trace_mappings__mapping__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/trace-records/{record}": {
         parameters: {
             query?: never;
@@ -1449,6 +1769,194 @@ export interface paths {
          * @description Samples of a kept record, as those of a trace.
          */
         get: operations["on_record_samples_api_trace_records__record__samples_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/verification-records/{record}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Record
+         * @description One that was kept.
+         */
+        get: operations["on_record_api_verification_records__record__get"];
+        put?: never;
+        post?: never;
+        /**
+         * On Delete Record
+         * @description Forgets one that was kept.
+         */
+        delete: operations["on_delete_record_api_verification_records__record__delete"];
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/verification-records/{record}/export": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Export Record
+         * @description Its rows as a file.
+         */
+        get: operations["on_export_record_api_verification_records__record__export_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/verification-records/{record}/rows": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Record Rows
+         * @description Its rows, as those of a verification.
+         */
+        get: operations["on_record_rows_api_verification_records__record__rows_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/verifications/{verification}": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        post?: never;
+        /**
+         * On Delete
+         * @description Ends a verification, and forgets its rows.
+         */
+        delete: operations["on_delete_api_verifications__verification__delete"];
+        options?: never;
+        head?: never;
+        /**
+         * On Drive
+         * @description Another pace or memory; one further; stopped, or resumed.
+         */
+        patch: operations["on_drive_api_verifications__verification__patch"];
+        trace?: never;
+    };
+    "/api/verifications/{verification}/cells": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Cells
+         * @description Edits inputs of the set data; the monitor runs those passes again.
+         */
+        post: operations["on_cells_api_verifications__verification__cells_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/verifications/{verification}/export": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Export
+         * @description All rows that are kept, as a file.
+         */
+        get: operations["on_export_api_verifications__verification__export_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/verifications/{verification}/keep": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Keep
+         * @description Keeps a verification in the project, as it is now.
+         */
+        post: operations["on_keep_api_verifications__verification__keep_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/verifications/{verification}/rows": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Rows
+         * @description Rows from index `first` on; with `differing` only those that differ count.
+         */
+        get: operations["on_rows_api_verifications__verification__rows_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/verifications/{verification}/uses": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Uses
+         * @description The used-variable record of one row, in the order of use.
+         */
+        get: operations["on_uses_api_verifications__verification__uses_get"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1654,6 +2162,20 @@ export interface components {
              * Text
              * @description start and shape in a sentence
              */
+            text: string;
+        };
+        /** BetweenEntry */
+        BetweenEntry: {
+            /** Author */
+            author: string;
+            /**
+             * Run
+             * @enum {string}
+             */
+            run: "" | "A" | "B";
+            /** Scan */
+            scan: number;
+            /** Text */
             text: string;
         };
         /**
@@ -1883,6 +2405,12 @@ export interface components {
             /** Problems */
             problems: components["schemas"]["Problem"][];
         };
+        /** CheckTraceMapping */
+        CheckTraceMapping: {
+            /** File */
+            file: string;
+            mapping: components["schemas"]["TraceMapping"];
+        };
         /** ClearDiagnostics */
         ClearDiagnostics: {
             /** Ref */
@@ -1919,6 +2447,38 @@ export interface components {
             ok: boolean;
             /** Scan */
             scan: number;
+        };
+        /**
+         * Comparison
+         * @description How far a comparison of two runs is, and what came of it. Kept until the server ends, the last 20 of an instance.
+         */
+        Comparison: {
+            /**
+             * A
+             * @description instance
+             */
+            a: number;
+            /** B */
+            b: number;
+            /** By */
+            by: string;
+            /** Done */
+            done: number;
+            /** Id */
+            id: number;
+            /**
+             * Message
+             * @description why nothing came of it
+             */
+            message: string;
+            /** Of */
+            of: number;
+            result: components["schemas"]["RunDivergence"] | null;
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "comparison";
         };
         /**
          * Coverage
@@ -2104,6 +2664,48 @@ export interface components {
              */
             type: "disarm";
         };
+        /** DisturbanceInfo */
+        DisturbanceInfo: {
+            /** By */
+            by: string;
+            /**
+             * Fired
+             * @description how often until now
+             */
+            fired: number;
+            /** Id */
+            id: number;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "flip" | "late" | "stuck" | "result";
+            /** Next Scan */
+            next_scan: number | null;
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "waiting" | "active";
+            /**
+             * Text
+             * @description for people: `Memory D120, bit 0, once in scan 500`
+             */
+            text: string;
+        };
+        /**
+         * Disturbances
+         * @description Those that are not over, whenever they change.
+         */
+        Disturbances: {
+            /** Disturbances */
+            disturbances: components["schemas"]["DisturbanceInfo"][];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "disturbances";
+        };
         /**
          * Done
          * @description Answer to every command: applied in the seam before `scan`, or refused with a reason.
@@ -2147,6 +2749,20 @@ export interface components {
              * @description a BOOL expression over instance paths and addresses
              */
             until?: string | null;
+        };
+        /**
+         * DriveVerification
+         * @description What is null stays as it is. `go_on`: one scan or statement further (paces scan and step).
+         */
+        DriveVerification: {
+            /** Action */
+            action?: ("go_on" | "stop" | "resume") | null;
+            /** Auto */
+            auto?: boolean | null;
+            /** Memory */
+            memory?: ("recorded" | "set") | null;
+            /** Pace */
+            pace?: ("free" | "scan" | "step") | null;
         };
         /**
          * EmbeddedCheck
@@ -2672,6 +3288,8 @@ export interface components {
             breakpoints: components["schemas"]["BreakpointInfo"][];
             coverage: components["schemas"]["Coverage"] | null;
             diagnostics: components["schemas"]["Diagnostics"];
+            /** Disturbances */
+            disturbances: components["schemas"]["DisturbanceInfo"][];
             /** Errors */
             errors: components["schemas"]["ErrorHistoryRow"][];
             /** Forces */
@@ -2687,6 +3305,8 @@ export interface components {
             type: "hello";
             /** Users */
             users: components["schemas"]["User"][];
+            /** Verifications */
+            verifications: components["schemas"]["VerificationInfo"][];
             you: components["schemas"]["User"];
         };
         /**
@@ -2860,6 +3480,37 @@ export interface components {
             /** Name */
             name: string;
         };
+        /** KeepVerification */
+        KeepVerification: {
+            /** Name */
+            name: string;
+        };
+        /** LastWriter */
+        LastWriter: {
+            /** Author */
+            author: string;
+            /**
+             * By
+             * @enum {string}
+             */
+            by: "program" | "command" | "plc" | "start";
+            /**
+             * Count
+             * @description of a statement: the position in front of it, for `travel`
+             */
+            count: number;
+            /** Path */
+            path: string;
+            place: components["schemas"]["VerifyPlace"] | null;
+            /** Scan */
+            scan: number;
+            /** Shown */
+            shown: string;
+            /** Text */
+            text: string;
+            /** Value */
+            value: string;
+        };
         /** Log */
         Log: {
             /** Lines */
@@ -2968,6 +3619,71 @@ export interface components {
              */
             verified_count: number;
         };
+        /** NewComparison */
+        NewComparison: {
+            /**
+             * Other
+             * @description instance B; that of the address is A
+             */
+            other: number;
+        };
+        /**
+         * NewDisturbance
+         * @description flip: one bit of memory. late: an input refresh comes so many scans late (1: it is lost). stuck: an input stays as it is.
+         *     result: what a statement writes has bits turned over.
+         */
+        NewDisturbance: {
+            /**
+             * Bit
+             * @description flip, result: which bit; null: any, by the seed
+             */
+            bit?: number | null;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "flip" | "late" | "stuck" | "result";
+            /**
+             * Path
+             * @description variable or address; empty with late, stuck: all inputs
+             * @default
+             */
+            path: string;
+            /**
+             * Probability
+             * @description of each scan, from `scan` on; 0: once
+             * @default 0
+             */
+            probability: number;
+            /**
+             * Scan
+             * @description in which scan; null with probability 0: the next one
+             */
+            scan?: number | null;
+            /**
+             * Scans
+             * @description late, stuck: how long; stuck with 1,000,000: until taken back
+             * @default 1
+             */
+            scans: number;
+            /**
+             * Seed
+             * @default 0
+             */
+            seed: number;
+            /**
+             * Site
+             * @description result: `Main.st:34`
+             * @default
+             */
+            site: string;
+            /**
+             * Times
+             * @description with a probability: at most so often; 0: for ever
+             * @default 0
+             */
+            times: number;
+        };
         /**
          * NewFlight
          * @description Scans that are over, to be recorded afterwards.
@@ -3016,6 +3732,44 @@ export interface components {
             name: string;
         };
         /**
+         * NewRerun
+         * @description The run of this instance once more, with one error another; see `verify.findings.RerunChange`.
+         */
+        NewRerun: {
+            /**
+             * Behind
+             * @default 0
+             */
+            behind: number;
+            /**
+             * By
+             * @default 0
+             */
+            by: number;
+            /** Error */
+            error: string;
+            /**
+             * Instead
+             * @default
+             */
+            instead: string;
+            /**
+             * Leave Out
+             * @default false
+             */
+            leave_out: boolean;
+            /**
+             * Name
+             * @description of the new instance
+             */
+            name: string;
+            /**
+             * Scan
+             * @description in front of which the error was raised
+             */
+            scan: number;
+        };
+        /**
          * NewRun
          * @description Begins at scan 0, with an empty timeline; the old run file is kept aside on the server.
          */
@@ -3045,6 +3799,68 @@ export interface components {
              * @default 200
              */
             window: number;
+        };
+        /**
+         * NewTraceVerification
+         * @description A trace of a real controller as the control device; the file is uploaded before, see `UploadedTrace`.
+         */
+        NewTraceVerification: {
+            /**
+             * File
+             * @description as `UploadedTrace.file`
+             */
+            file: string;
+            /**
+             * Limit
+             * @default 4096
+             */
+            limit: number;
+            mapping: components["schemas"]["TraceMapping"];
+            /**
+             * @default {
+             *       "file": "",
+             *       "first": 0,
+             *       "instance": "",
+             *       "last": 0,
+             *       "pou": ""
+             *     }
+             */
+            range: components["schemas"]["VerifyRange"];
+        };
+        /** NewVerification */
+        NewVerification: {
+            /**
+             * First
+             * @description a past stretch; null: live, from the scan that is next
+             */
+            first?: number | null;
+            /**
+             * Last
+             * @description included; null with `first`: to the scan that was over last
+             */
+            last?: number | null;
+            /**
+             * Limit
+             * @description uses of variables that are recorded of a scan
+             * @default 4096
+             */
+            limit: number;
+            /**
+             * Pace
+             * @default free
+             * @enum {string}
+             */
+            pace: "free" | "scan" | "step";
+            /**
+             * @default {
+             *       "file": "",
+             *       "first": 0,
+             *       "instance": "",
+             *       "last": 0,
+             *       "pou": ""
+             *     }
+             */
+            range: components["schemas"]["VerifyRange"];
         };
         /** NewWatchList */
         NewWatchList: {
@@ -3546,6 +4362,36 @@ export interface components {
              */
             path?: string | null;
         };
+        /**
+         * Rerun
+         * @description How far a replay with a change is, and the instance that came of it.
+         */
+        Rerun: {
+            /** By */
+            by: string;
+            /** Done */
+            done: number;
+            /** Id */
+            id: number;
+            /** Instance */
+            instance: number | null;
+            /**
+             * Message
+             * @description why nothing came of it
+             */
+            message: string;
+            /** Name */
+            name: string;
+            /** Of */
+            of: number;
+            /** Refused */
+            refused: string[];
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "rerun";
+        };
         /** Restart */
         Restart: {
             /**
@@ -3610,6 +4456,48 @@ export interface components {
              */
             until: string | null;
         };
+        /** RunChanges */
+        RunChanges: {
+            /** Changes */
+            changes: components["schemas"]["VariableChange"][];
+            /** Count */
+            count: number;
+            /** Entries */
+            entries: components["schemas"]["BetweenEntry"][];
+            /** First */
+            first: number;
+            /** Last */
+            last: number;
+            /** Note */
+            note: string;
+        };
+        /** RunDivergence */
+        RunDivergence: {
+            /**
+             * Cause
+             * @enum {string}
+             */
+            cause: "" | "command" | "program" | "start";
+            changes: components["schemas"]["RunChanges"] | null;
+            /** Compared */
+            compared: number;
+            /** Entries */
+            entries: components["schemas"]["BetweenEntry"][];
+            /** First */
+            first: number;
+            /** Last */
+            last: number;
+            /** Marks */
+            marks: [
+                number,
+                number
+            ][];
+            place: components["schemas"]["VerifyPlace"] | null;
+            /** Scan */
+            scan: number | null;
+            /** Text */
+            text: string;
+        };
         /**
          * SaveConflict
          * @description Somebody else saved first (status 409): nothing was written; here is theirs.
@@ -3633,6 +4521,16 @@ export interface components {
              */
             type: "saved";
         };
+        /** SavedMapping */
+        SavedMapping: {
+            /** By */
+            by: string;
+            /** Id */
+            id: number;
+            mapping: components["schemas"]["TraceMapping"];
+            /** Name */
+            name: string;
+        };
         /**
          * SaveFile
          * @description Optimistic save: `version` is the one the edit began from (0 for a new file).
@@ -3642,6 +4540,12 @@ export interface components {
             text: string;
             /** Version */
             version: number;
+        };
+        /** SaveMapping */
+        SaveMapping: {
+            mapping: components["schemas"]["TraceMapping"];
+            /** Name */
+            name: string;
         };
         /**
          * SaveUserErrors
@@ -3674,7 +4578,26 @@ export interface components {
             /** Version */
             version: number;
         };
-        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Flight"] | components["schemas"]["Coverage"] | components["schemas"]["Alive"];
+        ServerMessage: components["schemas"]["Hello"] | components["schemas"]["State"] | components["schemas"]["Watching"] | components["schemas"]["Done"] | components["schemas"]["Errors"] | components["schemas"]["Log"] | components["schemas"]["Users"] | components["schemas"]["Built"] | components["schemas"]["Saved"] | components["schemas"]["Deleted"] | components["schemas"]["Forces"] | components["schemas"]["Diagnostics"] | components["schemas"]["Timeline"] | components["schemas"]["Written"] | components["schemas"]["Armed"] | components["schemas"]["SweepProgress"] | components["schemas"]["WatchListChanged"] | components["schemas"]["Dap"] | components["schemas"]["Breakpoints"] | components["schemas"]["Traces"] | components["schemas"]["Flight"] | components["schemas"]["Coverage"] | components["schemas"]["Verifications"] | components["schemas"]["Disturbances"] | components["schemas"]["Comparison"] | components["schemas"]["Rerun"] | components["schemas"]["Alive"];
+        /** SetCell */
+        SetCell: {
+            /** Call */
+            call: number;
+            /** Column */
+            column: string;
+            /** Scan */
+            scan: number;
+            /**
+             * Value
+             * @description as typed in the watch table; empty takes the edit back
+             */
+            value: string;
+        };
+        /** SetCells */
+        SetCells: {
+            /** Cells */
+            cells: components["schemas"]["SetCell"][];
+        };
         /** SetCoverage */
         SetCoverage: {
             /** On */
@@ -4043,6 +4966,25 @@ export interface components {
              */
             thinned_before: number;
         };
+        /** TraceColumnMap */
+        TraceColumnMap: {
+            /**
+             * Column
+             * @description as the file names it
+             */
+            column: string;
+            /**
+             * Path
+             * @description variable or address of the project
+             * @default
+             */
+            path: string;
+            /**
+             * Role
+             * @enum {string}
+             */
+            role: "input" | "output" | "ignore";
+        };
         /** TraceDefinition */
         TraceDefinition: {
             /**
@@ -4123,6 +5065,67 @@ export interface components {
              * @description after which scan the trigger came, of what is shown
              */
             triggered: number | null;
+        };
+        /**
+         * TraceMapping
+         * @description How a trace file is meant; see docs/trace-format.md.
+         */
+        TraceMapping: {
+            /**
+             * Axis
+             * @description column with scan or time; empty: a row is a scan
+             * @default
+             */
+            axis: string;
+            /** Columns */
+            columns: components["schemas"]["TraceColumnMap"][];
+            /**
+             * Gaps
+             * @description scans that are missing: refuse the file, compare nothing there and begin anew, or hold the values
+             * @default refuse
+             * @enum {string}
+             */
+            gaps: "refuse" | "skip" | "hold";
+            /**
+             * Unit
+             * @default scan
+             * @enum {string}
+             */
+            unit: "scan" | "ns" | "us" | "ms" | "s";
+        };
+        /** TraceMappingChecked */
+        TraceMappingChecked: {
+            /**
+             * First
+             * @description scans `first` to `last`
+             */
+            first: number | null;
+            /** Last */
+            last: number | null;
+            /**
+             * Missing
+             * @description scans in between that the file does not have
+             */
+            missing: number;
+            /** Ok */
+            ok: boolean;
+            /**
+             * Problems
+             * @description the first 200
+             */
+            problems: components["schemas"]["TraceProblem"][];
+        };
+        /** TraceProblem */
+        TraceProblem: {
+            /** Column */
+            column: string;
+            /** Message */
+            message: string;
+            /**
+             * Row
+             * @description line of a CSV file, index in a JSON file; null: the file as a whole
+             */
+            row: number | null;
         };
         /**
          * TraceRecordInfo
@@ -4258,6 +5261,12 @@ export interface components {
          * @description Shows the PLC as it was before `scan`; null returns to live.
          */
         Travel: {
+            /**
+             * Count
+             * @description inside of the scan, in front of its statement of this count; 0: its beginning
+             * @default 0
+             */
+            count: number;
             /** Ref */
             ref: number;
             /** Scan */
@@ -4277,6 +5286,32 @@ export interface components {
              * @enum {string}
              */
             type: "unwatch";
+        };
+        /**
+         * UploadedTrace
+         * @description A trace file that the server has read; nothing is kept of one that has problems.
+         */
+        UploadedTrace: {
+            /** Columns */
+            columns: string[];
+            /**
+             * File
+             * @description handle for NewTraceVerification, good for an hour
+             */
+            file: string;
+            /** @description a proposal: a saved mapping that fits, else by names */
+            mapping: components["schemas"]["TraceMapping"];
+            /** Name */
+            name: string;
+            /** Problems */
+            problems: components["schemas"]["TraceProblem"][];
+            /** Rows */
+            rows: number;
+            /**
+             * Sample
+             * @description the first rows, as text
+             */
+            sample: string[][];
         };
         /** User */
         User: {
@@ -4590,6 +5625,371 @@ export interface components {
              */
             value: string;
         };
+        /** VariableChange */
+        VariableChange: {
+            /** After */
+            after: string;
+            /** After Shown */
+            after_shown: string;
+            /** Before */
+            before: string;
+            /** Before Shown */
+            before_shown: string;
+            /** Kind */
+            kind: string;
+            /** Path */
+            path: string;
+            /** Size */
+            size: number;
+            /** Type */
+            type: string;
+            /** Values */
+            values: [
+                string,
+                number
+            ][];
+        };
+        /**
+         * VerificationInfo
+         * @description How a verification stands. Everybody at the PLC sees the same.
+         */
+        VerificationInfo: {
+            /**
+             * Auto
+             * @description paces scan and step: goes on by itself
+             */
+            auto: boolean;
+            /** By */
+            by: string;
+            /**
+             * Compared
+             * @description scans
+             */
+            compared: number;
+            /**
+             * Differing
+             * @description rows that differ
+             */
+            differing: number;
+            /**
+             * First
+             * @description the first scan that is, or was, to be verified
+             */
+            first: number;
+            first_difference: components["schemas"]["VerifyDifference"] | null;
+            /**
+             * First Scan
+             * @description scan of the first difference
+             */
+            first_scan: number | null;
+            /**
+             * Forgotten
+             * @description rows at the front that found no room any more
+             */
+            forgotten: number;
+            /**
+             * Generation
+             * @description another one when rows that were told are others now
+             */
+            generation: number;
+            /** Id */
+            id: number;
+            /** Instances */
+            instances: string[];
+            /**
+             * Last
+             * @description the last one; null: as long as it runs
+             */
+            last: number | null;
+            /** Limit */
+            limit: number;
+            /**
+             * Memory
+             * @enum {string}
+             */
+            memory: "recorded" | "set";
+            /** Message */
+            message: string;
+            /**
+             * Pace
+             * @enum {string}
+             */
+            pace: "free" | "scan" | "step";
+            range: components["schemas"]["VerifyRange"];
+            /** Rows */
+            rows: number;
+            /**
+             * Scan
+             * @description verified last
+             */
+            scan: number | null;
+            /** Skipped */
+            skipped: number;
+            /**
+             * Source
+             * @enum {string}
+             */
+            source: "live" | "past" | "trace";
+            /**
+             * State
+             * @enum {string}
+             */
+            state: "starting" | "verifying" | "waiting" | "stopped" | "done" | "failed";
+            /**
+             * Stretches
+             * @description the skipped scans, the last 100 stretches, both ends included
+             */
+            stretches: [
+                number,
+                number
+            ][];
+            /** Title */
+            title: string;
+            /**
+             * Trace
+             * @description name of the trace's file
+             */
+            trace: string;
+            /**
+             * Used
+             * @description the most uses of a row
+             */
+            used: number;
+        };
+        /**
+         * VerificationRecord
+         * @description A verification that was kept in the project.
+         */
+        VerificationRecord: {
+            /** At */
+            at: string;
+            /** By */
+            by: string;
+            /** Id */
+            id: number;
+            info: components["schemas"]["VerificationInfo"];
+            /** Instance */
+            instance: string;
+            /** Name */
+            name: string;
+            /** Program Version */
+            program_version: number;
+            /** Project */
+            project: number;
+        };
+        /**
+         * Verifications
+         * @description All verifications of the instance, whenever one changes, and a few times a second while one goes on.
+         */
+        Verifications: {
+            /**
+             * @description discriminator enum property added by openapi-typescript
+             * @enum {string}
+             */
+            type: "verifications";
+            /** Verifications */
+            verifications: components["schemas"]["VerificationInfo"][];
+        };
+        /** VerifyColumn */
+        VerifyColumn: {
+            /**
+             * Input
+             * @description read before it was written, in some row
+             */
+            input: boolean;
+            /** Kind */
+            kind: string;
+            /** Name */
+            name: string;
+            /**
+             * Output
+             * @description written in some row
+             */
+            output: boolean;
+            /** Size */
+            size: number;
+            /** Type */
+            type: string;
+            /** Values */
+            values: [
+                string,
+                number
+            ][];
+        };
+        /** VerifyDifference */
+        VerifyDifference: {
+            /**
+             * Cause
+             * @enum {string}
+             */
+            cause: "logic" | "input" | "order" | "trap" | "outside" | "recorded";
+            /** Control */
+            control: string;
+            /** Kind */
+            kind: string;
+            /** Message */
+            message: string;
+            /** Monitor */
+            monitor: string;
+            /** Name */
+            name: string;
+            place: components["schemas"]["VerifyPlace"] | null;
+            /** Size */
+            size: number;
+            /** Type */
+            type: string;
+        };
+        /** VerifyInput */
+        VerifyInput: {
+            /** Expected */
+            expected: string | null;
+            /** Recorded */
+            recorded: string;
+            /** Set */
+            set: string | null;
+        };
+        /** VerifyOutput */
+        VerifyOutput: {
+            /** Control */
+            control: string | null;
+            /** Monitor */
+            monitor: string | null;
+            /** Set */
+            set: string | null;
+        };
+        /** VerifyPlace */
+        VerifyPlace: {
+            /** File */
+            file: string;
+            /** Instance */
+            instance: string;
+            /** Line */
+            line: number;
+            /** Pou */
+            pou: string;
+            /** Task */
+            task: string;
+            /** Text */
+            text: string;
+        };
+        /**
+         * VerifyRange
+         * @description A stretch of one POU; all empty: the whole scan.
+         */
+        VerifyRange: {
+            /**
+             * File
+             * @default
+             */
+            file: string;
+            /**
+             * First
+             * @description line, from 1; 0: from the POU's first statement
+             * @default 0
+             */
+            first: number;
+            /**
+             * Instance
+             * @description the only instance that counts; empty: all
+             * @default
+             */
+            instance: string;
+            /**
+             * Last
+             * @description included; 0: to its last statement
+             * @default 0
+             */
+            last: number;
+            /**
+             * Pou
+             * @description name of a POU, or FB.method; empty: the one in which the lines of `file` stand
+             * @default
+             */
+            pou: string;
+        };
+        /** VerifyRow */
+        VerifyRow: {
+            /** Call */
+            call: number;
+            /** Count */
+            count: number;
+            /** Differences */
+            differences: components["schemas"]["VerifyDifference"][];
+            /** Disturbances */
+            disturbances: string[];
+            /**
+             * Index
+             * @description of all rows, from 0; those that were forgotten keep theirs
+             */
+            index: number;
+            /** Inputs */
+            inputs: {
+                [key: string]: components["schemas"]["VerifyInput"];
+            };
+            /** Instance */
+            instance: string;
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "pass" | "scan" | "step" | "none";
+            /** Note */
+            note: string;
+            /** Outputs */
+            outputs: {
+                [key: string]: components["schemas"]["VerifyOutput"];
+            };
+            place: components["schemas"]["VerifyPlace"] | null;
+            /** Scan */
+            scan: number;
+            /** Used */
+            used: number;
+        };
+        /**
+         * VerifyRows
+         * @description Rows `first` and on, as many as were asked for, with all columns.
+         */
+        VerifyRows: {
+            /** Columns */
+            columns: components["schemas"]["VerifyColumn"][];
+            /**
+             * Count
+             * @description rows that there were; the last has index `count` - 1
+             */
+            count: number;
+            /**
+             * Differing
+             * @description indices of rows that differ, at most 10,000
+             */
+            differing: number[];
+            /**
+             * First
+             * @description index of the first row that is kept
+             */
+            first: number;
+            /** Rows */
+            rows: components["schemas"]["VerifyRow"][];
+        };
+        /** VerifyUse */
+        VerifyUse: {
+            /**
+             * Control
+             * @description as text
+             */
+            control: string | null;
+            /** File */
+            file: string;
+            /** Instance */
+            instance: string;
+            /** Line */
+            line: number;
+            /** Monitor */
+            monitor: string | null;
+            /** Name */
+            name: string;
+            /** Written */
+            written: boolean;
+        };
         /**
          * Violation
          * @description A place and instance at which a value left its subrange.
@@ -4874,6 +6274,35 @@ export interface operations {
             };
         };
     };
+    on_delete_comparison_api_comparisons__comparison__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                comparison: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
     on_cancel_flight_api_flights__flight__delete: {
         parameters: {
             query?: never;
@@ -5128,6 +6557,107 @@ export interface operations {
             };
         };
     };
+    on_changes_api_instances__instance__changes_get: {
+        parameters: {
+            query: {
+                first: number;
+                last: number;
+                other?: number | null;
+            };
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["RunChanges"];
+                };
+            };
+        };
+    };
+    on_comparisons_api_instances__instance__comparisons_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Comparison"][];
+                };
+            };
+        };
+    };
+    on_compare_api_instances__instance__comparisons_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewComparison"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Comparison"];
+                };
+            };
+        };
+    };
     on_complete_api_instances__instance__complete_get: {
         parameters: {
             query?: {
@@ -5219,6 +6749,135 @@ export interface operations {
                 };
                 content: {
                     "text/plain": string;
+                };
+            };
+        };
+    };
+    on_disturbances_api_instances__instance__disturbances_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["DisturbanceInfo"][];
+                };
+            };
+        };
+    };
+    on_disturb_api_instances__instance__disturbances_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewDisturbance"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
+                };
+            };
+        };
+    };
+    on_calm_all_api_instances__instance__disturbances_delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
+                };
+            };
+        };
+    };
+    on_calm_api_instances__instance__disturbances__disturbance__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                disturbance: number;
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
                 };
             };
         };
@@ -5686,6 +7345,40 @@ export interface operations {
             };
         };
     };
+    on_last_write_api_instances__instance__last_write_get: {
+        parameters: {
+            query: {
+                path: string;
+                scan?: number | null;
+            };
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["LastWriter"];
+                };
+            };
+        };
+    };
     on_model_api_instances__instance__model_get: {
         parameters: {
             query?: never;
@@ -5783,6 +7476,41 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["CommandResult"];
+                };
+            };
+        };
+    };
+    on_rerun_api_instances__instance__reruns_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewRerun"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Rerun"];
                 };
             };
         };
@@ -5921,6 +7649,76 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Symbol"][];
+                };
+            };
+        };
+    };
+    on_check_mapping_api_instances__instance__trace_check_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["CheckTraceMapping"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["TraceMappingChecked"];
+                };
+            };
+        };
+    };
+    on_new_trace_verification_api_instances__instance__trace_verifications_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewTraceVerification"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VerificationInfo"];
                 };
             };
         };
@@ -6253,6 +8051,72 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Value"];
+                };
+            };
+        };
+    };
+    on_verifications_api_instances__instance__verifications_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VerificationInfo"][];
+                };
+            };
+        };
+    };
+    on_new_verification_api_instances__instance__verifications_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["NewVerification"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VerificationInfo"];
                 };
             };
         };
@@ -6871,6 +8735,72 @@ export interface operations {
             };
         };
     };
+    on_mappings_api_projects__project__trace_mappings_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SavedMapping"][];
+                };
+            };
+        };
+    };
+    on_save_mapping_api_projects__project__trace_mappings_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SaveMapping"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["SavedMapping"];
+                };
+            };
+        };
+    };
     on_records_api_projects__project__trace_records_get: {
         parameters: {
             query?: never;
@@ -6898,6 +8828,39 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["TraceRecordInfo"][];
+                };
+            };
+        };
+    };
+    on_upload_api_projects__project__traces_post: {
+        parameters: {
+            query: {
+                name: string;
+            };
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["UploadedTrace"];
                 };
             };
         };
@@ -7084,6 +9047,37 @@ export interface operations {
             };
         };
     };
+    on_records_api_projects__project__verification_records_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                project: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VerificationRecord"][];
+                };
+            };
+        };
+    };
     on_watch_lists_api_projects__project__watch_lists_get: {
         parameters: {
             query?: never;
@@ -7147,6 +9141,35 @@ export interface operations {
                 content: {
                     "application/json": components["schemas"]["WatchList"];
                 };
+            };
+        };
+    };
+    on_cancel_rerun_api_reruns__rerun__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                rerun: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
             };
         };
     };
@@ -7471,6 +9494,35 @@ export interface operations {
             };
         };
     };
+    on_delete_mapping_api_trace_mappings__mapping__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                mapping: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
     on_record_api_trace_records__record__get: {
         parameters: {
             query?: never;
@@ -7593,6 +9645,366 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content?: never;
+            };
+        };
+    };
+    on_record_api_verification_records__record__get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                record: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VerificationRecord"];
+                };
+            };
+        };
+    };
+    on_delete_record_api_verification_records__record__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                record: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    on_export_record_api_verification_records__record__export_get: {
+        parameters: {
+            query?: {
+                format?: "csv" | "json" | "html";
+            };
+            header?: never;
+            path: {
+                record: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    on_record_rows_api_verification_records__record__rows_get: {
+        parameters: {
+            query?: {
+                count?: number;
+                differing?: boolean;
+                first?: number;
+            };
+            header?: never;
+            path: {
+                record: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VerifyRows"];
+                };
+            };
+        };
+    };
+    on_delete_api_verifications__verification__delete: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                verification: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            204: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    on_drive_api_verifications__verification__patch: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                verification: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DriveVerification"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VerificationInfo"];
+                };
+            };
+        };
+    };
+    on_cells_api_verifications__verification__cells_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                verification: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["SetCells"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VerificationInfo"];
+                };
+            };
+        };
+    };
+    on_export_api_verifications__verification__export_get: {
+        parameters: {
+            query?: {
+                format?: "csv" | "json" | "html";
+            };
+            header?: never;
+            path: {
+                verification: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content?: never;
+            };
+        };
+    };
+    on_keep_api_verifications__verification__keep_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                verification: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["KeepVerification"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            201: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VerificationRecord"];
+                };
+            };
+        };
+    };
+    on_rows_api_verifications__verification__rows_get: {
+        parameters: {
+            query?: {
+                count?: number;
+                differing?: boolean;
+                first?: number;
+            };
+            header?: never;
+            path: {
+                verification: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VerifyRows"];
+                };
+            };
+        };
+    };
+    on_uses_api_verifications__verification__uses_get: {
+        parameters: {
+            query: {
+                call?: number;
+                scan: number;
+            };
+            header?: never;
+            path: {
+                verification: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["VerifyUse"][];
+                };
             };
         };
     };

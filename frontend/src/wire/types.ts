@@ -74,6 +74,15 @@ export type WatchList = Omit<Shapes["WatchList"], "entries"> & { entries: WatchE
 export type WatchListChanged = Shapes["WatchListChanged"];
 export type WatchListInfo = Shapes["WatchListInfo"];
 
+export type BetweenEntry = Shapes["BetweenEntry"];
+export type Comparison = Shapes["Comparison"];
+export type LastWriter = Shapes["LastWriter"];
+export type NewRerun = Required<Shapes["NewRerun"]>;
+export type Rerun = Shapes["Rerun"];
+export type RunChanges = Shapes["RunChanges"];
+export type RunDivergence = Shapes["RunDivergence"];
+export type VariableChange = Shapes["VariableChange"];
+
 export type Accepted = Shapes["Accepted"];
 export type CellRef = Shapes["CellRef"];
 export type NewSweep = Required<Shapes["NewSweep"]>;
@@ -117,3 +126,28 @@ export type UserError = Omit<Shapes["UserError"], "texts" | "details" | "also"> 
 export type UserProblem = Shapes["UserProblem"];
 export type UserErrorsDraft = { errors: UserError[]; groups: Shapes["UserGroup"][] };
 export type UserErrors = Omit<Shapes["UserErrors"], "errors" | "groups"> & UserErrorsDraft;
+
+export type CheckTraceMapping = Shapes["CheckTraceMapping"];
+export type CommandResult = Shapes["CommandResult"];
+export type DisturbanceInfo = Shapes["DisturbanceInfo"];
+export type NewDisturbance = Required<Shapes["NewDisturbance"]>;
+export type NewTraceVerification = Shapes["NewTraceVerification"];
+export type SavedMapping = Omit<Shapes["SavedMapping"], "mapping"> & { mapping: TraceMapping };
+export type TraceColumnMap = Required<Shapes["TraceColumnMap"]>;
+export type TraceMapping = Required<Omit<Shapes["TraceMapping"], "columns">> & { columns: TraceColumnMap[] };
+export type TraceMappingChecked = Shapes["TraceMappingChecked"];
+export type TraceProblem = Shapes["TraceProblem"];
+export type UploadedTrace = Omit<Shapes["UploadedTrace"], "mapping"> & { mapping: TraceMapping };
+
+export type DriveVerification = Required<Shapes["DriveVerification"]>;
+export type NewVerification = Required<Shapes["NewVerification"]>;
+export type SetCell = Shapes["SetCell"];
+export type VerificationInfo = Shapes["VerificationInfo"];
+export type VerificationRecord = Shapes["VerificationRecord"];
+export type VerifyColumn = Shapes["VerifyColumn"];
+export type VerifyDifference = Shapes["VerifyDifference"];
+export type VerifyOutput = Shapes["VerifyOutput"];
+export type VerifyPlace = Shapes["VerifyPlace"];
+export type VerifyRow = Shapes["VerifyRow"];
+export type VerifyRows = Shapes["VerifyRows"];
+export type VerifyUse = Shapes["VerifyUse"];

@@ -6,7 +6,7 @@ from dataclasses import replace
 from scanbench.check.program import Expr, Place, Pou, Program, ProgramInstance, Stmt
 from scanbench.engines.debug import NOTHING, READ, WRITE, Frame, Hook, Listen, frame_of
 from scanbench.engines.interpreter.memory import Value, putter
-from scanbench.engines.interpreter.observer import ObservedPlaces, ReferenceObserver
+from scanbench.engines.interpreter.observer import ALL, ObservedPlaces, ReferenceObserver
 from scanbench.engines.interpreter.places import BIT_SHIFT, BYTE_OFFSET, Places, Read, Write
 from scanbench.engines.observe import Seen
 
@@ -32,11 +32,16 @@ class DebugObserver(ReferenceObserver):
         self._every = False
         self._wanted = 0
         self._bytes: Mapping[int, int] = {}
+        self._accesses = 0
+        self._hears = False
+        self.bits = ALL
 
     def listen(self, listen: Listen = NOTHING) -> None:
         """What the hook is called for from now on."""
         self._sites, self._every, self._wanted = listen.sites, listen.every, listen.count
         self._bytes = {at: kinds for at, kinds in listen.bytes.items() if kinds}
+        self._accesses = listen.accesses
+        self._hears = bool(self._bytes) or listen.accesses != 0
 
     def take(self) -> Seen:
         seen = replace(super().take(), outcomes=frozenset(self._outcomes))
@@ -142,17 +147,22 @@ class DebugObserver(ReferenceObserver):
     # ---- accesses -------------------------------------------------------------------------------------------
 
     def read(self, offset: int, size: int, mask: int) -> None:
-        super().read(offset, size, mask)
-        if self._bytes:
-            self._access(offset, size, READ)
+        if self._watched:
+            super().read(offset, size, mask)
+        if self._hears:
+            self._access(offset, size, READ, mask)
 
-    def written(self, offset: int, size: int) -> None:
-        """These bytes have been written."""
-        if self._bytes:
-            self._access(offset, size, WRITE)
+    def written(self, offset: int, size: int, mask: int = ALL) -> None:
+        """These bytes have been written, or these bits of one."""
+        if self._hears:
+            self._access(offset, size, WRITE, mask)
 
-    def _access(self, offset: int, size: int, kind: int) -> None:
+    def _access(self, offset: int, size: int, kind: int, mask: int) -> None:
         if self._site is None or self._silent or self.hook is None:
+            return
+        self.bits = mask
+        if self._accesses & kind:
+            self.hook.access(self._site, self.count, offset, size, kind == WRITE)
             return
         listened, span = self._bytes, range(offset, offset + size)
         inside: Iterable[int] = span if size <= len(listened) else (at for at in listened if at in span)
@@ -182,7 +192,7 @@ class DebugPlaces(ObservedPlaces):
                 at = reference(instance)
                 byte, mask = at & BYTE_OFFSET, 1 << (at >> BIT_SHIFT)
                 memory[byte] = memory[byte] | mask if value else memory[byte] & ~mask
-                told(byte, 1)
+                told(byte, 1, mask)
 
             return write_bit
         put, where, size = putter(memory, place.type), self.address(place), place.type.size

@@ -26,6 +26,10 @@ class ReferenceDebugEngine(ReferenceEngine, DebugEngine):
         self.observer.listen(listen)
 
     @property
+    def bits(self) -> int:
+        return self.observer.bits
+
+    @property
     def begin(self) -> bytes:
         return self._begin
 

@@ -112,7 +112,9 @@ class NativeDebugEngine(NativeEngine, DebugEngine):
         self._memory = memory
         self._hook: Hook | None = None
         self._error: BaseException | None = None
+        self._bits = 0xFF
         self._listening = NOTHING
+        self._mapped, self._told_everywhere = NOTHING.bytes, NOTHING.accesses
         self._flags = (ctypes.c_uint8 * max(len(self.sites.statements), 1))()
         self._map = (ctypes.c_uint8 * len(memory))()
         self._begin = (ctypes.c_uint8 * len(memory)).from_buffer_copy(memory)
@@ -146,13 +148,26 @@ class NativeDebugEngine(NativeEngine, DebugEngine):
             self._flags[site] = 0
         for site in listen.sites - self._listening.sites:
             self._flags[site] = 1
-        if listen.bytes != self._listening.bytes:
-            for offset in self._listening.bytes:
-                self._map[offset] = 0
-            for offset, how in listen.bytes.items():
-                self._map[offset] = how & (READ | WRITE)
-        self._state.every, self._state.wanted, self._state.armed = listen.every, listen.count, bool(listen.bytes)
+        self._map_bytes(listen)
+        self._state.every, self._state.wanted = listen.every, listen.count
+        self._state.armed = bool(listen.bytes) or listen.accesses != 0
         self._listening = listen
+
+    def _map_bytes(self, listen: Listen) -> None:
+        """Which accesses are told. The map stays as it is while none are: who listens to all of them now and then does not
+        pay for the size of the image."""
+        if not listen.bytes and not listen.accesses:
+            return
+        if listen.bytes == self._mapped and listen.accesses == self._told_everywhere:
+            return
+        ctypes.memset(self._map, listen.accesses, len(self._map))
+        for offset, how in listen.bytes.items():
+            self._map[offset] = (how | listen.accesses) & (READ | WRITE)
+        self._mapped, self._told_everywhere = listen.bytes, listen.accesses
+
+    @property
+    def bits(self) -> int:
+        return self._bits
 
     @property
     def begin(self) -> bytes:
@@ -185,8 +200,9 @@ class NativeDebugEngine(NativeEngine, DebugEngine):
     def _on_access(self, site: int, count: int, offset: int, size: int, how: int) -> None:
         if self._hook is None or self._error is not None:
             return
+        self._bits = how >> 8
         try:
-            self._hook.access(site, count, offset, size, how == WRITE)
+            self._hook.access(site, count, offset, size, how & 0xFF == WRITE)
         except BaseException as error:
             self._fail(error)
 

@@ -8,6 +8,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from scanbench.check.program import Base, For, Place, Pou, Program, ProgramInstance, Stmt, While
+from scanbench.check.types import Kind
 from scanbench.engines.debug import READ, WRITE
 from scanbench.engines.native import emit_observed
 from scanbench.engines.native.emit_body import Body, Unit
@@ -123,7 +124,7 @@ define void @debug.way(i32 %way, i8 %gone) {{
   store i8 %marked, ptr %markat, align 1
   ret void
 }}
-define void @debug.access(i64 %offset, i64 %size, i32 %site, i8 %how) {{
+define void @debug.access(i64 %offset, i64 %size, i32 %site, i8 %how, i8 %mask) {{
 ; these bytes were read or written
   %armed = load i8, ptr {armed}, align 1
   %silent = load i8, ptr {silent}, align 1
@@ -157,7 +158,10 @@ tell:
   %count = load i64, ptr {state}, align 8
   %hook = load ptr, ptr {access}, align 8
   %kind = zext i8 %how to i32
-  call void %hook(i32 %site, i64 %count, i64 %offset, i64 %size, i32 %kind)
+  %widemask = zext i8 %mask to i32
+  %high = shl i32 %widemask, 8
+  %both32 = or i32 %kind, %high
+  call void %hook(i32 %site, i64 %count, i64 %offset, i64 %size, i32 %both32)
   ret void
 done:
   ret void
@@ -171,7 +175,7 @@ declare ptr @debug.enter(i32, i64)
 declare void @debug.leave()
 declare i1 @debug.statement(ptr, i32)
 declare void @debug.way(i32, i8)
-declare void @debug.access(i64, i64, i32, i8)"""
+declare void @debug.access(i64, i64, i32, i8, i8)"""
 
 
 class Debugging(Observing):
@@ -258,7 +262,7 @@ class Debugging(Observing):
     def _access(self, body: Body, place: Place, where: Address, how: int) -> None:
         if self.unheard(body):
             return
-        given = f"i64 {_offset(body, place, where)}, i64 {place.type.size}, i32 {site(body)}, i8 {how}"
+        given = f"i64 {_offset(body, place, where)}, i64 {place.type.size}, i32 {site(body)}, i8 {how}, i8 {_bits(body, place, where)}"
         body.text.do(f"call void @debug.access({given})")
 
 
@@ -278,6 +282,13 @@ def helpers() -> str:
         marks=emit_observed.field(emit_observed.MARKS),
         **addresses,
     )
+
+
+def _bits(body: Body, place: Place, where: Address) -> str:
+    """Which bits of its byte it is about."""
+    if place.type.kind is not Kind.BOOL or not where.bit:
+        return "-1"
+    return str((1 << int(where.bit) ^ 0x80) - 0x80) if where.bit.isdigit() else body.text.op(f"shl i8 1, {where.bit}")
 
 
 def _offset(body: Body, place: Place, where: Address) -> str:

@@ -346,7 +346,7 @@ class Loop:
             self._course.set_pace(self.resource.program.interval_ns)
             refusal = None
         else:
-            refusal = self.timeline.goto(travel.scan)
+            refusal = self.timeline.goto(travel.scan, travel.count)
             self._services.past_by = travel.author if self.timeline.past else ""
         self._debugger.travelled()
         if self.resource.program is not program:

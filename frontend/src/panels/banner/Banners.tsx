@@ -1,13 +1,16 @@
 import { usePlc } from "../../store/plc";
 import { FatalBanner } from "./FatalBanner";
+import { LinkBanner } from "./LinkBanner";
 import { LostBanner } from "./LostBanner";
 import { OffBanner } from "./OffBanner";
 import { PastBanner } from "./PastBanner";
 import { RecordingBanner } from "./RecordingBanner";
+import { RerunBanners } from "./RerunBanner";
 import { RestartingBanner } from "./RestartingBanner";
 import { TrapBanner } from "./TrapBanner";
 
-/** At most one banner about the PLC, the most serious: no connection, then what stops it; and one about its recording. */
+/** At most one banner about the PLC, the most serious: no connection, then what stops it; and one about its recording. Below: the link that was
+ * opened, replays of the run. */
 export function Banners() {
   const link = usePlc((plc) => plc.link);
   if (link.state === "lost") return <LostBanner link={link} />;
@@ -15,6 +18,8 @@ export function Banners() {
     <>
       <PlcBanner />
       <RecordingBanner />
+      <LinkBanner />
+      <RerunBanners />
     </>
   );
 }

@@ -4,9 +4,11 @@ import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { branch, openInstance } from "../../store/instances";
+import { scanLink } from "../../store/links";
 import { keepState } from "../../store/sweeps";
 import { returnToLive } from "../../store/timeline";
 import { AskName } from "../../ui/AskName";
+import { CopyButton } from "../../ui/CopyButton";
 import { Icon } from "../../ui/Icon";
 import type { Instance, InstanceState } from "../../wire/types";
 
@@ -42,6 +44,13 @@ export function PastBanner({ state }: { state: InstanceState }) {
         <Icon name="plus" small />
         {t("states.keep")}
       </button>
+      <CopyButton
+        label={t("link.copy")}
+        done={t("link.copied")}
+        title={t("link.copy.hint")}
+        text={() => scanLink(scan)}
+        disabled={instance === null}
+      />
       <button type="button" className="btn past sm" onClick={returnToLive}>
         {t("past.live")}
       </button>

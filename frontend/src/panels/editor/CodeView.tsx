@@ -12,6 +12,7 @@ import "./completion";
 import { markCoverage } from "./coverage";
 import "./debug.css";
 import { addDebugActions } from "./debugActions";
+import { addDisturbAction } from "./disturbAction";
 import { type Gutter, showBreakpoints } from "./gutter";
 import { lineMenu } from "./gutterMenu";
 import { markHalt } from "./halt";
@@ -51,6 +52,7 @@ export default function CodeView({ path }: { path: string }) {
     const breakpoints = showBreakpoints(code, path, openMenu);
     gutter = breakpoints;
     addDebugActions(code, path, () => breakpoints, openMenu);
+    addDisturbAction(code, path, () => breakpoints);
     const caret = () => {
       const position = code.getPosition();
       if (position)

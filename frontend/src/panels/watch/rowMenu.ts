@@ -6,6 +6,7 @@ import { moveEntry, removeGroup } from "../../logic/watchlist";
 import { actualOf, type GroupRow, type ValueRow } from "../../logic/watchrows";
 import { useBindings } from "../../store/bindings";
 import { type Access, addDataBreakpoint } from "../../store/debug";
+import { askDisturb } from "../../store/disturb";
 import { forcedAt } from "../../store/forces";
 import { usePlc } from "../../store/plc";
 import { addToTrace } from "../../store/traces";
@@ -65,6 +66,7 @@ function forceItems(row: ValueRow, symbol: PlcSymbol | null): MenuItem[] {
       disabled: locked !== null || forcedAt(path) === undefined,
       onSelect: () => void releaseForce(path),
     },
+    { label: t("disturb.menu"), icon: "disturbance", onSelect: () => askDisturb({ kind: "flip", path }) },
   ];
 }
 

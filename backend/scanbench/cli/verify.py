@@ -1,0 +1,190 @@
+"""`scanbench verify`: the scans of a run, or of a real controller's trace, compared with a second execution."""
+
+import re
+import signal
+import sys
+from enum import StrEnum
+from pathlib import Path
+from typing import NoReturn
+
+import typer
+
+from scanbench import __version__
+from scanbench.cli.inputs import usage, with_near
+from scanbench.cli.outputs import must_be_writable, write_text
+from scanbench.cli.run_options import AUTHOR, Options
+from scanbench.cli.verify_subject import Given, Subject, opened
+from scanbench.cli.verify_text import verify_text
+from scanbench.runtime.clock import iso, monotonic_ns, wall_time
+from scanbench.verify.engines import Make, native, reference
+from scanbench.verify.ranges import parse_range
+from scanbench.verify.report import Collected, Report, ReportHead
+from scanbench.verify.report_html import to_html
+from scanbench.verify.report_json import to_json
+from scanbench.verify.verified import DEFAULT_LIMIT, MAX_LIMIT, BadRange, Range
+from scanbench.verify.verifier import Begun, Unverifiable
+
+SCANS = 1000
+"""That a project runs when nobody says how many."""
+INTERRUPTED = 128 + signal.SIGINT
+_EVERY_NS = 200_000_000
+"""From one line of progress to the next."""
+_STRETCH = re.compile(r"(\d*)\.\.(\d*)")
+
+
+class ControlEngine(StrEnum):
+    """What runs a recorded run again."""
+
+    NATIVE = "native"
+    REFERENCE = "reference"
+
+
+def verify(
+    path: Path = typer.Argument(metavar="PROJECT|RUNFILE", help="A folder with a program, a program file, or a recorded run."),
+    model: str | None = typer.Option(None, metavar="NAME", help="PLC model of a project; else its own, else GENERIC-IEC."),
+    range_: str = typer.Option("", "--range", metavar="POU:10-20", help="POU, POU:10-20, FILE:10-20, with @INSTANCE for one instance; else the whole scan."),
+    scans: str = typer.Option("", metavar="A..B", help="Only these scans, both included; also A.. and ..B. A project runs up to B, else 1000 scans."),
+    trace: Path | None = typer.Option(None, metavar="FILE", help="Trace of a real controller (CSV or JSON, docs/trace-format.md) instead of a run."),
+    map: Path | None = typer.Option(None, "--map", metavar="FILE", help="What the columns of the trace are (JSON); else they are taken by their names."),
+    interval: str = typer.Option("10ms", help="Of a project: task interval where no CONFIGURATION says another."),
+    set: list[str] = typer.Option([], "--set", metavar="PATH=VALUE[@SCAN]", help="Of a project: write before a scan, as with `run`."),
+    force: list[str] = typer.Option([], "--force", metavar="PATH=VALUE[@SCAN]", help="Of a project: force from a scan on."),
+    generate: list[str] = typer.Option([], "--raise", metavar="ERROR[@SCAN]", help="Of a project: raise an error, as with `run`."),
+    clear: list[str] = typer.Option([], "--clear", metavar="ERROR|all[@SCAN]", help="Of a project: recover an error."),
+    mode: list[str] = typer.Option([], "--mode", metavar="MODE[@SCAN]", help="Of a project: change to PROGRAM, MONITOR or RUN."),
+    restart: list[str] = typer.Option([], "--restart", metavar="KIND[@SCAN]", help="Of a project: restart: cold, warm or power."),
+    limit: int = typer.Option(DEFAULT_LIMIT, min=1, max=MAX_LIMIT, help="Uses of variables that are recorded of a scan; a row says when it was full."),
+    engine: ControlEngine = typer.Option(ControlEngine.NATIVE, help="What a run is run again with; the monitor is the reference interpreter in any case."),
+    as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
+    html: Path | None = typer.Option(None, metavar="FILE", help="Write a page to read, print or keep too."),
+) -> None:  # fmt: skip
+    """Run a program twice and compare: what ran (native code, or a real controller of which there is a trace) and the
+    reference interpreter, on the same inputs.
+
+    Exit 0: no difference; 1: there is one; 2: wrong usage, or nothing can be verified; 130: interrupted, no difference so far.
+    """
+    options = Options(set, force, generate, clear, mode, restart)
+    if html is not None:
+        must_be_writable(html)
+    if map is not None and trace is None:
+        usage("--map says what the columns of a trace are: name the trace with --trace FILE")
+    try:
+        wanted = parse_range(range_)
+    except BadRange as error:
+        usage(f"--range {range_}: {with_near(str(error), error.near)}")
+    first, last = _stretch(scans)
+    given = Given(path, model, interval, options, SCANS if last is None else last + 1, trace, map)
+    make: Make = native() if engine is ControlEngine.NATIVE else reference
+    with opened(given, make) as subject:
+        report, stopped = _verified(subject, wanted, limit, first, last)
+    typer.echo(to_json(report) if as_json else "\n".join(verify_text(report)))
+    if html is not None:
+        write_text(html, to_html(report))
+    _end(report, stopped)
+
+
+def _end(report: Report, stopped: "_Stopped | None") -> NoReturn:
+    if stopped is not None:
+        typer.echo(f"scanbench: {stopped.message}", err=True)
+    if report.head.differing:
+        raise typer.Exit(1)
+    raise typer.Exit(0 if stopped is None else stopped.code)
+
+
+class _Stopped:
+    """Why not all scans were verified."""
+
+    def __init__(self, message: str, code: int) -> None:
+        self.message, self.code = message, code
+
+
+def _stretch(text: str) -> tuple[int | None, int | None]:
+    """The first and the last scan of `--scans`."""
+    if not text:
+        return None, None
+    match = _STRETCH.fullmatch(text.strip())
+    if match is None or text.strip() == "..":
+        usage(f"--scans {text}: write A..B, A.. or ..B with numbers of scans; 0..99 are the first hundred")
+    first, last = (int(each) if each else None for each in match.group(1, 2))
+    if first is not None and last is not None and last < first:
+        usage(f"--scans {text}: scan {last} is before scan {first}")
+    return first, last
+
+
+def _verified(
+    subject: Subject, wanted: Range, limit: int, first: int | None, last: int | None
+) -> tuple[Report, _Stopped | None]:
+    """All the scans that are wanted and there."""
+    verifier = subject.verifier
+    begin, end = verifier.first, verifier.end
+    kept = f"{subject.trace or subject.instance} has scans {begin} to {end - 1}"
+    if begin >= end:
+        usage(f"{subject.trace or subject.instance} has no scan that is over")
+    first, last = begin if first is None else first, end - 1 if last is None else last
+    if not begin <= first < end:
+        usage(f"{kept}: scan {first} is none of them")
+    stopped = None
+    if last >= end:
+        if subject.source == "past" and not subject.note:
+            usage(f"{kept}: scan {last} is none of them")
+        last = end - 1
+    try:
+        begun = verifier.begin(wanted, limit, first)
+    except BadRange as error:
+        usage(f"--range: {with_near(str(error), error.near)}")
+    except Unverifiable as error:
+        usage(str(error))
+    if begun.note:
+        typer.echo(f"scanbench: {begun.note}", err=True)
+    collected = Collected()
+    stopped = _run(subject, collected, first, last)
+    return collected.report(_head(subject, begun, collected, first, last, stopped, limit)), stopped
+
+
+def _run(subject: Subject, collected: Collected, first: int, last: int) -> _Stopped | None:
+    progress = _Progress(last - first + 1)
+    try:
+        for scan in range(first, last + 1):
+            collected.add(subject.verifier.verify(scan))
+            progress.show(collected)
+    except Unverifiable as error:
+        return _Stopped(f"verified up to the scan before that only: {error}", 2)
+    except KeyboardInterrupt:
+        return _Stopped(f"interrupted after {collected.compared:,} scans", INTERRUPTED)
+    finally:
+        progress.over()
+    return None
+
+
+class _Progress:
+    """A line on a terminal that says how far it is; nothing elsewhere."""
+
+    def __init__(self, of: int) -> None:
+        self._of, self._shown, self._next = of, False, monotonic_ns() + _EVERY_NS
+        self._on = sys.stderr.isatty()
+
+    def show(self, collected: Collected) -> None:
+        if not self._on or monotonic_ns() < self._next:
+            return
+        self._next, self._shown = monotonic_ns() + _EVERY_NS, True
+        typer.echo(
+            f"\r{collected.compared:,} of {self._of:,} scans, {collected.differing:,} rows differ", err=True, nl=False
+        )
+
+    def over(self) -> None:
+        if self._shown:
+            typer.echo("\r\x1b[K", err=True, nl=False)
+
+
+def _head(
+    subject: Subject, begun: Begun, collected: Collected, first: int, last: int, stopped: _Stopped | None, limit: int
+) -> ReportHead:  # fmt: skip
+    notes = (subject.note, begun.note, "" if stopped is None else f"{stopped.message[0].upper()}{stopped.message[1:]}.")
+    return ReportHead(
+        project=subject.project, instance=subject.instance, model=subject.model, by=AUTHOR, when=iso(wall_time()),
+        version=begun.version, title=begun.title, source=subject.source, first=first,
+        last=last if stopped is None or collected.last_scan is None else collected.last_scan,
+        compared=collected.compared, skipped=0, differing=collected.differing, tool=f"Scanbench {__version__}",
+        trace=subject.trace, interval_ns=begun.interval_ns, forgotten=collected.seen - len(collected.rows()),
+        limit=limit, note=" ".join(filter(None, notes)),
+    )  # fmt: skip

@@ -1,0 +1,244 @@
+"""What `scanbench verify` verifies: the scans of a run file, a project's run that is made on the spot, or a trace."""
+
+import tempfile
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import dataclass
+from pathlib import Path
+from typing import NoReturn, Protocol
+
+import typer
+
+from scanbench.check.build import check_sources
+from scanbench.check.program import Program
+from scanbench.cli.inputs import below, find_model, read_sources, usage, with_near
+from scanbench.cli.record import check_whole, recorded
+from scanbench.cli.run_options import Options, read_commands, read_interval
+from scanbench.engines.native.engine import NativeEngine
+from scanbench.engines.native.observed import ObservedBuilds
+from scanbench.faults.detect import Detection
+from scanbench.faults.schedule import Schedule
+from scanbench.runtime.contents import KeptProgram
+from scanbench.runtime.headless import run_headless
+from scanbench.runtime.programs import NoProgram
+from scanbench.runtime.recording import Recording
+from scanbench.runtime.runfile import RunFileError, is_run_file
+from scanbench.session.codec import ENTRIES
+from scanbench.session.runs import RUN_SUFFIX, sources_in, sources_of
+from scanbench.session.starting import checked_program, model_of
+from scanbench.verify.engines import Make
+from scanbench.verify.mapping import BadMapping, TraceMapping, propose
+from scanbench.verify.report import Source
+from scanbench.verify.trace_bind import check
+from scanbench.verify.trace_read import BadTraceFile, Table, TraceProblem, read_trace
+from scanbench.verify.trace_run import TraceVerifier
+from scanbench.verify.verified import Range, ScanVerified
+from scanbench.verify.verifier import Begun, Unverifiable, Verifier
+
+PROBLEMS_SHOWN = 20
+_SUFFIXES = (".scanrun", RUN_SUFFIX)
+"""What is called like a run is one, however damaged: it is no program text."""
+
+
+class Verifies(Protocol):
+    """A `Verifier` or a `TraceVerifier`."""
+
+    @property
+    def first(self) -> int:
+        """The first scan that can be verified, ..."""
+
+    @property
+    def end(self) -> int:
+        """... and the one in front of which it ends."""
+
+    def begin(self, range: Range, limit: int, scan: int | None = None) -> Begun:
+        """Says which range is meant; `BadRange`."""
+
+    def verify(self, scan: int) -> ScanVerified:
+        """One scan; `Unverifiable`."""
+
+
+@dataclass(frozen=True, slots=True)
+class Subject:
+    """Something to verify, and what a report says of it."""
+
+    verifier: Verifies
+    project: str
+    instance: str
+    model: str
+    source: Source
+    trace: str = ""
+    note: str = ""
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """Options of the command that say what to verify."""
+
+    path: Path
+    model: str | None
+    interval: str
+    options: Options
+    scans: int
+    """How many a project runs."""
+    trace: Path | None
+    mapping: Path | None
+
+
+@contextmanager
+def opened(given: Given, make: Make) -> Iterator[Subject]:
+    """What was asked for. Ends with exit code 2 where that cannot be."""
+    if given.trace is not None:
+        yield _trace(given, given.trace)
+    elif _is_run(given.path):
+        with _run_file(given.path, make) as verifier:
+            about = _about(given.path)
+            yield Subject(verifier, given.path.stem, given.path.name, about, "past")
+    else:
+        with tempfile.TemporaryDirectory() as folder:
+            path = Path(folder, "run")
+            program, note = _ran(given, path)
+            with _run_file(path, make) as verifier:
+                name = given.path.resolve().name
+                yield Subject(verifier, name, "command line", program.layout.model.name, "past", note=note)
+
+
+def _is_run(path: Path) -> bool:
+    try:
+        return path.suffix in _SUFFIXES or (path.is_file() and is_run_file(path))
+    except OSError as error:
+        usage(f"{path} cannot be read: {error.strerror}")
+
+
+# ---- run files -----------------------------------------------------------------------------------------------------
+
+
+@contextmanager
+def _run_file(path: Path, make: Make) -> Iterator[Verifier]:
+    try:
+        with Verifier(path, ENTRIES, _program_of, make) as verifier:
+            yield verifier
+    except OSError as error:
+        usage(f"{path} cannot be read: {error.strerror or error}")
+    except (RunFileError, NoProgram, Unverifiable) as error:
+        usage(f"{path}: {error}")
+
+
+def _program_of(kept: KeptProgram) -> Program:
+    sources = sources_in(kept)
+    return checked_program(sources, model_of(sources))
+
+
+def _about(path: Path) -> str:
+    with Recording.open(path, ENTRIES, read_only=True) as recording:
+        return recording.about.model
+
+
+# ---- projects ------------------------------------------------------------------------------------------------------
+
+
+def _program(given: Given) -> tuple[Program, dict[str, str]]:
+    """The program of a project, and its files by their names in the project."""
+    sources = read_sources([given.path])
+    checked = check_sources(
+        below(given.path, sources.texts), find_model(given.model, sources), read_interval(given.interval)
+    )
+    if checked.program is None:
+        for problem in checked.problems:
+            typer.echo(str(problem), err=True)
+        usage(f"{given.path} does not compile, so there is nothing to verify")
+    return checked.program, below(given.path, sources.texts)
+
+
+def _ran(given: Given, path: Path) -> tuple[Program, str]:
+    """Runs the project and records it; what a report should say of the run beside."""
+    program, files = _program(given)
+    commands = read_commands(program, given.options)
+    with recorded(path, program, files, read_interval(given.interval)) as recording:
+        result = run_headless(
+            program, given.scans, NativeEngine, commands, detect=Detection(),
+            agenda=Schedule(ObservedBuilds().engine), recording=recording,
+        )  # fmt: skip
+        if recording is not None:
+            check_whole(recording)
+    for refused in result.refused:
+        typer.echo(
+            f"scanbench: refused before scan {refused.scan}: {with_near(refused.refusal.message, refused.refusal.near)}",
+            err=True,
+        )
+    if result.refused:
+        usage("nothing was verified, as the run is not the one that was asked for")
+    trap = result.resource.trap
+    return program, "" if trap is None else f"The run ended by a trap in scan {trap.scan}: {trap.message}"
+
+
+# ---- traces --------------------------------------------------------------------------------------------------------
+
+
+def _trace(given: Given, path: Path) -> Subject:
+    program, instance = _program_for_trace(given)
+    try:
+        table = read_trace(path.read_bytes(), path.name)
+    except OSError as error:
+        usage(f"{path} cannot be read: {error.strerror}")
+    except BadTraceFile as error:
+        _refuse(path, error.problems)
+    mapping, note = _mapping(given.mapping, table, program)
+    checked = check(table, mapping, program)
+    for problem in checked.problems:
+        if problem.warning and checked.trace is not None:
+            typer.echo(f"{_where(path, problem)}: {problem.message}", err=True)
+    if checked.trace is None:
+        _refuse(path, checked.problems)
+    verifier = TraceVerifier(program, checked.trace, path.name)
+    notes = " ".join(filter(None, (table.note, note)))
+    return Subject(
+        verifier, given.path.resolve().name, instance, program.layout.model.name, "trace", path.name, notes
+    )  # fmt: skip
+
+
+def _program_for_trace(given: Given) -> tuple[Program, str]:
+    if not _is_run(given.path):
+        return _program(given)[0], "real controller"
+    try:
+        with Recording.open(given.path, ENTRIES, read_only=True) as recording:
+            kept = sources_in(recording.programs[max(recording.programs)])
+        model = model_of(kept)
+        sources = sources_of(given.path, {model.name: model})
+        return checked_program(sources, model), "real controller"
+    except OSError as error:
+        usage(f"{given.path} cannot be read: {error.strerror or error}")
+    except (RunFileError, NoProgram) as error:
+        usage(f"{given.path}: {error}")
+
+
+def _mapping(path: Path | None, table: Table, program: Program) -> tuple[TraceMapping, str]:
+    """How the columns are meant, and a note where nobody has said it."""
+    if path is not None:
+        try:
+            return TraceMapping.from_json(path.read_text("utf-8")), ""
+        except OSError as error:
+            usage(f"{path} cannot be read: {error.strerror}")
+        except ValueError as error:  # `BadMapping`, and bytes that are no text
+            usage(f"{path}: {error}" if isinstance(error, BadMapping) else f"{path} is not UTF-8: {error}")
+    proposal = propose(table, program)
+    said = "; ".join(
+        f"{each.column} is {each.path} ({each.role})" if each.path else f"{each.column} is nothing (ignored)"
+        for each in proposal.columns
+    )
+    note = f"Mapped by names: {said}."
+    typer.echo(f"scanbench: no --map, so columns are taken by their names. {note}", err=True)
+    return proposal, note
+
+
+def _refuse(path: Path, problems: tuple[TraceProblem, ...]) -> NoReturn:
+    wrong = [each for each in problems if not each.warning]
+    for problem in wrong[:PROBLEMS_SHOWN]:
+        typer.echo(f"{_where(path, problem)}: {problem.message}", err=True)
+    more = len(wrong) - PROBLEMS_SHOWN
+    usage("nothing was verified: the trace cannot be used" + (f" ({more} more problems)" if more > 0 else ""))
+
+
+def _where(path: Path, problem: TraceProblem) -> str:
+    row = "" if problem.row is None else f":{problem.row}"
+    return f"{path}{row}" + (f": column {problem.column}" if problem.column else "")

@@ -1,0 +1,60 @@
+"""What `scanbench verify` prints for people: a line of what was compared, and a block for each difference."""
+
+from collections.abc import Iterator
+
+from scanbench.faults.sweep_report import count
+from scanbench.verify.report import Report, ReportHead
+from scanbench.verify.value_text import column_of, differing_bits, value_text
+from scanbench.verify.verified import Column, Mismatch, Row
+
+SHOWN = 10
+"""Differences that are printed; `--json` and `--html` have more."""
+CAUSES = {
+    "logic": "the same inputs gave another result",
+    "input": "nobody wrote the value that was used",
+    "order": "another statement ran, or another variable was used",
+    "trap": "a run-time error in one of them",
+    "outside": "a variable that the range does not use",
+    "recorded": "the run file has another value than the same code gives again",
+}
+
+
+def verify_text(report: Report) -> Iterator[str]:
+    """The lines."""
+    head, differences = report.head, report.differences()
+    for row, difference in differences[:SHOWN]:
+        yield from _block(row, difference, report.columns)
+        yield ""
+    if len(differences) > SHOWN:
+        yield f"{len(differences) - SHOWN:,} more differences: --json and --html have them"
+        yield ""
+    yield _summary(head)
+
+
+def _summary(head: ReportHead) -> str:
+    came = f"{count(head.differing, 'row')} differ" if head.differing else "no difference"
+    if not head.compared:
+        came = "nothing was compared"
+    skipped = f", {head.skipped:,} skipped" if head.skipped else ""
+    return (
+        f"{head.project} on {head.model}, {head.title}: scans {head.first} to {head.last}, "
+        f"{head.compared:,} compared{skipped}: {came}"
+    )
+
+
+def _block(row: Row, difference: Mismatch, columns: tuple[Column, ...]) -> Iterator[str]:
+    place, column = difference.place, column_of(difference, columns)
+    yield f"scan {row.scan}: {difference.message}"
+    if place is not None:
+        yield f"  task      {place.task or '-'}"
+        yield f"  instance  {place.instance}"
+        yield f"  line      {place.file}:{place.line}" + (f": {place.text}" if place.text else "")
+    yield f"  variable  {difference.name}" + (f" : {difference.type}" if difference.type else "")
+    yield f"  was       {value_text(column, difference.control) or '-'}"
+    yield f"  is        {value_text(column, difference.monitor) or '-'} in the reference"
+    bits = differing_bits(difference.control, difference.monitor)
+    if bits:
+        yield f"  bits      {', '.join(map(str, bits[:16]))}{', ...' if len(bits) > 16 else ''}"
+    yield f"  cause     {difference.cause}: {CAUSES[difference.cause]}"
+    if row.disturbances:
+        yield f"  injected  {'; '.join(row.disturbances)}"

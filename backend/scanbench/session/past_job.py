@@ -1,0 +1,126 @@
+"""In a job process: questions about the past of runs. Run files stay open between questions."""
+
+from collections.abc import Callable, Mapping
+from pathlib import Path
+
+from scanbench.debug.probing import Prober
+from scanbench.engines.cache import BlobCache
+from scanbench.runtime.clock import monotonic_ns
+from scanbench.runtime.contents import KeptProgram
+from scanbench.runtime.programs import NoProgram, Shelf
+from scanbench.runtime.runfile import RunFileError
+from scanbench.session.codec import ENTRIES
+from scanbench.session.runs import sources_in
+from scanbench.session.starting import NoStart, ProgramOf
+from scanbench.session.verify_protocol import (
+    NOW,
+    ChangesFound,
+    CompareRuns,
+    FindChanges,
+    FindWriter,
+    PastAt,
+    RerunDone,
+    RerunRun,
+    RunsCompared,
+    WriterFound,
+)
+from scanbench.verify.changes import find_changes
+from scanbench.verify.divergence import find_divergence
+from scanbench.verify.engines import native
+from scanbench.verify.reading import NoReading, Reading
+from scanbench.verify.rerun import rerun
+from scanbench.verify.writer import find_writer
+
+_TELL_NS = 250_000_000
+_OPEN = 3
+"""Run files that stay open."""
+Request = FindWriter | FindChanges | CompareRuns | RerunRun
+REFUSALS = (NoReading, NoStart, NoProgram, RunFileError, OSError)
+
+
+class PastJob:
+    """Keeps the run files that were asked about."""
+
+    def __init__(self, program_of: ProgramOf, cache: BlobCache | None, say: Callable[[object], None]) -> None:
+        self._program_of, self._say = program_of, say
+        self._make = native(cache)
+        self._prober = _prober(cache)
+        self._open: dict[str, Reading] = {}
+
+    def on_request(self, ask: Request) -> None:
+        """Answers it; whatever is wrong with it is told in the answer."""
+        match ask:
+            case FindWriter():
+                self._say(self._writer(ask))
+            case FindChanges():
+                self._say(self._changes(ask))
+            case CompareRuns():
+                self._say(self._compared(ask))
+            case RerunRun():
+                self._say(self._rerun(ask))
+
+    def _writer(self, ask: FindWriter) -> WriterFound:
+        try:
+            reading = self._reading(ask.run, ask.until)
+            scan = reading.end if ask.scan == NOW else ask.scan
+            return WriterFound(ask.ref, find_writer(reading, ask.path, scan, self._prober))
+        except REFUSALS as why:
+            return WriterFound(ask.ref, None, _words(why), getattr(why, "near", ()))
+
+    def _changes(self, ask: FindChanges) -> ChangesFound:
+        try:
+            other = self._reading(ask.other, ask.other_until) if ask.other else None
+            return ChangesFound(ask.ref, find_changes(self._reading(ask.run, ask.until), ask.first, ask.last, other))
+        except REFUSALS as why:
+            return ChangesFound(ask.ref, None, _words(why))
+
+    def _compared(self, ask: CompareRuns) -> RunsCompared:
+        try:
+            first, other = self._reading(ask.run, ask.until), self._reading(ask.other, ask.other_until)
+            return RunsCompared(ask.ref, find_divergence(first, other, self._telling(ask.ref)))
+        except REFUSALS as why:
+            return RunsCompared(ask.ref, None, _words(why))
+
+    def _rerun(self, ask: RerunRun) -> RerunDone:
+        try:
+            made = rerun(
+                Path(ask.run), Path(ask.to), ask.change, self._programs_of, ENTRIES, ask.author, ask.until or None,
+                self._telling(ask.ref),
+            )  # fmt: skip
+        except REFUSALS as why:
+            return RerunDone(ask.ref, False, 0, (), _words(why))
+        return RerunDone(ask.ref, True, made.scan, made.refused)
+
+    def _reading(self, run: str, until: int) -> Reading:
+        reading = self._open.pop(run, None) or Reading(Path(run), self._programs_of, ENTRIES)
+        self._open[run] = reading  # the last one used stands last
+        while len(self._open) > _OPEN:
+            self._open.pop(next(iter(self._open))).close()
+        reading.follow(until or None)
+        return reading
+
+    def _programs_of(self, kept: Mapping[int, KeptProgram]) -> Shelf:
+        return Shelf(*(self._make(each.version, self._program_of(sources_in(each))) for each in kept.values()))
+
+    def _telling(self, ref: int) -> Callable[[int, int], None]:
+        told = 0
+
+        def on_progress(done: int, of: int) -> None:
+            nonlocal told
+            if monotonic_ns() - told > _TELL_NS:
+                told = monotonic_ns()
+                self._say(PastAt(ref, done, of))
+
+        return on_progress
+
+
+def _prober(cache: BlobCache | None) -> Prober | None:
+    try:
+        from scanbench.engines.native.probed import ProbedBuilds
+    except ImportError:
+        return None
+    return ProbedBuilds(cache).engine
+
+
+def _words(why: Exception) -> str:
+    return why.strerror or str(why) if isinstance(why, OSError) else str(why)

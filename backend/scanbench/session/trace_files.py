@@ -1,0 +1,159 @@
+"""Trace files of real controllers that somebody uploaded, and the mappings that were saved for them."""
+
+import asyncio
+import json
+from dataclasses import dataclass
+from pathlib import Path
+
+from scanbench.check.program import Program
+from scanbench.engines.cache import BlobCache
+from scanbench.runtime.clock import fresh_token, monotonic_ns
+from scanbench.runtime.programs import NoProgram
+from scanbench.session.known import key_of, recall
+from scanbench.session.protocol import Sources
+from scanbench.session.refused import Refused
+from scanbench.session.session import Session
+from scanbench.session.starting import checked_program, model_of
+from scanbench.store.records import MappingRow, NotFound
+from scanbench.store.store import Store
+from scanbench.verify.mapping import BadMapping, TraceMapping, fits, propose
+from scanbench.verify.trace_bind import check
+from scanbench.verify.trace_read import MAX_BYTES, read_trace
+from scanbench.verify.trace_table import BadTraceFile, Table, TraceProblem
+
+KEPT_NS = 3600 * 1_000_000_000
+MOST = 20
+"""Files at a time; the oldest go."""
+SAMPLE = 20
+"""Rows that are shown."""
+
+
+@dataclass(frozen=True, slots=True)
+class TraceFile:
+    """A file that was read. One with problems has no handle: nothing is kept of it."""
+
+    handle: str
+    name: str
+    path: Path
+    columns: tuple[str, ...]
+    rows: int
+    sample: tuple[tuple[str, ...], ...]
+    proposal: TraceMapping
+    problems: tuple[TraceProblem, ...]
+    at: int = 0
+
+
+@dataclass(frozen=True, slots=True)
+class Checked:
+    """Whether a file can be verified with a mapping."""
+
+    problems: tuple[TraceProblem, ...]
+    first: int | None
+    last: int | None
+    missing: int
+
+
+class TraceFiles:
+    """`directory` has the files, for an hour."""
+
+    def __init__(self, store: Store, directory: Path, cache: Path) -> None:
+        self._store, self._directory, self._cache = store, directory, BlobCache(cache)
+        self._files: dict[str, TraceFile] = {}
+        self._reading = asyncio.Lock()
+
+    def tidy(self) -> None:
+        """Removes what an earlier server has left."""
+        self._directory.mkdir(parents=True, exist_ok=True)
+        for path in self._directory.iterdir():
+            path.unlink(missing_ok=True)
+
+    def get(self, handle: str) -> TraceFile:
+        """A file that was uploaded."""
+        file = self._files.get(handle)
+        if file is None:
+            raise NotFound("this trace file is not here any more: choose it again")
+        return file
+
+    async def upload(self, project: int, name: str, data: bytes, sources: Sources | None) -> TraceFile:
+        """Reads a file; a mapping of the project that fits is proposed, else one by names of the program."""
+        if len(data) > MAX_BYTES:
+            raise Refused(f"nothing was imported: the file is larger than {MAX_BYTES >> 20} MiB")
+        saved = await self.mappings(project)
+        async with self._reading:  # one at a time, as they are large
+            try:
+                table = await asyncio.to_thread(read_trace, data, name)
+            except BadTraceFile as bad:
+                return TraceFile("", name, Path(), (), 0, (), TraceMapping(), bad.problems)
+            proposal = await asyncio.to_thread(self._proposal, table, saved, sources)
+            handle = fresh_token()
+            path = self._directory / handle
+            try:
+                await asyncio.to_thread(path.write_bytes, data)
+            except OSError as error:
+                raise Refused(f"the file cannot be kept: {error.strerror}") from error
+        await self._forget()
+        file = self._files[handle] = TraceFile(
+            handle, name, path, table.columns, len(table.rows), tuple(table.rows[:SAMPLE]), proposal, (), monotonic_ns()
+        )
+        return file
+
+    async def check(self, session: Session, file: TraceFile, mapping: TraceMapping) -> Checked:
+        """Whether it can be verified with this mapping, and if not, where it cannot."""
+        sources = session.sources
+
+        def work() -> Checked:
+            try:
+                table = read_trace(file.path.read_bytes(), file.name)
+                found = check(table, mapping, self._program(sources))
+            except OSError as error:
+                raise Refused(f"the file cannot be read: {error.strerror}: choose it again") from error
+            except (NoProgram, BadMapping) as error:
+                raise Refused(str(error)) from error
+            return Checked(found.problems, found.first, found.last, found.missing)
+
+        async with self._reading:
+            return await asyncio.to_thread(work)
+
+    def _proposal(self, table: Table, saved: list[MappingRow], sources: Sources | None) -> TraceMapping:
+        for row in saved:
+            mapping = mapping_of(row)
+            if fits(mapping, table):
+                return mapping
+        if sources is None:
+            return TraceMapping()
+        try:
+            return propose(table, self._program(sources))
+        except NoProgram:
+            return TraceMapping()
+
+    def _program(self, sources: Sources) -> Program:
+        model = model_of(sources)
+        return recall(self._cache, key_of(sources, model)) or checked_program(sources, model)
+
+    async def _forget(self) -> None:
+        now = monotonic_ns()
+        old = [handle for handle, file in self._files.items() if now - file.at > KEPT_NS]
+        old += list(self._files)[: max(0, len(self._files) - len(old) - MOST + 1)]
+        for handle in dict.fromkeys(old):
+            file = self._files.pop(handle)
+            await asyncio.to_thread(file.path.unlink, True)
+
+    # ---- saved mappings -------------------------------------------------------------------------------------------
+
+    async def mappings(self, project: int) -> list[MappingRow]:
+        """Those of a project, by name."""
+        return await asyncio.to_thread(self._store.mappings, project)
+
+    async def save_mapping(self, project: int, name: str, mapping: TraceMapping, author: str) -> MappingRow:
+        """Saves one; it replaces that of the same name."""
+        content = json.loads(mapping.to_json())
+        return await asyncio.to_thread(self._store.save_mapping, project, name, content, author)
+
+    async def delete_mapping(self, mapping: int) -> None:
+        """Forgets one."""
+        await asyncio.to_thread(self._store.delete_mapping, mapping)
+
+
+def mapping_of(row: MappingRow) -> TraceMapping:
+    """The mapping that was saved."""
+    return TraceMapping.from_json(json.dumps(row.content))

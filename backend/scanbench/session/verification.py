@@ -1,0 +1,356 @@
+"""One verification, from the parent: its process, where it stands, and what it is to do next.
+
+The process re-runs the run file beside the PLC, so a free pace costs the PLC nothing. With pace `scan` the PLC waits behind
+each scan, with pace `step` in front of each statement, until both sides were compared and somebody, or `auto`, goes on.
+"""
+
+import asyncio
+from collections.abc import Callable
+from dataclasses import dataclass, replace
+from pathlib import Path
+from typing import Literal
+
+from scanbench.session import debug_protocol, protocol
+from scanbench.session.events import Event, StateChanged, VerificationStatus, VerifyPace, Wanted
+from scanbench.session.jobs import DIED, Job
+from scanbench.session.refused import Refused
+from scanbench.session.session import Session
+from scanbench.session.verify_protocol import (
+    BeginTrace,
+    BeginVerify,
+    ScansVerified,
+    SetInputs,
+    UseRow,
+    UsesAre,
+    UsesOf,
+    VerifyBegun,
+    VerifyRefused,
+    VerifyScans,
+    VerifyStep,
+)
+from scanbench.session.verify_rows import Rows
+from scanbench.verify.verified import Memory
+
+BEHIND = 256
+"""Scans that a verification of a PLC that runs may be behind; then it goes on with the newest ones."""
+CAUGHT_UP = 64
+"""So many of the newest it goes on with then."""
+STRETCHES = 100
+_RUNS = ("running",)
+
+
+@dataclass(frozen=True, slots=True)
+class TraceSource:
+    """A trace of a real controller as the control device."""
+
+    file: Path
+    name: str
+    mapping: str
+    """JSON of `verify.mapping.TraceMapping`."""
+
+
+class Verification:
+    """Everything in the event loop. `on_change` is called whenever the status is another."""
+
+    def __init__(
+        self, id: int, session: Session, wanted: Wanted, trace: TraceSource | None, author: str, cache: Path,
+        on_change: Callable[["Verification"], None],
+    ) -> None:  # fmt: skip
+        self.session, self.rows = session, Rows()
+        source: Literal["live", "past", "trace"] = "live" if wanted.first is None else "past"
+        self.status = VerificationStatus(
+            id, session.id, author, wanted, "trace" if trace else source, wanted.pace, trace=trace.name if trace else ""
+        )
+        self._trace, self._on_change = trace, on_change
+        self._job = Job(cache, self._on_message, self._on_end)
+        self._answers: dict[int, asyncio.Future[object]] = {}
+        self._next_ref = 1
+        self._busy: int | None = None
+        """Ref of the request for scans that is under way."""
+        self._next = 0
+        """The scan that is to be verified next."""
+        self._count = 0
+        """Of a stretch of the past that is gone through step by step: the statement that is next."""
+        self._halt = 0
+        self._owed = 0
+        """Scans that somebody may still go on by, with pace `scan`."""
+        self._tasks: set[asyncio.Task[None]] = set()
+
+    # ---- life -----------------------------------------------------------------------------------------------------
+
+    async def begin(self) -> None:
+        """Until the range is understood; `Refused` says why it is not."""
+        session, wanted, live = self.session, self.status.wanted, self._live_scan
+        first = live if wanted.first is None else wanted.first
+        if self._trace is not None:
+            trace = self._trace
+            answer = await self._ask(
+                lambda ref: BeginTrace(
+                    ref, session.sources, str(trace.file), trace.name, trace.mapping, wanted.range, wanted.limit
+                )
+            )
+        else:
+            if wanted.first is not None and not wanted.first < live:
+                raise Refused(f"scan {wanted.first:,} is not over yet: the PLC is at scan {live:,}")
+            if wanted.first is not None and wanted.last is not None and wanted.last < wanted.first:
+                raise Refused(f"scans {wanted.first:,} to {wanted.last:,} are none")
+            path = str(session.run_file)
+            answer = await self._ask(lambda ref: BeginVerify(ref, path, wanted.range, wanted.limit, live, first))
+        if isinstance(answer, VerifyRefused):
+            raise Refused(answer.message, answer.near)
+        assert isinstance(answer, VerifyBegun)
+        last: int | None = None
+        if self._trace is not None:
+            first, last = answer.first, answer.end - 1
+        elif wanted.first is not None:
+            last = live - 1 if wanted.last is None else min(wanted.last, live - 1)
+        self._next = first
+        self._change(
+            title=answer.title, instances=answer.instances, first=first, last=last, version=answer.version,
+            interval_ns=answer.interval_ns, message=answer.note, state="waiting" if self.status.pace != "free" else "verifying",
+        )  # fmt: skip
+        session.listen(self._on_event)
+        if self.status.pace != "free" and self.status.source == "live":
+            await self._hold()
+        self._poke()
+
+    async def end(self) -> None:
+        """Ends its process."""
+        self.session.ignore(self._on_event)
+        for task in self._tasks:
+            task.cancel()
+        await asyncio.gather(*self._tasks, return_exceptions=True)
+        await self._job.end()
+        self._give_up("the verification was ended")
+
+    # ---- what users want ------------------------------------------------------------------------------------------
+
+    async def drive(
+        self, pace: VerifyPace | None, auto: bool | None, memory: Memory | None, action: str | None, author: str
+    ) -> None:
+        """Another pace or memory, one further, stopped, resumed."""
+        status = self.status
+        if status.state == "failed" and (pace, action) != (None, None):
+            raise Refused(f"it has failed: {status.message}. Begin another verification")
+        if memory is not None and memory != status.memory:
+            self._change(memory=memory, generation=status.generation + 1)
+        if auto is not None:
+            self._change(auto=auto)
+        if pace is not None and pace != status.pace:
+            self._change(pace=pace)
+            if pace != "free" and status.source == "live":
+                await self._hold()
+        if action == "stop":
+            self._owed = 0
+            self._change(state="stopped", message="")
+            return
+        if action == "resume" and self.status.state == "stopped":
+            self._change(state="waiting", message="")
+        if self.status.state == "stopped" or self.status.state == "done":
+            if action == "go_on":
+                raise Refused(
+                    "it is over: begin another verification"
+                    if self.status.state == "done"
+                    else "it is stopped: resume it"
+                )
+            return
+        if action == "go_on":
+            await self._go_on(author)
+        elif self.status.auto and self.status.pace != "free":
+            self._soon()
+        self._poke()
+
+    async def set_cells(self, edits: tuple[tuple[int, int, str, str], ...]) -> None:
+        """The monitor runs these passes again on edited inputs."""
+        answer = await self._ask(lambda ref: SetInputs(ref, edits))
+        if isinstance(answer, VerifyRefused):
+            raise Refused(answer.message, answer.near)
+        assert isinstance(answer, ScansVerified)
+        if answer.failed:
+            raise Refused(answer.message)
+        self.rows.replace(answer)
+        self._change(generation=self.status.generation + 1)
+
+    async def uses(self, scan: int, call: int) -> tuple[UseRow, ...]:
+        """The used-variable record of one row."""
+        answer = await self._ask(lambda ref: UsesOf(ref, scan, call))
+        if isinstance(answer, VerifyRefused):
+            raise Refused(answer.message, answer.near)
+        assert isinstance(answer, UsesAre)
+        return answer.uses
+
+    # ---- going on -------------------------------------------------------------------------------------------------
+
+    @property
+    def _live_scan(self) -> int:
+        state = self.session.state
+        return state.live_scan if state.past_by else state.scan
+
+    def _on_event(self, event: Event) -> None:
+        if isinstance(event, StateChanged):
+            self._poke()
+
+    def _poke(self) -> None:
+        """Asks for what is to be verified now, unless something is."""
+        status, live = self.status, self._live_scan
+        if self._busy is not None or status.state in ("starting", "stopped", "done", "failed"):
+            return
+        if status.source != "live":
+            self._poke_past(live)
+        elif status.pace == "step":
+            self._poke_halt(live)
+        elif self._next < live:
+            if status.pace == "free" and live - self._next > BEHIND:
+                self._skip(live - CAUGHT_UP)
+            self._scans(self._next, live - 1, live)
+
+    def _poke_past(self, live: int) -> None:
+        status = self.status
+        assert status.last is not None
+        until = live if status.source == "past" else status.last + 1
+        if self._next > status.last:
+            self._change(state="done", message="")
+        elif status.pace == "free":
+            self._scans(self._next, status.last, until)
+        elif self._owed:
+            self._owed -= 1
+            if status.pace == "scan":
+                self._scans(self._next, self._next, until)
+            else:
+                self._count += 1
+                self._busy = self._send(lambda ref: VerifyStep(ref, self._next, self._count, until))
+        elif status.state != "waiting":
+            self._change(state="waiting")
+
+    def _poke_halt(self, live: int) -> None:
+        halt = self.session.state.halt
+        if halt is None or halt.past or halt.number == self._halt:
+            return
+        self._halt = halt.number
+        if self._next < halt.scan:
+            self._skip(halt.scan)
+        self._busy = self._send(lambda ref: VerifyStep(ref, halt.scan, halt.count, live))
+
+    def _scans(self, first: int, last: int, until: int) -> None:
+        self._busy = self._send(lambda ref: VerifyScans(ref, first, last, until))
+        if self.status.state != "verifying":
+            self._change(state="verifying", message="")
+
+    def _skip(self, to: int) -> None:
+        """Goes on with this scan: those in between are not verified, and it says so."""
+        skipped = to - self._next
+        if skipped <= 0:
+            return
+        stretches = (*self.status.stretches, (self._next, to - 1))[-STRETCHES:]
+        self._next = to
+        self._change(skipped=self.status.skipped + skipped, stretches=stretches)
+
+    async def _hold(self) -> None:
+        """The PLC waits from now on: behind its scan, or in front of its next statement."""
+        author, session = self.status.by, self.session
+        if session.state.state in _RUNS:
+            ack = await session.drive("pause", None, author)
+            if not ack.ok:
+                raise Refused(ack.message)
+
+    async def _go_on(self, author: str) -> None:
+        """One scan or statement further."""
+        status, session = self.status, self.session
+        if status.pace == "free":
+            return
+        if status.source != "live":
+            self._owed += 1
+            return
+        if status.pace == "scan":
+            ack = await session.drive("scan", None, author)
+        else:
+            ack = _acked(await session.debug(lambda ref: debug_protocol.Step(ref, "in", author)))
+        if not ack.ok:
+            self._change(auto=False, message=ack.message)
+            raise Refused(ack.message, ack.near)
+
+    def _soon(self) -> None:
+        """Goes on by itself."""
+
+        async def go_on() -> None:
+            try:
+                await self._go_on(self.status.by)
+                self._poke()
+            except Refused as refused:
+                self._change(auto=False, state="waiting", message=refused.message)
+
+        task = asyncio.get_running_loop().create_task(go_on())
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
+
+    # ---- the process ----------------------------------------------------------------------------------------------
+
+    def _send(self, make: Callable[[int], object]) -> int:
+        ref, self._next_ref = self._next_ref, self._next_ref + 1
+        self._job.ask(make(ref))
+        return ref
+
+    async def _ask(self, make: Callable[[int], object]) -> object:
+        future: asyncio.Future[object] = asyncio.get_running_loop().create_future()
+        self._answers[self._send(make)] = future
+        return await future
+
+    def _on_message(self, message: object) -> None:
+        ref = getattr(message, "ref", None)
+        future = self._answers.pop(ref, None) if isinstance(ref, int) else None
+        if future is not None:
+            if not future.done():
+                future.set_result(message)
+        elif isinstance(message, ScansVerified) and ref == self._busy:
+            self._verified(message)
+        elif isinstance(message, VerifyRefused) and ref == self._busy:
+            self._busy = None
+            self._change(state="failed", message=message.message)
+
+    def _verified(self, came: ScansVerified) -> None:
+        status = self.status
+        self.rows.add(came)
+        stepped = bool(came.rows) and status.pace == "step"
+        if not stepped or (came.rows and came.rows[-1].count == 0):  # a step at the end of a scan is behind it
+            self._next, self._count = max(self._next, came.scan + 1), 0
+        first = status.first_difference
+        new = next((row for row in came.rows if row.first is not None), None)
+        if came.done:
+            self._busy = None
+        going = status.state in ("verifying", "waiting", "starting")
+        state = "failed" if came.failed else status.state
+        if going and came.done and not came.failed:
+            state = "waiting" if status.pace != "free" or self._next >= self._live_scan else "verifying"
+        self._change(
+            state=state, message=came.message, scan=came.scan if came.scan >= 0 else status.scan,
+            compared=status.compared + came.compared, differing=status.differing + sum(row.first is not None for row in came.rows),
+            first_difference=first or (None if new is None else new.first),
+            first_scan=status.first_scan if first is not None or new is None else new.scan,
+            rows=self.rows.count, forgotten=self.rows.first, used=max(status.used, came.used),
+        )  # fmt: skip
+        if came.done and not came.failed:
+            if status.auto and status.pace != "free" and going:
+                self._soon()
+            self._poke()
+
+    def _on_end(self, _job: Job) -> None:
+        """It died, or was ended."""
+        self._give_up(DIED)
+        if self.status.state not in ("failed", "done"):
+            self._busy = None
+            self._change(state="failed", message=DIED)
+
+    def _give_up(self, why: str) -> None:
+        answers, self._answers = self._answers, {}
+        for ref, future in answers.items():
+            if not future.done():
+                future.set_result(VerifyRefused(ref, why))
+
+    def _change(self, **changes: object) -> None:
+        self.status = replace(self.status, **changes)  # type: ignore[arg-type]  # names and types are the status' own
+        self._on_change(self)
+
+
+def _acked(answer: object) -> protocol.Ack:
+    assert isinstance(answer, protocol.Ack)
+    return answer

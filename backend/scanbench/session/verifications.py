@@ -1,0 +1,323 @@
+"""The verifications of a server: those that go on, and those that somebody kept."""
+
+import asyncio
+import json
+from collections.abc import Iterable
+from dataclasses import asdict, dataclass
+from pathlib import Path
+from typing import Literal, cast
+
+from scanbench import __version__
+from scanbench.runtime.clock import iso, monotonic_ns, wall_time
+from scanbench.session.codec import BadMessage, Splitter, pack
+from scanbench.session.events import VerificationsChanged, VerificationStatus, VerifyPace, Wanted
+from scanbench.session.refused import Refused
+from scanbench.session.session import Session
+from scanbench.session.trace_files import TraceFile
+from scanbench.session.verification import TraceSource, Verification
+from scanbench.session.verify_protocol import ScansVerified, UseRow
+from scanbench.session.verify_rows import Rows, RowsPage
+from scanbench.store.records import Json, KeptRow, NotFound
+from scanbench.store.store import Store
+from scanbench.verify.mapping import TraceMapping
+from scanbench.verify.report import Report, ReportHead
+from scanbench.verify.report_html import to_html
+from scanbench.verify.report_json import to_json
+from scanbench.verify.table_csv import to_csv
+from scanbench.verify.verified import Memory, Mismatch, Place, Range, Row
+
+MOST = 6
+"""Verifications at a time: each is a process."""
+SUFFIX = ".rows"
+_TELL_NS = 200_000_000
+Format = Literal["csv", "json", "html"]
+_MEDIA: dict[Format, str] = {
+    "csv": "text/csv; charset=utf-8", "json": "application/json", "html": "text/html; charset=utf-8",
+}  # fmt: skip
+
+
+@dataclass(frozen=True, slots=True)
+class Exported:
+    """A file for somebody to take away."""
+
+    text: str
+    media: str
+    name: str
+
+
+@dataclass(frozen=True, slots=True)
+class Kept:
+    """A verification that was kept."""
+
+    row: KeptRow
+    status: VerificationStatus
+
+
+class Verifications:
+    """`directory` has the rows of what was kept."""
+
+    def __init__(self, store: Store, directory: Path, cache: Path) -> None:
+        self._store, self._directory, self._cache = store, directory, cache
+        self._all: dict[int, Verification] = {}
+        self._next = 1
+        self._told: dict[int, tuple[int, VerificationStatus]] = {}
+        """Of each when it was told last, and what."""
+        self._later: asyncio.TimerHandle | None = None
+        self._untold: set[int] = set()
+
+    def tidy(self) -> None:
+        """Removes files that belong to nothing any more. Waits for the disk."""
+        self._directory.mkdir(parents=True, exist_ok=True)
+        projects = self._store.projects()
+        known = {self._path(row.id) for each in projects for row in self._store.kept("verification", each.id)}
+        for path in self._directory.iterdir():
+            if path not in known:
+                path.unlink(missing_ok=True)
+
+    async def close(self) -> None:
+        """Ends all of them."""
+        if self._later is not None:
+            self._later.cancel()
+        await asyncio.gather(*(each.end() for each in self._all.values()))
+
+    async def forget_instance(self, instance: int) -> None:
+        """Ends those of an instance that goes."""
+        for id in [id for id, each in self._all.items() if each.session.id == instance]:
+            await self._drop(id)
+
+    # ---- those that go on -----------------------------------------------------------------------------------------
+
+    def of(self, session: Session) -> tuple[VerificationStatus, ...]:
+        """Those of an instance, the oldest first."""
+        return tuple(each.status for each in self._all.values() if each.session is session)
+
+    async def begin(self, session: Session, wanted: Wanted, author: str) -> VerificationStatus:
+        """Verifies the run of an instance."""
+        return await self._begin(session, wanted, None, author)
+
+    async def begin_trace(
+        self, session: Session, file: TraceFile, mapping: TraceMapping, range: Range, limit: int, author: str
+    ) -> VerificationStatus:  # fmt: skip
+        """Verifies the trace of a real controller with the program of an instance."""
+        trace = TraceSource(file.path, file.name, mapping.to_json())
+        return await self._begin(session, Wanted(range, "free", 0, None, limit), trace, author)
+
+    async def _begin(
+        self, session: Session, wanted: Wanted, trace: TraceSource | None, author: str
+    ) -> VerificationStatus:  # fmt: skip
+        if len(self._all) >= MOST:
+            over = [id for id, each in self._all.items() if each.status.state in ("done", "failed", "stopped")]
+            if not over:
+                raise Refused(f"{MOST} verifications go on already: end one of them first")
+            await self._drop(over[0])
+        id, self._next = self._next, self._next + 1
+        made = self._all[id] = Verification(id, session, wanted, trace, author, self._cache, self._on_change)
+        try:
+            await made.begin()
+        except BaseException:
+            await self._drop(id)
+            raise
+        session.told(author, f"verification {id} begins: {made.status.title}")
+        return made.status
+
+    async def drive(
+        self, id: int, pace: VerifyPace | None, auto: bool | None, memory: Memory | None, action: str | None, author: str
+    ) -> VerificationStatus:  # fmt: skip
+        """Another pace or memory; one further; stopped, or resumed."""
+        verification = self._one(id)
+        await verification.drive(pace, auto, memory, action, author)
+        return verification.status
+
+    async def delete(self, id: int) -> None:
+        """Ends one, and forgets its rows."""
+        self._one(id)
+        await self._drop(id)
+
+    async def set_cells(self, id: int, edits: tuple[tuple[int, int, str, str], ...], author: str) -> VerificationStatus:
+        """Edits inputs of the set data."""
+        verification = self._one(id)
+        await verification.set_cells(edits)
+        return verification.status
+
+    async def uses(self, id: int, scan: int, call: int) -> tuple[UseRow, ...]:
+        """The used-variable record of one row."""
+        return await self._one(id).uses(scan, call)
+
+    def rows(self, id: int, first: int, count: int, differing: bool) -> RowsPage:
+        """Rows from index `first` on."""
+        return self._one(id).rows.page(first, count, differing)
+
+    async def export(self, id: int, format: Format) -> Exported:
+        """All rows that are kept, as a file."""
+        verification = self._one(id)
+        session, status = verification.session, verification.status
+        when, rows = iso(wall_time()), list(verification.rows.all())
+        project = (await asyncio.to_thread(self._store.project, session.project_id)).name
+        head = _head(status, project, session.name, session.sources.model, when)
+        return await asyncio.to_thread(_exported, head, verification.rows, rows, format)
+
+    def _one(self, id: int) -> Verification:
+        verification = self._all.get(id)
+        if verification is None:
+            raise NotFound(f"there is no verification {id}: it was ended, or the server has started anew")
+        return verification
+
+    async def _drop(self, id: int) -> None:
+        verification = self._all.pop(id)
+        await verification.end()
+        self._told.pop(id, None)
+        self._tell(verification.session)
+
+    # ---- telling --------------------------------------------------------------------------------------------------
+
+    def _on_change(self, verification: Verification) -> None:
+        """At once when something begins or ends, a few times a second while it goes on."""
+        id, status, now = verification.status.id, verification.status, monotonic_ns()
+        at, before = self._told.get(id, (0, None))
+        slow = before is not None and (status.state, status.pace, status.auto, status.memory, status.generation) == (
+            before.state, before.pace, before.auto, before.memory, before.generation,
+        ) and now - at < _TELL_NS  # fmt: skip
+        if slow or (
+            before is not None and {status.state, before.state} == {"waiting", "verifying"} and now - at < _TELL_NS
+        ):
+            self._untold.add(id)
+            if self._later is None:
+                self._later = asyncio.get_running_loop().call_later(_TELL_NS / 1e9, self._catch_up)
+            return
+        self._told[id] = now, status
+        self._untold.discard(id)
+        self._tell(verification.session)
+
+    def _catch_up(self) -> None:
+        self._later = None
+        untold, self._untold = self._untold, set()
+        sessions: dict[int, Session] = {}
+        for id in untold:
+            verification = self._all.get(id)
+            if verification is not None:
+                self._told[id] = monotonic_ns(), verification.status
+                sessions[verification.session.id] = verification.session
+        for session in sessions.values():
+            self._tell(session)
+
+    def _tell(self, session: Session) -> None:
+        session.tell(VerificationsChanged(self.of(session)))
+
+    # ---- those that were kept -------------------------------------------------------------------------------------
+
+    async def records(self, project: int) -> list[Kept]:
+        """The newest first."""
+        return [_kept(row) for row in await asyncio.to_thread(self._store.kept, "verification", project)]
+
+    async def record(self, id: int) -> Kept:
+        """One that was kept."""
+        return _kept(await asyncio.to_thread(self._store.kept_one, "verification", id))
+
+    async def keep(self, id: int, name: str, author: str) -> Kept:
+        """Keeps one in the project, as it is now."""
+        verification = self._one(id)
+        session, status, rows = verification.session, verification.status, verification.rows
+        if not rows.kept:
+            raise Refused("nothing was verified yet: let it run first")
+        content: Json = {"status": _status_to_json(status), "model": session.sources.model}
+        packed = pack(
+            ScansVerified(
+                0, 0, rows.first, tuple(rows.kept), tuple(rows.columns), tuple(rows.inputs), tuple(rows.outputs), 0
+            )
+        )
+        row = await asyncio.to_thread(
+            lambda: self._store.keep(
+                "verification", session.project_id, name=name, instance=session.name, content=content, by=author
+            )
+        )
+        try:
+            await asyncio.to_thread(self._path(row.id).write_bytes, packed)
+        except OSError as error:
+            await asyncio.to_thread(self._store.forget, "verification", row.id)
+            raise Refused(f"the record cannot be kept: {error.strerror}") from error
+        return _kept(row)
+
+    async def delete_record(self, id: int) -> None:
+        """Forgets one that was kept."""
+        await asyncio.to_thread(self._store.forget, "verification", id)
+        await asyncio.to_thread(self._path(id).unlink, True)
+
+    async def record_rows(self, id: int, first: int, count: int, differing: bool) -> RowsPage:
+        """Its rows, as those of a verification."""
+        await self.record(id)
+        rows = await asyncio.to_thread(self._read, id)
+        return await asyncio.to_thread(rows.page, first, count, differing)
+
+    async def export_record(self, id: int, format: Format) -> Exported:
+        """Its rows as a file."""
+        kept = await self.record(id)
+        project = (await asyncio.to_thread(self._store.project, kept.row.project)).name
+        rows = await asyncio.to_thread(self._read, id)
+        head = _head(kept.status, project, kept.row.instance, str(kept.row.content["model"]), iso(kept.row.at))
+        return await asyncio.to_thread(lambda: _exported(head, rows, list(rows.all()), format))
+
+    def _read(self, id: int) -> Rows:
+        try:
+            data = self._path(id).read_bytes()
+            (came,) = Splitter().feed(data)
+        except (OSError, ValueError, BadMessage) as error:
+            raise Refused(f"the rows of this record cannot be read: {error}") from error
+        assert isinstance(came, ScansVerified)
+        rows = Rows(list(came.columns), dict.fromkeys(came.inputs), dict.fromkeys(came.outputs), first=came.compared)
+        rows.kept = list(came.rows)
+        rows.differing = [rows.first + at for at, row in enumerate(rows.kept) if row.first is not None]
+        return rows
+
+    def _path(self, id: int) -> Path:
+        return self._directory / f"{id}{SUFFIX}"
+
+
+def _head(status: VerificationStatus, project: str, instance: str, model: str, when: str) -> ReportHead:
+    return ReportHead(
+        project, instance, model, status.by, when, status.version, status.title, status.source, status.first,
+        status.first if status.scan is None else status.scan, status.compared, status.skipped, status.differing,
+        f"Scanbench {__version__}", status.trace, status.interval_ns, status.forgotten, status.wanted.limit,
+        status.stretches, status.message,
+    )  # fmt: skip
+
+
+def _exported(head: ReportHead, rows: Rows, kept: Iterable[Row], format: Format) -> Exported:
+    report = Report(head, tuple(rows.columns), tuple(kept), tuple(rows.inputs), tuple(rows.outputs))
+    if format == "csv":
+        text = "".join(to_csv(report))
+    elif format == "json":
+        text = to_json(report)
+    else:
+        text = to_html(report)
+    return Exported(text, _MEDIA[format], f"{head.instance} {head.title}.{format}".replace("/", "_"))
+
+
+# ---- as JSON ---------------------------------------------------------------------------------------------------------
+
+
+def _status_to_json(status: VerificationStatus) -> Json:
+    content = asdict(status)
+    first = status.first_difference
+    if first is not None:
+        content["first_difference"] = {**asdict(first), "control": first.control.hex(), "monitor": first.monitor.hex()}
+    return cast(Json, json.loads(json.dumps(content)))
+
+
+def _kept(row: KeptRow) -> Kept:
+    content = dict(cast(dict[str, object], row.content["status"]))
+    wanted = cast(dict[str, object], content["wanted"])
+    content["wanted"] = Wanted(**{**wanted, "range": Range(**cast(dict[str, str], wanted["range"]))})  # type: ignore[arg-type]  # as it was kept
+    first = cast("dict[str, object] | None", content["first_difference"])
+    if first is not None:
+        place = cast("dict[str, object] | None", first["place"])
+        content["first_difference"] = Mismatch(
+            **{
+                **first, "control": bytes.fromhex(str(first["control"])), "monitor": bytes.fromhex(str(first["monitor"])),
+                "place": None if place is None else Place(**place),  # type: ignore[arg-type]
+            }  # type: ignore[arg-type]
+        )  # fmt: skip
+    for name in ("instances", "stretches"):
+        content[name] = tuple(
+            tuple(each) if isinstance(each, list) else each for each in cast("list[object]", content[name])
+        )
+    return Kept(row, VerificationStatus(**content))  # type: ignore[arg-type]

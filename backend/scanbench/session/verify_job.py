@@ -1,0 +1,179 @@
+"""In a job process: one verification. Whatever is wrong with a request is told in its answer."""
+
+from collections.abc import Callable, Iterable, Sequence
+from pathlib import Path
+
+from scanbench.check.program import Program
+from scanbench.engines.cache import BlobCache
+from scanbench.runtime.clock import monotonic_ns
+from scanbench.runtime.contents import KeptProgram
+from scanbench.runtime.programs import NoProgram
+from scanbench.runtime.runfile import RunFileError
+from scanbench.session.codec import ENTRIES, pack_body
+from scanbench.session.runs import sources_in
+from scanbench.session.starting import NoStart, ProgramOf
+from scanbench.session.verify_protocol import (
+    BeginTrace,
+    BeginVerify,
+    PackedRow,
+    ScansVerified,
+    SetInputs,
+    UseRow,
+    UsesAre,
+    UsesOf,
+    VerifyBegun,
+    VerifyRefused,
+    VerifyScans,
+    VerifyStep,
+)
+from scanbench.verify.engines import native
+from scanbench.verify.mapping import BadMapping
+from scanbench.verify.trace_run import TraceVerifier, open_trace
+from scanbench.verify.trace_table import BadTraceFile
+from scanbench.verify.value_text import value_text
+from scanbench.verify.verified import BadRange, Column, Row, ScanVerified
+from scanbench.verify.verifier import BadEdit, Unverifiable, Verifier
+
+_TELL_NS = 100_000_000
+Request = BeginVerify | BeginTrace | VerifyScans | VerifyStep | SetInputs | UsesOf
+REFUSALS = (NoStart, NoProgram, RunFileError, Unverifiable, BadEdit, BadMapping, BadTraceFile, OSError)
+
+
+class VerifyJob:
+    """Keeps one verifier."""
+
+    def __init__(
+        self, program_of: ProgramOf, cache: BlobCache | None, say: Callable[[object], None], asked: Callable[[], bool]
+    ) -> None:  # fmt: skip
+        """`asked`: whether another request waits."""
+        self._program_of, self._cache, self._say, self._asked = program_of, cache, say, asked
+        self._verifier: Verifier | TraceVerifier | None = None
+
+    def on_request(self, request: Request) -> None:
+        """Answers it."""
+        try:
+            self._answer(request)
+        except BadRange as bad:
+            self._say(VerifyRefused(request.ref, str(bad), bad.near))
+        except REFUSALS as why:
+            self._say(VerifyRefused(request.ref, _words(why)))
+
+    def _answer(self, request: Request) -> None:
+        match request:
+            case BeginVerify():
+                self._begin(request)
+            case BeginTrace():
+                self._begin_trace(request)
+            case VerifyScans():
+                self._scans(request)
+            case VerifyStep():
+                verifier = self._begun()
+                verifier.follow(request.until)
+                self._tell(request.ref, [verifier.step(request.scan, request.count)], done=True)
+            case SetInputs():
+                rows = self._begun().set_inputs(request.edits)
+                packed = tuple(map(_packed, rows))
+                self._say(ScansVerified(request.ref, -1, 0, packed, (), (), (), 0, done=True))
+            case UsesOf():
+                self._uses(request)
+
+    def _begun(self) -> Verifier | TraceVerifier:
+        if self._verifier is None:
+            raise NoStart("the verification has not begun")
+        return self._verifier
+
+    def _begin(self, ask: BeginVerify) -> None:
+        def program_of(kept: KeptProgram) -> Program:
+            return self._program_of(sources_in(kept))
+
+        verifier = Verifier(Path(ask.run), ENTRIES, program_of, native(self._cache))
+        self._verifier = verifier
+        verifier.follow(ask.until)
+        begun = verifier.begin(ask.range, ask.limit, ask.first)
+        self._say(
+            VerifyBegun(
+                ask.ref,
+                begun.title,
+                begun.instances,
+                begun.first,
+                begun.end,
+                begun.interval_ns,
+                begun.version,
+                begun.note,
+            )
+        )
+
+    def _begin_trace(self, ask: BeginTrace) -> None:
+        data = Path(ask.file).read_bytes()
+        verifier = open_trace(data, ask.name, ask.mapping, self._program_of(ask.sources))
+        self._verifier = verifier
+        begun = verifier.begin(ask.range, ask.limit)
+        self._say(
+            VerifyBegun(
+                ask.ref, begun.title, begun.instances, begun.first, begun.end, begun.interval_ns, ask.sources.version,
+                begun.note,
+            )
+        )  # fmt: skip
+
+    def _scans(self, ask: VerifyScans) -> None:
+        verifier = self._begun()
+        verifier.follow(ask.until)
+        batch: list[ScanVerified] = []
+        told = monotonic_ns()
+        for scan in range(ask.first, ask.last + 1):
+            try:
+                batch.append(verifier.verify(scan))
+            except REFUSALS as why:
+                self._tell(ask.ref, batch, done=True, failed=_words(why))
+                return
+            if self._asked():
+                break
+            if monotonic_ns() - told > _TELL_NS:
+                self._tell(ask.ref, batch, done=False)
+                batch, told = [], monotonic_ns()
+        self._tell(ask.ref, batch, done=True)
+
+    def _tell(self, ref: int, batch: Sequence[ScanVerified], *, done: bool, failed: str = "") -> None:
+        rows = tuple(_packed(row) for each in batch for row in each.rows)
+        self._say(
+            ScansVerified(
+                ref, batch[-1].scan if batch else -1, len(batch), rows, _columns(batch),
+                tuple(dict.fromkeys(name for each in batch for name in each.inputs)),
+                tuple(dict.fromkeys(name for each in batch for name in each.outputs)),
+                max((each.used for each in batch), default=0), done, failed, bool(failed),
+            )
+        )  # fmt: skip
+
+    def _uses(self, ask: UsesOf) -> None:
+        verifier = self._begun()
+        columns = verifier.columns
+        uses = []
+        for use in verifier.uses(ask.scan, ask.call):
+            column = columns.get(use.name)
+            uses.append(
+                UseRow(
+                    use.name, use.written, _text(column, use.control), _text(column, use.monitor), use.place.file,
+                    use.place.line, use.place.instance,
+                )
+            )  # fmt: skip
+        self._say(UsesAre(ask.ref, tuple(uses)))
+
+
+def _packed(row: Row) -> PackedRow:
+    return PackedRow(row.scan, row.call, row.count, row.differences[0] if row.differences else None, pack_body(row))
+
+
+def _columns(batch: Iterable[ScanVerified]) -> tuple[Column, ...]:
+    return tuple({column.name: column for each in batch for column in each.columns}.values())
+
+
+def _text(column: Column | None, value: bytes | None) -> str | None:
+    if value is None:
+        return None
+    return value.hex() if column is None else value_text(column, value)
+
+
+def _words(why: Exception) -> str:
+    if isinstance(why, BadTraceFile):
+        return "; ".join(each.message for each in why.problems[:3])
+    return why.strerror or str(why) if isinstance(why, OSError) else str(why)

@@ -1,0 +1,108 @@
+"""The rows of a verification, in the parent: as bytes, and not more than find room."""
+
+from bisect import bisect_left
+from collections.abc import Iterable, Iterator
+from dataclasses import dataclass, field
+
+from scanbench.session.codec import unpack
+from scanbench.session.verify_protocol import PackedRow, ScansVerified
+from scanbench.verify.verified import Column, Row
+
+MOST_ROWS = 20_000
+MOST_BYTES = 96 << 20
+"""Of one verification."""
+MOST_DIFFERING = 10_000
+"""Indices of rows that differ, which are told."""
+
+
+@dataclass(frozen=True, slots=True)
+class RowsPage:
+    """Some rows with their indices, and what there is in all."""
+
+    columns: tuple[Column, ...]
+    outputs: frozenset[str]
+    inputs: frozenset[str]
+    rows: tuple[tuple[int, Row], ...]
+    first: int
+    count: int
+    differing: tuple[int, ...]
+
+
+@dataclass
+class Rows:
+    """Rows in the order in which they came; the oldest are forgotten when there is no room."""
+
+    columns: list[Column] = field(default_factory=list)
+    inputs: dict[str, None] = field(default_factory=dict)
+    outputs: dict[str, None] = field(default_factory=dict)
+    kept: list[PackedRow] = field(default_factory=list)
+    first: int = 0
+    """Index of the first that is kept."""
+    differing: list[int] = field(default_factory=list)
+    bytes: int = 0
+
+    @property
+    def count(self) -> int:
+        """Rows that there were."""
+        return self.first + len(self.kept)
+
+    def add(self, came: ScansVerified) -> None:
+        """Behind all others."""
+        self._learn(came)
+        for row in came.rows:
+            if row.first is not None:
+                self.differing.append(self.count)
+            self.kept.append(row)
+            self.bytes += len(row.data)
+        self._forget()
+
+    def replace(self, came: ScansVerified) -> None:
+        """Rows that are others now: of the same scan, call and count."""
+        self._learn(came)
+        places = {(row.scan, row.call, row.count): at for at, row in enumerate(self.kept)}
+        for row in came.rows:
+            at = places.get((row.scan, row.call, row.count))
+            if at is not None:
+                self.bytes += len(row.data) - len(self.kept[at].data)
+                self.kept[at] = row
+
+    def page(self, first: int, count: int, differing: bool) -> RowsPage:
+        """Rows from index `first` on; with `differing` only those that differ."""
+        if differing:
+            at = bisect_left(self.differing, max(first, self.first))
+            indices: Iterable[int] = self.differing[at : at + count]
+        else:
+            indices = range(max(first, self.first), min(self.count, max(first, self.first) + count))
+        rows = tuple((index, row_of(self.kept[index - self.first])) for index in indices)
+        told = tuple(self.differing[-MOST_DIFFERING:])
+        return RowsPage(
+            tuple(self.columns), frozenset(self.outputs), frozenset(self.inputs), rows, self.first, self.count, told
+        )  # fmt: skip
+
+    def all(self) -> Iterator[Row]:
+        """Every row that is kept."""
+        return map(row_of, self.kept)
+
+    def _learn(self, came: ScansVerified) -> None:
+        known = {each.name for each in self.columns}
+        self.columns += [each for each in came.columns if each.name not in known]
+        self.inputs.update(dict.fromkeys(came.inputs))
+        self.outputs.update(dict.fromkeys(came.outputs))
+
+    def _forget(self) -> None:
+        gone = max(0, len(self.kept) - MOST_ROWS)
+        while self.bytes > MOST_BYTES and gone < len(self.kept):
+            self.bytes -= len(self.kept[gone].data)
+            gone += 1
+        if gone:
+            del self.kept[:gone]
+            self.first += gone
+            self.bytes = sum(len(row.data) for row in self.kept)
+            del self.differing[: bisect_left(self.differing, self.first)]
+
+
+def row_of(packed: PackedRow) -> Row:
+    """The row in these bytes."""
+    row = unpack(packed.data)
+    assert isinstance(row, Row)
+    return row

@@ -1,0 +1,213 @@
+"""What is another at one moment than at another: variables by their names, addresses where there are none."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scanbench.check.holding import Holders
+from scanbench.check.program import Program
+from scanbench.check.symbols import Symbol
+from scanbench.check.types import Elementary, Enumeration, StringType, Type
+from scanbench.check.values import format_value, python_value
+from scanbench.faults.error_memory import code_bits, kept_bits, log_bits
+from scanbench.runtime.carry_over import carry_over
+from scanbench.runtime.command import Entry
+from scanbench.runtime.header import Mode, fresh_image
+from scanbench.verify.findings import MAX_CHANGES, Change, Changes
+from scanbench.verify.reading import NoReading, Reading
+
+MAX_ENTRIES = 1_000
+"""Entries in between that are listed."""
+_MOST = 50_000
+"""Words of two bytes that are looked at: more are only said to be more."""
+Bytes = NDArray[np.uint8]
+
+
+@dataclass(frozen=True, slots=True)
+class Moment:
+    """A PLC as it was: the program, and a copy of its state."""
+
+    program: Program
+    version: int
+    digest: str
+    state: bytes
+
+
+def moment_of(reading: Reading) -> Moment:
+    """Where it stands now."""
+    resource = reading.timeline.resource
+    digest = reading.timeline.recording.programs[resource.version].digest
+    return Moment(resource.program, resource.version, digest, resource.state)
+
+
+def find_changes(reading: Reading, first: int, last: int, other: Reading | None = None) -> Changes:
+    """What is another at the beginning of scan `last` (of the other run) than at that of scan `first`. `NoReading` says
+    why that cannot be told."""
+    if other is None and first > last:
+        raise NoReading(f"scan {last} is before scan {first}: name the earlier one first")
+    reading.goto(first)
+    before = moment_of(reading)
+    of = other or reading
+    of.goto(last)
+    after = moment_of(of)
+    same_model(before.program, after.program)
+    entries = [] if other is not None else list(_between(reading, first, last))
+    note = ""
+    if before.digest != after.digest:
+        note = "the program is another: variables are compared by their names, and those that only one of them has are left out"
+    if len(entries) > MAX_ENTRIES:
+        left = len(entries) - MAX_ENTRIES
+        note += "; " * bool(note) + f"{left:,} more entries in between are not listed"
+        entries = entries[:MAX_ENTRIES]
+    changes, count = Comparer(before.program, after.program, before.digest == after.digest).changes(
+        before.state, after.state
+    )
+    if len(changes) < count:
+        note += "; " * bool(note) + f"the first {len(changes):,} variables are listed"
+    return Changes(first, last, changes, count, tuple(entries), note)
+
+
+def same_model(one: Program, other: Program) -> None:
+    """`NoReading` when they are not on the same model."""
+    names = one.layout.model.name, other.layout.model.name
+    if names[0] != names[1]:
+        raise NoReading(
+            f"one run is of the model {names[0]}, the other of {names[1]}: only runs of one model can be compared"
+        )
+
+
+def entered(entry: Entry) -> str:
+    """What somebody entered, for people."""
+    return f"{type(entry.command).__name__}: {entry.plan.message}"
+
+
+def _between(reading: Reading, first: int, last: int) -> Iterator[tuple[int, str, str]]:
+    for each in reading.entries:
+        if (each.scan > first or (each.scan == first and each.step)) and (
+            each.scan < last or (each.scan == last and not each.step)
+        ):
+            yield each.scan, each.command.author, entered(each)
+
+
+class Comparer:
+    """Compares states of two programs, which may be one: in what people count, not in the system's own."""
+
+    def __init__(self, one: Program, other: Program, same: bool) -> None:
+        self._one, self.same = one, same
+        """`same`: it is one program, so that equal states stay equal."""
+        self._mask = _counted(one)
+        self._holders: Holders | None = None
+        self._here: NDArray[np.intp] | None = None
+        self._there: NDArray[np.intp] | None = None
+        if not same:
+            self._here, self._there = _common(one, other)
+
+    def equal(self, one: bytes | bytearray, other: bytes | bytearray) -> bool:
+        """Whether two images are the same in all that both have, so that whatever is determined by it is the same too."""
+        if self.same:
+            size = self._one.layout.state_size
+            return bool(memoryview(one)[:size] == memoryview(other)[:size])
+        return not self._differing(one, other).any()
+
+    def counts(self, one: bytes | bytearray, other: bytes | bytearray) -> bool:
+        """Whether anything is another that people count."""
+        return bool(self._differing(one, other).any())
+
+    def changes(self, one: bytes | bytearray, other: bytes | bytearray) -> tuple[tuple[Change, ...], int]:
+        """The variables that are another, the first of them by their place, and how many there are."""
+        found = list(self.symbols(one, other))
+        there = self._moved(one, other)
+        made = [_change(each, one, there) for each in found[:MAX_CHANGES]]
+        return tuple(made), len(found)
+
+    def symbols(self, one: bytes | bytearray, other: bytes | bytearray) -> Iterator[Symbol]:
+        """They themselves, as they are in the first program."""
+        if self._holders is None:
+            self._holders = Holders(self._one, every=True)
+        differing = self._differing(one, other)
+        halves = differing.view(np.uint16)
+        there, known = self._moved(one, other), set()
+        for index in np.flatnonzero(halves)[:_MOST].tolist():
+            for held in self._holders.at(2 * index, int(halves[index])):
+                symbol = held.symbol
+                if symbol.path not in known and _is_another(symbol, one, there):
+                    known.add(symbol.path)
+                    yield symbol
+
+    def _differing(self, one: bytes | bytearray, other: bytes | bytearray) -> Bytes:
+        size = len(self._mask)
+        here = _padded(one, self._one.layout.state_size, size)
+        there = _padded(self._moved(one, other), self._one.layout.state_size, size)
+        return (here ^ there) & self._mask
+
+    def _moved(self, one: bytes | bytearray, other: bytes | bytearray) -> bytes | bytearray:
+        """The other state where the first program has its variables; what only that has is as it is."""
+        if self._here is None:
+            return other
+        there = np.frombuffer(bytearray(one), np.uint8)
+        there[self._here] = np.frombuffer(other, np.uint8)[self._there]
+        return there.tobytes()
+
+
+def _padded(image: bytes | bytearray, used: int, size: int) -> Bytes:
+    data = np.zeros(size, np.uint8)
+    data[:used] = np.frombuffer(image, np.uint8, used)
+    return data
+
+
+def _counted(program: Program) -> Bytes:
+    """The bits that people count: of errors the code word and the log, too."""
+    mask = kept_bits(program).view(np.uint8).copy()
+    for part in (*code_bits(program), *log_bits(program)):
+        mask[part.offset] |= part.mask
+    return mask
+
+
+def _common(one: Program, other: Program) -> tuple[NDArray[np.intp], NDArray[np.intp]]:
+    """Where both have the same variables. A change of the program knows what goes where: it carries over images whose bytes
+    have numbers, each number in three parts, and once more with all bits turned over."""
+    size, state = one.layout.size, other.layout.state_size
+    numbers = np.arange(other.layout.size, dtype=np.uint32)
+    found, sure = np.zeros(size, np.int64), np.ones(size, bool)
+    for shift in (0, 8, 16):
+        part = (numbers >> shift & 0xFF).astype(np.uint8)
+        straight, turned = _carried(other, part, one), _carried(other, ~part, one)
+        sure &= straight == ~turned
+        found |= straight.astype(np.int64) << shift
+    here = np.flatnonzero(sure & (np.arange(size) < one.layout.state_size) & (found < state))
+    return here, found[here].astype(np.intp)
+
+
+def _carried(old: Program, image: Bytes, new: Program) -> Bytes:
+    into = fresh_image(new, Mode.MONITOR)
+    carry_over(old, image.tobytes(), new, into)
+    return np.frombuffer(into, np.uint8)
+
+
+def _is_another(symbol: Symbol, one: bytes | bytearray, other: bytes | bytearray) -> bool:
+    if not isinstance(symbol.type, StringType):
+        return True
+    values = (value_at(symbol, each) for each in (one, other))
+    before, after = (python_value(symbol.type, each) for each in values)
+    return before != after
+
+
+def value_at(symbol: Symbol, image: bytes | bytearray) -> bytes:
+    """The value of a variable in an image; of a bit a byte."""
+    data = bytes(image[symbol.offset : symbol.offset + symbol.type.size])
+    return data if symbol.bit is None else bytes((data[0] >> symbol.bit & 1,))
+
+
+def shown(type: Type, value: bytes) -> str:
+    """As the watch table has it."""
+    return format_value(type, value) if isinstance(type, Elementary | StringType) else ""
+
+
+def _change(symbol: Symbol, one: bytes | bytearray, other: bytes | bytearray) -> Change:
+    type, before, after = symbol.type, value_at(symbol, one), value_at(symbol, other)
+    return Change(
+        symbol.path, type.name, type.kind.value, type.size, type.values if isinstance(type, Enumeration) else (),
+        before, after, shown(type, before), shown(type, after),
+    )  # fmt: skip

@@ -1,0 +1,329 @@
+"""Where two runs part first, and why: a command that only one of them has, another program, another beginning.
+
+Runs are determined by what was entered. So while two of one program have the same journal and the same state, they stay the
+same: only where their journals differ every scan is looked at.
+"""
+
+from bisect import bisect_left
+from collections import Counter
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from operator import attrgetter
+
+from scanbench.runtime.command import Entry
+from scanbench.runtime.inside import Diverged
+from scanbench.runtime.replay import replay
+from scanbench.runtime.resource import Resource
+from scanbench.runtime.timeline import NOT_AS_RECORDED
+from scanbench.runtime.trap import Trapped
+from scanbench.verify.changes import Comparer, Moment, entered, moment_of, same_model
+from scanbench.verify.findings import Change, Changes, Divergence
+from scanbench.verify.first_write import first_write
+from scanbench.verify.reading import NoReading, Reading
+from scanbench.verify.verified import Place
+
+MAX_MARKS = 200
+MAX_ENTRIES = 200
+BEHIND = 100
+"""Scans behind the difference whose entries are told too."""
+_CHUNK = 10_000
+"""Scans between two looks at both."""
+_LOOKS = 50_000
+"""Scans behind the first difference that are looked at; more of them only in part."""
+OnProgress = Callable[[int, int], None]
+"""Scans that are done, and of how many; may raise to end it."""
+
+
+def find_divergence(one: Reading, other: Reading, on_progress: OnProgress = lambda done, of: None) -> Divergence:
+    """The first scan behind which anything is another. `NoReading` says why they cannot be compared.
+
+    Both have been followed; their programs must not share memory.
+    """
+    first, end = max(one.first, other.first), min(_over(one), _over(other))
+    if first > end:
+        raise NoReading(
+            f"the runs have no scan in common: {one.path.name} has scans {one.first} to {one.end}, "
+            f"{other.path.name} {other.first} to {other.end}"
+        )
+    try:
+        return _Comparison(one, other, first, end, on_progress).run()
+    except (Diverged, *NOT_AS_RECORDED) as error:
+        raise NoReading(f"the runs cannot be compared: {error}") from error
+
+
+class _Side:
+    """One run, on its way through the scans. It stands in the seam, behind a scan and in front of the entries of the next,
+    or behind those."""
+
+    def __init__(self, reading: Reading, first: int) -> None:
+        self.reading = reading
+        self.entries = reading.entries
+        reading.goto(first)
+
+    @property
+    def resource(self) -> Resource:
+        """What runs it. It is the reading's own: nobody else must move it meanwhile."""
+        return self.reading.timeline.resource
+
+    @property
+    def state(self) -> bytearray:
+        """The whole image."""
+        return self.resource.memory
+
+    def behind(self, scan: int) -> None:
+        """Behind the scan before this one, with nothing entered in front of it."""
+        done = len(self.resource.journal)
+        replay(self.resource, self.entries[done : bisect_left(self.entries, scan, key=attrgetter("scan"))], scan)
+
+    def front(self) -> None:
+        """Enters what was entered in front of the scan that is next."""
+        resource, scan = self.resource, self.resource.header.scan
+        for entry in self.entries[len(resource.journal) :]:
+            if entry.scan != scan or entry.step or isinstance(entry.command, Trapped):
+                break
+            resource.reenter(entry)
+
+    def moment(self) -> Moment:
+        """Where it stands."""
+        return moment_of(self.reading)
+
+
+@dataclass(frozen=True, slots=True)
+class _Only:
+    """An entry that only one of them has."""
+
+    side: str
+    entry: Entry
+
+    @property
+    def told(self) -> tuple[int, str, str, str]:
+        """For people."""
+        return self.entry.scan, self.side, self.entry.command.author, entered(self.entry)
+
+
+class _Comparison:
+    def __init__(self, one: Reading, other: Reading, first: int, end: int, on_progress: OnProgress) -> None:
+        self._first, self._end, self._on_progress = first, end, on_progress
+        self._one, self._other = _Side(one, first), _Side(other, first)
+        self._only = list(_unpaired(self._one.entries, self._other.entries, first, end))
+        self._comparers: dict[tuple[int, int], Comparer] = {}
+
+    def run(self) -> Divergence:
+        """Both, up to where they part, and the stretches behind that."""
+        same_model(self._one.resource.program, self._other.resource.program)
+        if not self._equal():
+            scan, begun = self._first, True
+            changes = self._changes(scan, scan)
+            marks = [(scan, scan)]
+        else:
+            found = self._part()
+            if found is None:
+                return self._same()
+            scan, begun, changes, marks = found, False, self._changes(found + 1, found + 1), [(found, found)]
+        marks = self._stretches(scan if begun else scan + 1, marks)
+        return self._told(scan, begun, changes, tuple(marks))
+
+    # ---- comparing ------------------------------------------------------------------------------------------------
+
+    def _comparer(self) -> Comparer:
+        key = self._one.resource.version, self._other.resource.version
+        if key not in self._comparers:
+            one, other = self._one.moment(), self._other.moment()
+            self._comparers[key] = Comparer(one.program, other.program, one.digest == other.digest)
+        return self._comparers[key]
+
+    def _equal(self) -> bool:
+        return self._comparer().equal(self._one.state, self._other.state)
+
+    @property
+    def _alike(self) -> bool:
+        """Whether the same program runs in both, so that equal states stay equal."""
+        return self._comparer().same
+
+    def _changes(self, first: int, last: int) -> Changes:
+        comparer = self._comparer()
+        changes, count = comparer.changes(self._one.state, self._other.state)
+        note = "" if comparer.same else "different programs run: variables are compared by their names"
+        return Changes(first, last, changes, count, (), note)
+
+    # ---- to where they part ---------------------------------------------------------------------------------------
+
+    def _part(self) -> int | None:
+        """The first scan behind which they differ; both stand behind it."""
+        places = sorted({each.entry.scan for each in self._only})
+        now = self._first
+        while now < self._end:
+            place = next((each for each in places if each >= now), self._end) if self._alike else now
+            upto = min(place, self._end)
+            if upto > now:
+                found = self._together(now, upto)
+                if found is not None:
+                    return found
+                now = upto
+                continue
+            self._one.front()
+            self._other.front()
+            self._behind(now + 1)
+            if not self._equal():
+                return now
+            now += 1
+            if now % _CHUNK == 0:
+                self._on_progress(now - self._first, self._end - self._first)
+        return None
+
+    def _together(self, first: int, end: int) -> int | None:
+        """Through scans in which the same was entered in both: they should not part there; where they do."""
+        now = first
+        while now < end:
+            upto = min(end, now + _CHUNK)
+            self._behind(upto)
+            self._on_progress(upto - self._first, self._end - self._first)
+            if not self._equal():
+                return self._exactly(now, upto)
+            now = upto
+        return None
+
+    def _exactly(self, first: int, end: int) -> int:
+        """The same commands came to something else: which of these scans."""
+        for side in (self._one, self._other):
+            side.reading.goto(first)
+        for scan in range(first, end):
+            self._behind(scan + 1)
+            if not self._equal():
+                break
+        return scan
+
+    def _behind(self, scan: int) -> None:
+        self._one.behind(scan)
+        self._other.behind(scan)
+
+    # ---- behind that ----------------------------------------------------------------------------------------------
+
+    def _stretches(self, now: int, marks: list[tuple[int, int]]) -> list[tuple[int, int]]:
+        """In which scans they differ."""
+        places = sorted({each.entry.scan for each in self._only})
+        stride = max(1, (self._end - now) // _LOOKS)
+        equal = False
+        while now < self._end:
+            upto = min(self._end, now + stride)
+            if equal and self._alike:
+                upto = max(now, min(self._end, next((each for each in places if each >= now), self._end)))
+                upto = upto + 1 if upto == now else upto
+            self._behind(upto)
+            self._on_progress(upto - self._first, self._end - self._first)
+            equal = self._equal()
+            if not equal:
+                if marks and marks[-1][1] >= now - 1:
+                    marks[-1] = marks[-1][0], upto - 1
+                else:
+                    marks.append((now, upto - 1))
+            now = upto
+        return _joined(marks)
+
+    # ---- for people -----------------------------------------------------------------------------------------------
+
+    def _same(self) -> Divergence:
+        count = self._end - self._first
+        text = f"the same in all {count:,} scans that both have, {self._first} to {max(self._first, self._end - 1)}"
+        if self._only:
+            text += f", although {len(self._only)} commands are only in one of them"
+        told = tuple(each.told for each in self._only[:MAX_ENTRIES])
+        return Divergence(count, self._first, self._end, None, "", text, None, None, told)
+
+    def _told(self, scan: int, begun: bool, changes: Changes, marks: tuple[tuple[int, int], ...]) -> Divergence:
+        before = [each for each in self._only if each.entry.scan <= scan]
+        told = [each.told for each in self._only if each.entry.scan <= scan + BEHIND]
+        differ = self._programs_differ(scan)
+        cause = "command" if before else "program" if differ else "start" if begun else "program"
+        change = changes.changes[0] if changes.changes else None
+        place: Place | None = None
+        if not begun and change is not None:
+            place, change = self._first_write(scan, changes.changes)
+        text = _sentence(scan, begun, before[-1:], differ, place, change)
+        return Divergence(
+            self._end - self._first, self._first, self._end, scan, cause, text, place, _led_by(changes, change),
+            tuple(told[-MAX_ENTRIES:]), marks,
+        )  # fmt: skip
+
+    def _programs_differ(self, scan: int) -> bool:
+        for side in (self._one, self._other):
+            side.reading.goto(scan)
+        return self._one.moment().digest != self._other.moment().digest
+
+    def _first_write(self, scan: int, changes: Sequence[Change]) -> tuple[Place | None, Change]:
+        """The statement that first wrote one of these variables in the scan, in either of them; and which."""
+        best: tuple[int, Place, Change] | None = None
+        for side in (self._other, self._one):
+            found = first_write(side.reading, scan, changes)
+            if found is not None and (best is None or found[0] < best[0]):
+                best = found
+        return (None, changes[0]) if best is None else best[1:]
+
+
+def _over(reading: Reading) -> int:
+    """Scans in front of this one are over, one that a run-time error ended included."""
+    return reading.end + reading.trapped
+
+
+def _unpaired(one: Sequence[Entry], other: Sequence[Entry], first: int, end: int) -> Iterator[_Only]:
+    """What only one of them has, in the order of the scans."""
+
+    def within(entries: Sequence[Entry]) -> list[Entry]:
+        return [each for each in entries if first <= each.scan < end]
+
+    mine, theirs = within(one), within(other)
+    left, right = Counter(map(_key, mine)), Counter(map(_key, theirs))
+    found = [_Only("A", each) for each in _surplus(mine, left - right)]
+    found += [_Only("B", each) for each in _surplus(theirs, right - left)]
+    yield from sorted(found, key=lambda each: (each.entry.scan, each.side))
+
+
+def _key(entry: Entry) -> tuple[object, ...]:
+    """What an entry does; not when on the wall it was entered, nor who did."""
+    return entry.scan, entry.step, type(entry.command), entry.plan.patches, repr(entry.plan.effect)
+
+
+def _surplus(entries: Iterable[Entry], count: "Counter[tuple[object, ...]]") -> Iterator[Entry]:
+    for entry in entries:
+        if count[_key(entry)] > 0:
+            count[_key(entry)] -= 1
+            yield entry
+
+
+def _joined(marks: list[tuple[int, int]]) -> list[tuple[int, int]]:
+    """At most `MAX_MARKS` stretches: those with the smallest gaps between them become one."""
+    if len(marks) <= MAX_MARKS:
+        return marks
+    gaps = sorted(range(1, len(marks)), key=lambda at: marks[at][0] - marks[at - 1][1], reverse=True)
+    begins = sorted((0, *gaps[: MAX_MARKS - 1]))
+    ends = (*begins[1:], len(marks))
+    return [(marks[begin][0], marks[end - 1][1]) for begin, end in zip(begins, ends, strict=True)]
+
+
+def _led_by(changes: Changes, change: Change | None) -> Changes:
+    """The same with this one in front."""
+    if change is None:
+        return changes
+    return replace(changes, changes=(change, *(each for each in changes.changes if each is not change)))
+
+
+def _sentence(
+    scan: int, begun: bool, before: Sequence[_Only], differ: bool, place: Place | None, change: Change | None
+) -> str:  # fmt: skip
+    """All of it in one sentence."""
+    what = "nothing that has a name differs"
+    if change is not None:
+        what = f"{change.path} is {change.before_shown} in A and {change.after_shown} in B"
+    if begun and not before:
+        why = ", as different programs run" if differ else ""
+        return f"they are different where they begin, in front of scan {scan}{why}: {what}"
+    text = f"in front of scan {scan} {what}" if begun else f"behind scan {scan} {what}"
+    if place is not None:
+        text += f", written at {place.file}:{place.line} in {place.instance}, task {place.task}"
+    if before:
+        only = before[0]
+        text += f"; {only.entry.command.author} entered only in {only.side}, in front of scan {only.entry.scan}: "
+        return text + entered(only.entry)
+    if differ:
+        return text + "; different programs run"
+    return text + "; nothing else was entered: one of them was recorded on another machine, or by another version"

@@ -1,0 +1,36 @@
+"""Programs ready to run on either side: a run flavour, and a debug flavour that tells of every access, on one memory."""
+
+from collections.abc import Callable
+
+from scanbench.check.program import Program
+from scanbench.engines.cache import BlobCache
+from scanbench.engines.interpreter.debugged import debug_engine
+from scanbench.runtime.programs import Loaded
+
+Make = Callable[[int, Program], Loaded]
+"""Makes a version of a program ready to run, with both flavours."""
+
+
+def reference(version: int, program: Program) -> Loaded:
+    """On the reference interpreter: one flavour is both."""
+    memory = bytearray(program.layout.size)
+    engine = debug_engine(program, memory)
+    return Loaded(version, program, memory, engine, debug=engine)
+
+
+def native(cache: BlobCache | None = None) -> Make:
+    """On machine code where LLVM is there, else on the reference interpreter."""
+    try:
+        from scanbench.engines.native.compiler import Compiler
+        from scanbench.engines.native.debugged import DebugBuilds
+        from scanbench.engines.native.engine import NativeEngine
+    except ImportError:
+        return reference
+    compiler, builds = Compiler(cache), DebugBuilds(cache)
+
+    def make(version: int, program: Program) -> Loaded:
+        memory = bytearray(program.layout.size)
+        engine = NativeEngine(program, memory, objects=compiler.build(program).objects)
+        return Loaded(version, program, memory, engine, debug=builds.engine(program, memory))
+
+    return make

@@ -1,0 +1,72 @@
+"""Which statement of a scan wrote any of some variables first."""
+
+from collections.abc import Sequence
+
+from scanbench.check.symbols import UnknownPath, resolve
+from scanbench.debug.frames import frame_name, instance_path, task_of
+from scanbench.engines.debug import WRITE, Frame, Listen
+from scanbench.engines.engine import Reason
+from scanbench.runtime.resource import Resource
+from scanbench.verify.findings import Change
+from scanbench.verify.reading import Reading
+from scanbench.verify.verified import Place
+
+
+class _Writes:
+    """Notes which statement wrote what first; halts nowhere."""
+
+    def __init__(self, resource: Resource, owners: dict[int, Change]) -> None:
+        self._resource, self._owners = resource, owners
+        self.found: tuple[int, int, Change] | None = None
+        self.frames: tuple[Frame, ...] = ()
+
+    def statement(self, site: int, count: int, depth: int) -> bool:
+        """See `Hook`."""
+        return False
+
+    def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
+        """See `Hook`."""
+        change = next((self._owners[at] for at in range(offset, offset + size) if at in self._owners), None)
+        if self.found is None and written and change is not None:
+            self.found = count, site, change
+            self.frames = self._resource.loaded.debugged().frames()
+
+    def entered(self) -> None:
+        """See `Onlooker`."""
+
+
+def first_write(reading: Reading, scan: int, changes: Sequence[Change]) -> tuple[int, Place, Change] | None:
+    """The first write of one of these variables in a scan: its count, where, and which; None where no statement did that."""
+    timeline = reading.timeline
+    if timeline.goto(scan, 1) is not None:
+        return None  # no statement ran
+    resource = timeline.resource
+    owners = {at: each for each in reversed(changes) for at in _bytes(resource, each)}
+    hook, listen, writes = resource.hook, resource.listening, _Writes(resource, owners)
+    resource.hook = writes
+    resource.listen(Listen(bytes=dict.fromkeys(owners, WRITE)))
+    try:
+        while timeline.go_on(scan + 1).reason is Reason.KNOCKED:
+            pass
+    finally:
+        resource.hook = hook
+        resource.listen(listen)
+    if writes.found is None:
+        return None
+    count, site, change = writes.found
+    program, frames = resource.loaded.statements, writes.frames
+    span = resource.loaded.debugged().sites.statements[site].span
+    frame = frames[0]
+    instance = instance_path(program, frame) or frame_name(program, frame)
+    text = reading.text(resource.version, span.file, span.line)
+    return count, Place(task_of(program, frames), instance, frame.pou.name, span.file, span.line, text), change
+
+
+def _bytes(resource: Resource, change: Change) -> range:
+    """Where the variable is in the program that runs."""
+    try:
+        symbol = resolve(resource.program, change.path)
+    except UnknownPath:
+        return range(0)
+    place = None if symbol.slots else symbol.locate(resource.memory)
+    return range(0) if place is None else range(place[0], place[0] + symbol.type.size)

@@ -1,0 +1,189 @@
+"""How the columns of a trace file are meant: which variable of the project each one is, and whether it goes in or comes out."""
+
+import json
+from collections.abc import Iterator
+from dataclasses import asdict, dataclass
+from typing import Literal, TypeVar, get_args
+
+from scanbench.check.condition import BadCondition, compile_signal
+from scanbench.check.program import Program
+from scanbench.check.sites import Sites, sites_of
+from scanbench.check.symbols import Symbol, UnknownPath, resolve
+from scanbench.debug.writers import writers
+from scanbench.verify.trace_axis import Unit, axis_of, plain_name
+from scanbench.verify.trace_table import Table
+
+T = TypeVar("T", bound=str)
+Role = Literal["input", "output", "ignore"]
+"""input: the monitor gets it in front of each scan. output: what the monitor comes to is compared with it."""
+Gaps = Literal["refuse", "skip", "hold"]
+"""Of scans that are missing. refuse: the file. skip: nothing is run there, and the next row is taken over. hold: they are run
+with the inputs as they were, and nothing is compared."""
+
+
+class BadMapping(ValueError):
+    """This is no mapping; the message says what a mapping looks like."""
+
+
+@dataclass(frozen=True, slots=True)
+class ColumnMap:
+    """One column."""
+
+    column: str
+    """As the file names it."""
+    path: str = ""
+    """Variable or address of the project."""
+    role: Role = "ignore"
+
+
+@dataclass(frozen=True, slots=True)
+class TraceMapping:
+    """All of them."""
+
+    axis: str = ""
+    """Column with scan or time; empty: a row is a scan, the first one scan 0."""
+    unit: Unit = "scan"
+    gaps: Gaps = "refuse"
+    columns: tuple[ColumnMap, ...] = ()
+
+    def to_json(self) -> str:
+        """As it is saved, and given to `scanbench verify --map`."""
+        return json.dumps(asdict(self), ensure_ascii=False, indent=1)
+
+    @staticmethod
+    def from_json(text: str) -> "TraceMapping":
+        """Raises `BadMapping`."""
+        try:
+            found: object = json.loads(text)
+        except (json.JSONDecodeError, RecursionError) as error:
+            raise BadMapping(f"The mapping is not JSON: {error}") from None
+        if not isinstance(found, dict):
+            raise BadMapping(
+                'A mapping is an object: {"axis": "scan", "unit": "scan", "gaps": "refuse", "columns": [...]}'
+            )
+        _only(found, ("axis", "unit", "gaps", "columns"), "a mapping")
+        columns = found.get("columns", [])
+        if not isinstance(columns, list):
+            raise BadMapping(
+                '"columns" of a mapping is a list: [{"column": "speed", "path": "Main.speed", "role": "input"}]'
+            )
+        return TraceMapping(
+            _text(found, "axis"),
+            _one(found, "unit", get_args(Unit)),
+            _one(found, "gaps", get_args(Gaps)),
+            tuple(_column(each, index) for index, each in enumerate(columns)),
+        )
+
+
+def propose(table: Table, program: Program) -> TraceMapping:
+    """By names: `Main.x`, `x`, `0.03`, `D100`, a unit behind it in brackets. What the program writes comes out, all else goes
+    in. Of a column that means nothing the path stays empty, and `trace_bind.check` says so, until somebody ignores it."""
+    axes = {
+        each: unit for each in table.columns if (unit := axis_of(each)) is not None and _symbol(program, each) is None
+    }
+    axis = next((each for each, unit in axes.items() if unit == "scan"), next(iter(axes), ""))
+    sites, taken = sites_of(program), set[int]()
+    columns = []
+    for column in table.columns:
+        if column in axes:
+            if column != axis:
+                columns.append(ColumnMap(column))
+            continue
+        symbol = _symbol(program, column)
+        if symbol is None:
+            columns.append(ColumnMap(column, "", "ignore" if _computed(program, column) else "output"))
+        elif symbol.slots or not taken.isdisjoint(bits_of(symbol)):  # two columns of one variable: the first one counts
+            columns.append(ColumnMap(column))
+        else:
+            taken.update(bits_of(symbol))
+            columns.append(ColumnMap(column, symbol.path, role_of(program, sites, symbol)))
+    return TraceMapping(axis, axes.get(axis, "scan"), "refuse", tuple(columns))
+
+
+def fits(mapping: TraceMapping, table: Table) -> bool:
+    """Whether a saved mapping is one of this table: it knows every column, and every column that it needs is there."""
+    known = {each.column for each in mapping.columns} | {mapping.axis}
+    needed = {each.column for each in mapping.columns if each.role != "ignore"} | {mapping.axis} - {""}
+    return needed <= set(table.columns) <= known
+
+
+def bits_of(symbol: Symbol) -> range:
+    """Those of the image in which a variable lives that is behind no in-out."""
+    if symbol.bit is not None:
+        return range(8 * symbol.offset + symbol.bit, 8 * symbol.offset + symbol.bit + 1)
+    return range(8 * symbol.offset, 8 * (symbol.offset + symbol.type.size))
+
+
+def role_of(program: Program, sites: Sites, symbol: Symbol) -> Role:
+    """Whether the program writes it."""
+    return "output" if written(program, sites, symbol) else "input"
+
+
+def written(program: Program, sites: Sites, symbol: Symbol) -> bool:
+    """Whether some statement of the program may write it."""
+    if symbol.slots:
+        return True
+    whole = symbol if symbol.bit is None else _byte(symbol)
+    found = writers(program, sites, whole)
+    return found is None or bool(found)
+
+
+def _byte(symbol: Symbol) -> Symbol:
+    return Symbol(symbol.path, symbol.name, symbol.type, symbol.section, symbol.offset, None, (), symbol.address)
+
+
+def _symbol(program: Program, column: str) -> Symbol | None:
+    """What a column is called after."""
+    for name in dict.fromkeys((column, plain_name(column)[0])):
+        for path in _paths(program, name.strip()):
+            try:
+                return resolve(program, path)
+            except UnknownPath:
+                continue
+    return None
+
+
+def _paths(program: Program, name: str) -> Iterator[str]:
+    yield name
+    for instance in program.shown:
+        yield f"{instance.name}.{name}"
+
+
+def _computed(program: Program, column: str) -> bool:
+    """Whether it is an expression, as our own traces have: the program computes its parts, which have columns of their own."""
+    name = plain_name(column)[0]
+    return not name.isidentifier() and not isinstance(compile_signal(program, name), BadCondition)
+
+
+# ---- reading a mapping ----------------------------------------------------------------------------------------------
+
+
+def _column(given: object, index: int) -> ColumnMap:
+    if not isinstance(given, dict):
+        raise BadMapping(f"Column {index} of the mapping is no object with column, path and role.")
+    _only(given, ("column", "path", "role"), f"column {index} of the mapping")
+    column = _text(given, "column")
+    if not column:
+        raise BadMapping(f'Column {index} of the mapping needs its name in the file, "column".')
+    return ColumnMap(column, _text(given, "path"), _one(given, "role", get_args(Role), "ignore"))
+
+
+def _only(given: dict[str, object], names: tuple[str, ...], what: str) -> None:
+    unknown = next((each for each in given if each not in names), None)
+    if unknown is not None:
+        raise BadMapping(f"`{unknown}` is unknown in {what}; there are {', '.join(names)}.")
+
+
+def _text(given: dict[str, object], name: str) -> str:
+    found = given.get(name, "")
+    if not isinstance(found, str):
+        raise BadMapping(f'"{name}" of the mapping must be a text.')
+    return found.strip()
+
+
+def _one(given: dict[str, object], name: str, known: tuple[T, ...], default: str = "") -> T:
+    text = _text(given, name) or default or known[0]
+    found = next((each for each in known if each == text), None)
+    if found is None:
+        raise BadMapping(f'"{name}" of the mapping is `{text}`; it may be {", ".join(known)}.')
+    return found

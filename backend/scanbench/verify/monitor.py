@@ -1,0 +1,106 @@
+"""The monitor: the same program on the reference interpreter, on the inputs of the control device, without disturbances."""
+
+from collections.abc import Mapping, Sequence
+
+from scanbench.check.layout import Layout
+from scanbench.engines.engine import Reason, Stop
+from scanbench.runtime.command import Entry, Patch, View
+from scanbench.runtime.inside import Diverged
+from scanbench.runtime.journal import Journal
+from scanbench.runtime.programs import Programs
+from scanbench.runtime.resource import Resource
+from scanbench.verify.disturb import is_disturbance, taken_over
+from scanbench.verify.sides import Begin, ProgramOf, Shelf, Side
+from scanbench.verify.engines import reference
+from scanbench.verify.uses import Fresh, Pass, Recorder
+
+Own = Mapping[int, int]
+"""Offset -> the byte that the monitor would have there by itself."""
+
+
+class Monitor:
+    """Stands where the control device stands, and has what that should have."""
+
+    def __init__(self, program_of: ProgramOf, version: int) -> None:
+        self._programs: Programs = Shelf(program_of, reference)
+        self.side = self._made(version)
+
+    def _made(self, version: int) -> Side:
+        resource = Resource(self._programs.get(version), programs=self._programs)
+        resource.lenient = True  # where control goes another way, what was entered inside of the scan still counts
+        return Side(resource)
+
+    def take_over(self, control: Side, own: bytes | None = None) -> None:
+        """All that the control device has, but for what a disturbance holds there: that stays as it is in `own`."""
+        there, here = control.resource, self.side.resource
+        if there.version != here.version:
+            here.restore(self._programs.get(there.version), there.state, Journal())
+        state = taken_over(there.state, there.state if own is None else own, there.view)
+        here.memory[: len(state)] = state
+
+    def restart(self, control: Side) -> None:
+        """The same, with the journal of the control device as far as it counts here."""
+        there = control.resource
+        self.side = self._made(there.version)
+        entries = [each for each in there.journal if not is_disturbance(each.command)]
+        self.side.resource.journal = Journal(entries)
+        self.take_over(control)
+
+    def enter(self, entry: Entry) -> None:
+        """In the seam, unless it is a disturbance."""
+        if not is_disturbance(entry.command):
+            self.side.resource.reenter(entry)
+
+    def wait_for(self, entries: Sequence[Entry]) -> None:
+        """See `Side.wait_for`."""
+        self.side.wait_for([each for each in entries if not is_disturbance(each.command)])
+
+    def run(self, recorder: Recorder, inputs: "Inputs") -> Stop:
+        """One scan, on these inputs."""
+        recorder.on_first, recorder.on_begin = inputs.first, inputs.begin
+        inputs.memory = self.side.memory
+        return self.side.run(recorder, recorder.listen)
+
+
+class Inputs:
+    """What the monitor runs a scan on: what the passes of the control device read, and what somebody has edited."""
+
+    def __init__(self, passes: Sequence[Pass], held: Mapping[int, tuple[int, int]]) -> None:
+        """`held`: offset -> mask, and what the control device has there; it is the monitor's as the first statement begins."""
+        self.fresh: list[list[Fresh]] = [each.fresh() for each in passes]
+        self._held = held
+        self.memory = bytearray()
+        self.own: dict[int, int] = {}
+        """What the monitor had there by itself."""
+        self.expected: list[dict[int, int]] = [{} for _ in passes]
+        """Of each pass: bytes that it would have read otherwise."""
+        self.edits: dict[int, list[Patch]] = {}
+        """By the number of a pass."""
+
+    def first(self) -> None:
+        """Input refresh and forces are over."""
+        memory = self.memory
+        for offset, (mask, value) in self._held.items():
+            self.own[offset] = memory[offset]
+            memory[offset] = memory[offset] & ~mask | value & mask
+
+    def begin(self, number: int, made: Pass) -> None:
+        """A pass begins."""
+        memory = self.memory
+        if number < len(self.fresh):
+            expected = self.expected[number]
+            for (_, _, offset, size, bits, _, value), mask in self.fresh[number]:
+                if bits == 0xFF and mask is None:
+                    if memory[offset : offset + size] == value:
+                        continue
+                elif memory[offset] & bits == value[0] and size == 1:
+                    continue
+                for at in range(size):
+                    which = bits if mask is None else mask[at] & bits if size == 1 else mask[at]
+                    now = memory[offset + at]
+                    if (now ^ value[at]) & which:
+                        expected[offset + at] = now
+                        memory[offset + at] = now & ~which | value[at] & which
+        for patch in self.edits.get(number, ()):
+            for index, (mask_of, data) in enumerate(zip(patch.mask, patch.data, strict=True), patch.offset):
+                memory[index] = memory[index] & ~mask_of | data & mask_of

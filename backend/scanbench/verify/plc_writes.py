@@ -1,0 +1,95 @@
+"""What the PLC itself wrote: system words, the plant's inputs. No statement of the user's program tells of these."""
+
+import numpy as np
+
+from scanbench.check.condition import BadCondition, compile_signal
+from scanbench.check.layout import Layout
+from scanbench.check.program import Program
+from scanbench.check.symbols import Symbol, resolve
+from scanbench.check.types import Elementary
+from scanbench.debug.placed import bytes_of
+from scanbench.engines.engine import Reason
+from scanbench.engines.sample import HEAD_WORDS, Sampling
+from scanbench.verify.reading import Reading
+
+_CHUNK = 1 << 17
+"""Scans whose changes are looked at at once."""
+
+
+def last_change(reading: Reading, symbol: Symbol, scan: int, behind: int) -> int | None:
+    """The last scan behind scan `behind` and before `scan` in which it became another, where the PLC may do that itself."""
+    timeline = reading.timeline
+    if not _may_be_written(timeline.resource.program, symbol) or not isinstance(symbol.type, Elementary):
+        return None
+    until = scan
+    for checkpoint in reversed(timeline.recording.checkpoints):
+        if checkpoint.scan >= until:
+            continue
+        first = max(checkpoint.scan, behind + 1)
+        if first < until:
+            found = _in_stretch(reading, symbol.path, first, until)
+            if found is not None:
+                return found
+        if checkpoint.scan <= behind + 1:
+            return None
+        until = checkpoint.scan
+    return None
+
+
+def _may_be_written(program: Program, symbol: Symbol) -> bool:
+    """Variables of the user's programs are nobody else's; a plant may write what is global."""
+    if symbol.address is not None or symbol.offset < Layout.HEADER_SIZE or program.layout.area_at(symbol.offset):
+        return True
+    if not program.plant:
+        return False
+    owned = (
+        each.offset <= symbol.offset < each.offset + each.pou.instance.size
+        for task in program.tasks
+        for each in task.programs
+    )
+    return not any(owned)
+
+
+def _in_stretch(reading: Reading, path: str, first: int, end: int) -> int | None:
+    """The last of these scans behind which it is another than in front of it."""
+    timeline = reading.timeline
+    last: int | None = None
+    before: int | None = None
+    reading.goto(first)
+    while (now := timeline.resource.header.scan) < end:
+        resource = timeline.resource
+        signal = compile_signal(resource.program, path)
+        if isinstance(signal, BadCondition):
+            before = None
+            if timeline.go_on(end).reason is not Reason.KNOCKED:
+                break
+            continue
+        upto = min(end, now + _CHUNK)
+        sampling = Sampling(resource.program, [signal], rows=upto - now + 1)
+        sampling.skip_to(now)
+        if before is None:
+            before = _now(reading, path)
+        resource.samplings = (sampling,)
+        try:
+            timeline.go_on(upto)
+        finally:
+            resource.samplings = ()
+        rows = sampling.take()
+        values = rows[:, HEAD_WORDS]
+        if len(rows):
+            changed = np.flatnonzero(values != np.concatenate(([np.uint64(before)], values[:-1])))
+            if len(changed):
+                last = int(rows[changed[-1], 0])
+            before = int(values[-1])
+        if timeline.resource.header.scan == now:
+            break
+    return last
+
+
+def _now(reading: Reading, path: str) -> int:
+    resource = reading.timeline.resource
+    place = bytes_of(resolve(resource.program, path), resource.memory)
+    assert place is not None
+    offset, size, mask = place
+    value = int.from_bytes(resource.memory[offset : offset + size], "little")
+    return int(bool(value & mask)) if mask != 0xFF else value

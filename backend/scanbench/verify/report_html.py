@@ -1,0 +1,216 @@
+"""A verification as one HTML file that needs nothing else: to be read, printed and kept with a build."""
+
+from collections.abc import Iterable, Iterator, Sequence
+from html import escape
+from importlib.resources import files
+
+from scanbench.faults.record_text import Language
+from scanbench.verify.report import Report
+from scanbench.verify.report_words import WORDS
+from scanbench.verify.value_text import column_of, differing_bits, value_text
+from scanbench.verify.verified import Column, Mismatch, Output, Place, Row
+
+DIFFERENCES = 50
+"""Differences that have a section of their own."""
+ROWS = 500
+OUTPUTS, INPUTS = 8, 8
+"""Columns that fit a page; CSV and JSON have them all."""
+_BITS = 64
+"""Bits up to which a value is written out."""
+
+
+def to_html(report: Report, language: Language = "en") -> str:
+    """The whole document."""
+    return _Document(report, language).text()
+
+
+class _Document:
+    def __init__(self, report: Report, language: Language) -> None:
+        self._report, self._language = report, language
+        self._words = WORDS[language]
+        self._differences = report.differences()
+
+    def text(self) -> str:
+        head = self._report.head
+        style = files("scanbench.verify").joinpath("report.css").read_text("utf-8")
+        title = escape(f"{self._words['title']} – {head.project}, {head.title}")
+        parts = (self._head(), self._verdict(), *self._sections(), self._table())
+        return (
+            f'<!DOCTYPE html>\n<html lang="{self._language}">\n<head>\n<meta charset="utf-8">\n'
+            '<meta name="viewport" content="width=device-width, initial-scale=1">\n'
+            f"<title>{title}</title>\n<style>\n{style}</style>\n</head>\n<body>\n{''.join(parts)}</body>\n</html>\n"
+        )
+
+    def _word(self, name: str, **values: object) -> str:
+        return escape(self._words[name].format(**values) if values else self._words[name])
+
+    # ---- head and verdict -----------------------------------------------------------------------------------------
+
+    def _head(self) -> str:
+        head = self._report.head
+        source = self._word(head.source, name=head.trace) if head.source == "trace" else self._word(head.source)
+        pairs = [
+            ("project", escape(head.project)), ("instance", escape(head.instance)),
+            ("model", escape(head.model)), ("version", str(head.version)),
+            ("range", escape(head.title)), ("scans", f"{head.first} – {head.last}"),
+            ("source", source), ("interval", f"{head.interval_ns / 1e6:g} ms"),
+            ("when", escape(head.when)), ("by", escape(head.by)), ("tool", escape(head.tool)),
+        ]  # fmt: skip
+        rows = "".join(f"<dt>{self._word(name)}</dt><dd>{value}</dd>" for name, value in pairs)
+        return f'<h1>{self._word("title")}</h1>\n<dl class="head">{rows}<dt></dt><dd></dd></dl>\n'
+
+    def _verdict(self) -> str:
+        head = self._report.head
+        if head.differing:
+            mark, word = "differs", "differences_found"
+        else:
+            mark, word = ("same", "no_difference") if head.compared else ("none", "nothing_compared")
+        numbers = [("compared", head.compared), ("skipped", head.skipped), ("differing", head.differing)]
+        items = "".join(f"<li><b>{count:,}</b>{self._word(name)}</li>" for name, count in numbers)
+        skipped = ", ".join(str(first) if first == last else f"{first} – {last}" for first, last in head.stretches)
+        notes = [self._word("skipped_text", stretches=skipped) if skipped else ""]
+        if head.compared and not head.skipped:
+            notes.append(self._word("all_compared"))
+        if head.forgotten:
+            notes.append(self._word("forgotten", count=f"{head.forgotten:,}"))
+        notes.append(escape(head.note))
+        told = " ".join(filter(None, notes))
+        return (
+            f'<h2>{self._word("verdict")}</h2>\n<p class="result {mark}">{self._word(word)}</p>\n'
+            f'<ul class="numbers">{items}</ul>\n<p>{told}</p>\n<p class="faint">{self._word("what")}</p>\n'
+        )
+
+    # ---- differences ----------------------------------------------------------------------------------------------
+
+    def _sections(self) -> Iterator[str]:
+        if not self._differences:
+            return
+        yield f"<h2>{self._word('differences')}</h2>\n"
+        for row, difference in self._differences[:DIFFERENCES]:
+            yield self._section(row, difference)
+        more = len(self._differences) - DIFFERENCES
+        if more > 0:
+            yield f'<p class="faint">{self._word("more_differences", count=f"{more:,}")}</p>\n'
+
+    def _section(self, row: Row, difference: Mismatch) -> str:
+        column = column_of(difference, self._report.columns)
+        nothing = self._words["nothing"]
+        bits = differing_bits(difference.control, difference.monitor)
+        pairs = [
+            ("control_long", _value(column, difference.control, nothing, bits)),
+            ("monitor_long", _value(column, difference.monitor, nothing, bits)),
+        ]
+        if bits:
+            pairs.append(("bits", f'<span class="mono">{_numbers(bits)}</span>'))
+        pairs.append(("cause", self._word(difference.cause)))
+        pairs.append(("disturbance", escape("; ".join(row.disturbances)) or self._word("no_disturbance")))
+        if difference.place is not None:
+            pairs.append(("place", _place(difference.place)))
+            pairs.append(("task", escape(difference.place.task) or escape(nothing)))
+        rows = "".join(f"<dt>{self._word(name)}</dt><dd>{value}</dd>" for name, value in pairs)
+        call = f", {self._word('call').lower()} {row.call}" if row.call > 1 else ""
+        source = difference.place.text if difference.place is not None else ""
+        code = f'<pre class="mono">{escape(source)}</pre>' if source else ""
+        return (
+            f'<section><h3>{self._word("scan")} {row.scan}{call}: <span class="mono">{escape(difference.name)}</span></h3>\n'
+            f"<p>{escape(difference.message)}</p>\n<dl>{rows}</dl>{code}</section>\n"
+        )
+
+    # ---- rows -----------------------------------------------------------------------------------------------------
+
+    def _table(self) -> str:
+        rows = self._report.rows
+        if not rows:
+            return ""
+        outputs, inputs, left_out = self._shown()
+        head = f"<tr>{self._th('scan')}{self._th('call')}{self._th('instance_path')}"
+        for column in outputs:
+            name = escape(column.name)
+            head += f'<th scope="col">{name} {self._word("control")}</th><th scope="col">{name} {self._word("monitor")}</th>'
+        head += "".join(f'<th scope="col" class="faint">{escape(column.name)}</th>' for column in inputs)
+        head += f"{self._th('note')}</tr>"
+        body = "".join(self._row(row, outputs, inputs) for row in rows[:ROWS])
+        notes = []
+        if left_out:
+            notes.append(self._word("columns_left_out", count=left_out))
+        if len(rows) > ROWS:
+            notes.append(self._word("rows_left_out", count=f"{len(rows) - ROWS:,}"))
+        title = "rows" if self._differences else "rows_same"
+        return (
+            f'<h2>{self._word(title)}</h2>\n<div class="scroll"><table>\n<thead>{head}</thead>\n<tbody>\n{body}</tbody>\n'
+            f'</table></div>\n<p class="faint">{" ".join(notes)}</p>\n'
+        )
+
+    def _th(self, word: str) -> str:
+        return f'<th scope="col">{self._word(word)}</th>'
+
+    def _shown(self) -> tuple[list[Column], list[Column], int]:
+        """The columns that fit, those first that differ somewhere; and how many there are beside."""
+        bad = {difference.name for _, difference in self._differences}
+        names = sorted(self._report.ordered(), key=lambda each: each.name not in bad)
+        outputs = [each for each in names if each.name in self._report.outputs]
+        inputs = [each for each in names if each.name in self._report.inputs]
+        left_out = max(len(outputs) - OUTPUTS, 0) + max(len(inputs) - INPUTS, 0)
+        return outputs[:OUTPUTS], inputs[:INPUTS], left_out
+
+    def _row(self, row: Row, outputs: Sequence[Column], inputs: Sequence[Column]) -> str:
+        bad = {each.name for each in row.differences}
+        cells = [
+            f'<td class="num first">{row.scan}</td>', f'<td class="num">{row.call or ""}</td>',
+            f'<td class="mono">{escape(row.instance)}</td>',
+        ]  # fmt: skip
+        for column in outputs:
+            output = row.outputs.get(column.name)
+            mark = " bad" if output is not None and column.name in bad and output.control != output.monitor else ""
+            cells += _output_cells(column, output, mark)
+        for column in inputs:
+            given = row.inputs.get(column.name)
+            if given is None:
+                cells.append("<td></td>")
+                continue
+            text = escape(value_text(column, given.recorded))
+            if given.expected is not None:
+                text += f"<br>{self._word('expected', value=value_text(column, given.expected))}"
+            if given.set is not None:
+                text += f"<br>{self._word('was_set', value=value_text(column, given.set))}"
+            mark = " bad" if given.expected is not None and column.name in bad else ""
+            cells.append(f'<td class="value mono{mark}">{text}</td>')
+        cells.append(f'<td class="note">{escape("; ".join((*row.disturbances, *filter(None, [row.note]))))}</td>')
+        return f'<tr class="{"differs" if row.differs else ""}">{"".join(cells)}</tr>\n'
+
+
+def _output_cells(column: Column, output: Output | None, mark: str) -> tuple[str, str]:
+    if output is None:
+        return "<td></td>", "<td></td>"
+    control, monitor = value_text(column, output.control), value_text(column, output.monitor)
+    if output.set is not None:
+        monitor = f"{monitor} → {value_text(column, output.set)}"
+    return (
+        f'<td class="value mono{mark}">{escape(control)}</td>', f'<td class="value mono">{escape(monitor)}</td>'
+    )  # fmt: skip
+
+
+def _value(column: Column, data: bytes, nothing: str, bits: Iterable[int]) -> str:
+    """The value, and its bits, of which those that differ are marked."""
+    if not data:
+        return escape(nothing)
+    text = f'<span class="mono">{escape(value_text(column, data))}'
+    if column.kind == "bool" or 8 * len(data) > _BITS:
+        return f"{text}</span>"
+    marked, number, digits = set(bits), int.from_bytes(data, "little"), ""
+    for bit in range(8 * len(data) - 1, -1, -1):
+        digit = str(number >> bit & 1)
+        digits += f"<mark>{digit}</mark>" if bit in marked else digit
+        digits += " " if bit and bit % 4 == 0 else ""
+    return f'{text} <span class="faint">{digits}</span></span>'
+
+
+def _numbers(bits: Sequence[int]) -> str:
+    shown = ", ".join(map(str, bits[:_BITS]))
+    return f"{shown}, …" if len(bits) > _BITS else shown
+
+
+def _place(place: Place) -> str:
+    where = f"{place.file}:{place.line}" if place.file else ""
+    pou = f" ({place.pou})" if place.pou and place.pou != place.instance else ""
+    return f'<span class="mono">{escape(where)}</span> {escape(place.instance)}{escape(pou)}'

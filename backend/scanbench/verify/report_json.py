@@ -1,0 +1,88 @@
+"""A verification as one JSON object; its shape is described in docs/verification.md."""
+
+import json
+
+from scanbench.verify.report import Report, ReportHead
+from scanbench.verify.value_text import column_of, differing_bits, value_text
+from scanbench.verify.verified import Column, Mismatch, Place, Row
+
+FORMAT = 1
+"""Another number when what is there means something else; more keys may come at any time."""
+
+Json = bool | int | str | None | list["Json"] | dict[str, "Json"]
+
+
+def to_json(report: Report) -> str:
+    """The text."""
+    return json.dumps(report_object(report), ensure_ascii=False)
+
+
+def report_object(report: Report) -> dict[str, Json]:
+    """The same as an object, to stand in another one."""
+    columns = {each.name: each for each in report.columns}
+    return {
+        "format": FORMAT,
+        **_head(report.head),
+        "same": not report.head.differing,
+        "columns": [_column(each, report) for each in report.ordered()],
+        "differences": [_difference(row, each, report.columns) for row, each in report.differences()],
+        "rows": [_row(row, columns) for row in report.rows],
+    }
+
+
+def _head(head: ReportHead) -> dict[str, Json]:
+    return {
+        "tool": head.tool, "project": head.project, "instance": head.instance, "model": head.model, "by": head.by,
+        "when": head.when, "program_version": head.version, "range": head.title, "source": head.source,
+        "trace": head.trace or None, "interval_ns": head.interval_ns, "first": head.first, "last": head.last,
+        "compared": head.compared, "skipped": head.skipped,
+        "skipped_stretches": [[first, last] for first, last in head.stretches],
+        "limit": head.limit, "differing_rows": head.differing, "rows_left_out": head.forgotten,
+        "note": head.note or None,
+    }  # fmt: skip
+
+
+def _column(column: Column, report: Report) -> Json:
+    return {
+        "name": column.name, "type": column.type, "size": column.size, "input": column.name in report.inputs,
+        "output": column.name in report.outputs,
+    }  # fmt: skip
+
+
+def _row(row: Row, columns: dict[str, Column]) -> Json:
+    def text(name: str, data: bytes | None) -> Json:
+        return None if data is None else value_text(columns[name], data)
+
+    return {
+        "kind": row.kind, "scan": row.scan, "call": row.call, "count": row.count, "instance": row.instance,
+        "place": _place(row.place), "differs": row.differs,
+        "outputs": {
+            name: {"control": text(name, each.control), "monitor": text(name, each.monitor), "set": text(name, each.set)}
+            for name, each in row.outputs.items() if name in columns
+        },
+        "inputs": {
+            name: {"recorded": text(name, each.recorded), "expected": text(name, each.expected), "set": text(name, each.set)}
+            for name, each in row.inputs.items() if name in columns
+        },
+        "disturbances": list(row.disturbances), "used": row.used, "note": row.note or None,
+    }  # fmt: skip
+
+
+def _difference(row: Row, difference: Mismatch, columns: tuple[Column, ...]) -> Json:
+    column, bits = column_of(difference, columns), differing_bits(difference.control, difference.monitor)
+    return {
+        "scan": row.scan, "call": row.call, "instance": row.instance, "cause": difference.cause,
+        "variable": difference.name, "type": difference.type or None,
+        "was": value_text(column, difference.control) or None, "is": value_text(column, difference.monitor) or None,
+        "was_bytes": difference.control.hex(), "is_bytes": difference.monitor.hex(), "bits": [*bits],
+        "place": _place(difference.place), "disturbances": list(row.disturbances), "message": difference.message,
+    }  # fmt: skip
+
+
+def _place(place: Place | None) -> Json:
+    if place is None:
+        return None
+    return {
+        "task": place.task, "instance": place.instance, "pou": place.pou, "file": place.file, "line": place.line,
+        "text": place.text,
+    }  # fmt: skip

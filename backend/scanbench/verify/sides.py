@@ -1,0 +1,124 @@
+"""A side of a verification: a PLC that runs one scan after the other, and tells what the range used."""
+
+from collections.abc import Callable, Sequence
+from dataclasses import dataclass, field
+from typing import Protocol
+
+from scanbench.check.program import Program
+from scanbench.engines.debug import Frame, Listen
+from scanbench.engines.engine import Reason, Stop
+from scanbench.runtime.command import Entry
+from scanbench.runtime.inside import HaltAt, Onlooker, front
+from scanbench.runtime.journal import Journal
+from scanbench.runtime.programs import Loaded, NoProgram
+from scanbench.runtime.resource import Resource
+from scanbench.verify.engines import Make
+
+
+class ProgramOf(Protocol):
+    """Knows the programs of a run; `NoProgram`."""
+
+    def __call__(self, version: int) -> Program:
+        """The checked program of this version, the same one each time."""
+
+
+class Shelf:
+    """`Programs`, each with an engine of this side."""
+
+    def __init__(self, program_of: ProgramOf, make: Make) -> None:
+        self._program_of, self._make = program_of, make
+        self._known: dict[int, Loaded] = {}
+
+    def get(self, version: int) -> Loaded:
+        """See `Programs`."""
+        if version not in self._known:
+            program = self._program_of(version)
+            try:
+                self._known[version] = self._make(version, program)
+            except MemoryError as error:
+                raise NoProgram(f"program version {version} does not fit into memory") from error
+        return self._known[version]
+
+
+@dataclass(frozen=True, slots=True)
+class Begin:
+    """Where a scan began, so that it can be run again."""
+
+    loaded: Loaded
+    memory: bytes
+    journal: Journal
+    """With what is entered inside of the scan."""
+
+
+@dataclass(slots=True)
+class Side:
+    """One of the two."""
+
+    resource: Resource
+    _frames: dict[int, tuple[Frame, ...]] = field(default_factory=dict)
+    """Open calls at counts of the scan that ran last."""
+
+    @property
+    def memory(self) -> bytearray:
+        """The whole image."""
+        return self.resource.memory
+
+    @property
+    def state(self) -> bytes:
+        """What is compared."""
+        return self.resource.state
+
+    def begin(self) -> Begin:
+        """In front of a scan, with all that is entered in it."""
+        self._frames = {}
+        journal = self.resource.journal
+        return Begin(self.resource.loaded, bytes(self.memory), journal.prefix(len(journal)))
+
+    def stand(self, begin: Begin) -> None:
+        """Back to where a scan began. The journal is a copy."""
+        self.resource.restore(begin.loaded, begin.memory, begin.journal.prefix(len(begin.journal)))
+
+    def run(self, hook: Onlooker | None, listen: Listen | None = None) -> Stop:
+        """One scan, in the debug flavour where somebody listens."""
+        resource = self.resource
+        resource.hook = hook
+        try:
+            if listen is not None:
+                resource.listen(listen)
+            while (stop := resource.rerun(1)).reason is Reason.KNOCKED:
+                pass
+        finally:
+            resource.hook = None
+        return stop
+
+    def wait_for(self, entries: Sequence[Entry]) -> None:
+        """Entries of the scan that is next, to be entered inside of it."""
+        for entry in entries:
+            self.resource.await_step(entry)
+
+    @property
+    def waits(self) -> bool:
+        """Whether anything is to be entered inside of the scan that is next."""
+        journal = self.resource.journal
+        return front(journal, self.resource.header.scan) < len(journal)
+
+    def at_count(self, begin: Begin, count: int, then: Callable[[], None] | None = None) -> tuple[Frame, ...] | None:
+        """The open calls in front of the statement of a count; `then` is called there. None: the scan has no such statement,
+        and `then` is called at its end. Leaves everything as it is."""
+        resource = self.resource
+        here, journal, loaded = bytes(self.memory), resource.journal, resource.loaded
+        self.stand(begin)
+        try:
+            stop = self.run(HaltAt(count), Listen(count=count))
+            frames = resource.inside.frames if stop.reason is Reason.HALTED and resource.inside is not None else None
+            if then is not None:
+                then()
+        finally:
+            resource.restore(loaded, here, journal)
+        return frames
+
+    def frames_at(self, begin: Begin, count: int) -> tuple[Frame, ...]:
+        """The open calls in front of the statement of a count."""
+        if count not in self._frames:
+            self._frames[count] = self.at_count(begin, count) or ()
+        return self._frames[count]

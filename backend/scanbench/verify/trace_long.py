@@ -1,0 +1,65 @@
+"""The long form of a trace: a row is one value of one variable. It comes out wide, a row for each scan."""
+
+from dataclasses import replace
+from decimal import Decimal
+
+from scanbench.verify.trace_axis import axis_of, number
+from scanbench.verify.trace_table import Problems, Table, check_size
+
+_VARIABLES = ("variable", "signal", "name", "tag")
+_VALUE = "value"
+
+
+def widened(table: Table) -> Table:
+    """The same table with a column for each variable, if it is long. Raises `BadTraceFile`."""
+    found = _columns(table.columns)
+    if found is None:
+        return table
+    axis, variable, value = found
+    names: dict[str, int] = {}
+    cells: dict[str, dict[int, str]] = {}
+    numbers: dict[str, int] = {}
+    problems = Problems()
+    for row, at in zip(table.rows, table.numbers, strict=True):
+        if problems.full:
+            break
+        key, name = row[axis], row[variable]
+        if not key:
+            problems.add(at, table.columns[axis], "The cell is empty: a row needs its scan or time.")
+        if not name:
+            problems.add(at, table.columns[variable], "The cell is empty: a row needs the name of its variable.")
+        if not key or not name:
+            continue
+        place = names.setdefault(name, len(names))
+        line = cells.setdefault(key, {})
+        numbers.setdefault(key, at)
+        if place in line:
+            problems.add(at, name, f"`{name}` has two values at {table.columns[axis]} {key}.")
+        line[place] = row[value]
+        if not len(names) % 100:
+            check_size(1 + len(names), len(cells))
+    problems.refuse()
+    check_size(1 + len(names), len(cells))
+    keys = _ordered(list(cells), table.comma)
+    rows = tuple((key, *(cells[key].get(place, "") for place in range(len(names)))) for key in keys)
+    columns = (table.columns[axis], *names)
+    return replace(table, columns=columns, rows=rows, numbers=[numbers[key] for key in keys])
+
+
+def _columns(columns: tuple[str, ...]) -> tuple[int, int, int] | None:
+    """Where scan or time, the variable's name, and the value stand."""
+    if len(columns) != 3:
+        return None
+    axis = next((at for at, each in enumerate(columns) if axis_of(each) is not None), None)
+    variable = next((at for at, each in enumerate(columns) if each.lower() in _VARIABLES), None)
+    value = next((at for at, each in enumerate(columns) if each.lower() == _VALUE), None)
+    return None if axis is None or variable is None or value is None else (axis, variable, value)
+
+
+def _ordered(keys: list[str], comma: bool) -> list[str]:
+    """By number: a file may have one variable behind the other. As they stand where any is no number, which is told later."""
+    try:
+        known: dict[str, Decimal] = {key: number(key, comma) for key in keys}
+    except ValueError:
+        return keys
+    return sorted(keys, key=known.__getitem__)

@@ -1,0 +1,102 @@
+"""Cells of a trace as values of a variable, and whether a value of the program is the one that a cell has."""
+
+import math
+import re
+import struct
+from collections.abc import Sequence
+from dataclasses import dataclass
+from decimal import Decimal
+
+from scanbench.check.types import Elementary, Enumeration, Kind, StringType
+from scanbench.check.values import parse_value
+from scanbench.syntax.literals import UNITS_NS
+from scanbench.verify.trace_axis import Unit, number
+
+Leaf = Elementary | StringType
+_PLAIN = re.compile(r"[+-]?\d+")
+_WHOLE = re.compile(r"([+-]?\d+)[.,]0+")
+_DIGITS = re.compile(r"[+-]?(\d*)(?:[.,](\d*))?(?:[eE][+-]?\d+)?")
+LEAST_DIGITS = 6
+"""Significant digits that a column of numbers has at least: what `%g` writes."""
+
+
+def cell_value(type: Leaf, text: str, unit: Unit | None, comma: bool) -> bytes:
+    """The bytes of a cell. Raises ValueError that says what fits."""
+    if isinstance(type, StringType):
+        return parse_value(type, text)
+    if type.kind is Kind.REAL and text.upper().lstrip("+-") not in ("NAN", "INF", "INFINITY"):
+        return parse_value(type, str(number(text.replace("_", ""), comma)))
+    if type.kind is Kind.TIME and not text.upper().startswith(("T#", "LT#", "TIME#", "LTIME#")):
+        return _duration(type, text, unit, comma)
+    if type.kind is Kind.DATE and _PLAIN.fullmatch(text):
+        return parse_value(Elementary("LINT", Kind.INT, type.size), text)
+    whole = _WHOLE.fullmatch(text)  # what comes out of a spreadsheet, or of a tool that has nothing but REALs
+    if whole is not None and type.kind is not Kind.DATE and not isinstance(type, Enumeration):
+        return parse_value(type, whole.group(1))
+    return parse_value(type, text)
+
+
+def _duration(type: Elementary, text: str, unit: Unit | None, comma: bool) -> bytes:
+    if unit is None:
+        try:
+            return parse_value(type, text)
+        except ValueError:
+            raise ValueError(
+                f"`{text}` is not a TIME: write T#1s500ms, or put the unit behind the column's name, as [s]"
+            ) from None
+    ns = round(number(text, comma) * UNITS_NS[unit])
+    return parse_value(Elementary("LINT", Kind.INT, type.size), str(ns))
+
+
+@dataclass(frozen=True, slots=True)
+class Exactness:
+    """How exact the numbers of a column are: a controller's tool writes them with so many digits, and no more can be compared."""
+
+    digits: int = 0
+    """Significant ones; 0: values are compared byte by byte."""
+    decimals: int | None = None
+    """All cells have so many, and some end in 0: they are written that way."""
+    scale: float = 1.0
+    """What 1 in the file is in the variable: ns of a TIME."""
+
+    def same(self, type: Leaf, recorded: bytes, found: bytes) -> bool:
+        """Whether the cell may stand for the value that was found."""
+        if isinstance(type, StringType):
+            size = 2 + int.from_bytes(recorded[:2], "little") * type.width
+            return recorded[:size] == found[:size]
+        if recorded == found or not self.digits:
+            return recorded == found
+        one, other = _float(type, recorded), _float(type, found)
+        if not (math.isfinite(one) and math.isfinite(other)):
+            return (math.isnan(one) and math.isnan(other)) or one == other
+        if one == other == 0:
+            return True
+        largest = max(abs(one), abs(other))
+        step = largest / self.scale and 10.0 ** (math.floor(math.log10(largest / self.scale)) + 1 - self.digits)
+        if self.decimals is not None:
+            step = max(step, 10.0**-self.decimals)
+        return abs(one - other) <= 0.5000001 * step * self.scale
+
+
+def exactness(type: Leaf, texts: Sequence[str], unit: Unit | None) -> Exactness:
+    """Of a column with these cells."""
+    timed = isinstance(type, Elementary) and type.kind is Kind.TIME and unit is not None
+    if not timed and not (isinstance(type, Elementary) and type.kind is Kind.REAL):
+        return Exactness()
+    digits, decimals, zero = LEAST_DIGITS, set[int](), False
+    for text in texts:
+        found = _DIGITS.fullmatch(text)
+        if found is None:
+            continue
+        whole, fraction = found.group(1), found.group(2) or ""
+        digits = max(digits, len((whole + fraction).lstrip("0")))
+        decimals.add(len(fraction))
+        zero = zero or fraction.endswith("0")
+    fixed = decimals.pop() if len(decimals) == 1 and zero else None
+    return Exactness(digits, fixed, float(UNITS_NS[unit]) if timed and unit is not None and unit != "scan" else 1.0)
+
+
+def _float(type: Leaf, data: bytes) -> float:
+    if isinstance(type, Elementary) and type.kind is Kind.REAL:
+        return float(struct.unpack("<f" if type.size == 4 else "<d", data)[0])
+    return float(Decimal(int.from_bytes(data, "little", signed=True)))

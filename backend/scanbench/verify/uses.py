@@ -1,0 +1,231 @@
+"""The used-variable record: what a range reads and writes in a scan, pass by pass, in the order of use.
+
+The recorder listens to the debug flavour of either side. A pass begins when a statement of the range begins in a frame of its
+POU, and ends when another statement begins in that frame, or the frame ends; what is called belongs to it.
+"""
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass, field
+from typing import NamedTuple
+
+from scanbench.check.program import Blocks, Pou
+from scanbench.engines.debug import READ, WRITE, Frame, Listen
+from scanbench.runtime.resource import Resource
+from scanbench.verify.naming import ANYWHERE, WHOLE, Around, Namer
+from scanbench.verify.ranges import Resolved
+
+
+class Access(NamedTuple):
+    """A use. `value`: the bytes as they are behind it; of a bit nothing else of its byte."""
+
+    site: int
+    count: int
+    offset: int
+    size: int
+    bits: int
+    written: bool
+    value: bytes
+
+
+class Fresh(NamedTuple):
+    """A read of what the pass had not written. `mask`: which of its bits, None where all of them."""
+
+    access: Access
+    mask: bytes | None
+
+
+@dataclass(slots=True)
+class Pass:
+    """One run through the range."""
+
+    pou: Pou | None
+    instance: int
+    begin: int
+    """The count of its first statement."""
+    around: Around = ANYWHERE
+    frames: tuple[Frame, ...] = ()
+    """Open calls as it begins, innermost first; none of the whole scan."""
+    log: list[Access] = field(default_factory=list)
+    used: int = 0
+    """Uses, the ones that found no room included."""
+    frames_of: list[tuple[Frame, ...]] = field(default_factory=list)
+    """Of each entry of the log the open calls, where that was asked for."""
+
+    @property
+    def full(self) -> bool:
+        """Whether uses found no room."""
+        return self.used > len(self.log)
+
+    def fresh(self) -> list[Fresh]:
+        """Its inputs: what it read before it wrote it, each once."""
+        known: dict[int, int] = {}
+        found = []
+        for access in self.log:
+            _, _, offset, size, bits, written, _ = access
+            if size == 1:
+                before = known.get(offset, 0)
+                if not written and bits & ~before:
+                    found.append(Fresh(access, None if not before & bits else bytes((bits & ~before,))))
+                known[offset] = before | bits
+                continue
+            span = range(offset, offset + size)
+            if not written:
+                mask = bytes(WHOLE & ~known.get(at, 0) for at in span)
+                if any(mask):
+                    found.append(Fresh(access, None if mask.count(WHOLE) == size else mask))
+            known.update(dict.fromkeys(span, WHOLE))
+        return found
+
+
+class Recorder:
+    """Listens to one side while a scan runs. It halts nowhere."""
+
+    def __init__(self, resource: Resource, namer: Namer, range: Resolved, limit: int, detail: bool = False) -> None:
+        self._resource, self._namer, self._range = resource, namer, range
+        self._engine = resource.loaded.debugged()
+        self._memory = resource.memory
+        self._left, self._detail = limit, detail
+        self._idle = Listen(sites=range.sites, count=1)
+        self._busy = Listen(sites=range.sites, every=True, accesses=READ | WRITE)
+        if range.whole:
+            self._idle = self._busy = Listen(count=1, accesses=READ | WRITE)
+        self._open: Pass | None = None
+        self._depth = 0
+        self._callers: frozenset[int] = frozenset()
+        self._first = True
+        self.passes: list[Pass] = []
+        self.on_first: Callable[[], None] | None = None
+        """Called in front of the first statement of the scan: behind input refresh and forces."""
+        self.on_begin: Callable[[int, Pass], None] | None = None
+        """Called when a pass begins, with its number."""
+
+    @property
+    def listen(self) -> Listen:
+        """What to listen to as the scan begins."""
+        return self._idle
+
+    @property
+    def began(self) -> bool:
+        """Whether any statement ran."""
+        return not self._first
+
+    # ---- as the resource's hook -----------------------------------------------------------------------------------
+
+    def statement(self, site: int, count: int, depth: int) -> bool:
+        """See `Hook`."""
+        if self._first:
+            self._first = False
+            if self.on_first is not None:
+                self.on_first()
+        if self._range.whole:
+            if self._open is None:
+                self._begin(Pass(None, 0, count), depth)
+            return False
+        if self._open is not None and self._goes_on(site, depth):
+            return False
+        if self._open is not None:
+            self._end()
+        if site in self._range.sites:
+            self._enter(count, depth)
+        return False
+
+    def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
+        """See `Hook`."""
+        open = self._open
+        if open is None:
+            if not self._range.whole:
+                return
+            open = self._begin(Pass(None, 0, count), 1)
+        if site in self._range.outside:
+            return  # as of a loop around the range
+        if site in self._callers:
+            self._end()
+            return
+        open.used += 1
+        if self._left <= 0:
+            return
+        self._left -= 1
+        bits = self._engine.bits
+        value = bytes(self._memory[offset : offset + size]) if bits == WHOLE else bytes((self._memory[offset] & bits,))
+        open.log.append(Access(site, count, offset, size, bits, written, value))
+        if self._detail:
+            open.frames_of.append(self._engine.frames())
+
+    def entered(self) -> None:
+        """Something was entered inside of the scan: what it changed that a statement had written counts as its result."""
+        if self._open is not None:
+            results_are(self._open.log, self._memory)
+
+    # ---- passes ---------------------------------------------------------------------------------------------------
+
+    def _goes_on(self, site: int, depth: int) -> bool:
+        """Whether the pass does, with this statement."""
+        open = self._open
+        assert open is not None
+        if depth != self._depth:
+            return depth > self._depth
+        if site not in self._range.sites:
+            return False
+        return site not in self._range.first_sites or not self._is_anew(open)
+
+    def _is_anew(self, open: Pass) -> bool:
+        """The first statement of the POU begins: another call of it, unless an instruction list jumps back there."""
+        frame = self._engine.frames()[0]
+        if frame.instance != open.instance or frame.pou is not open.pou:
+            return True
+        return frame.pou.kind == "function" and not any(isinstance(each, Blocks) for each in frame.pou.body)
+
+    def _enter(self, count: int, depth: int) -> None:
+        frames = self._engine.frames()
+        pou, instance = frames[0].pou, frames[0].instance
+        if self._range.only is not None and instance != self._range.only:
+            return
+        around = self._namer.around(pou, instance, self._memory)
+        self._callers = frozenset(each.site for each in frames[1:])
+        self._begin(Pass(pou, instance, count, around, frames), depth)
+
+    def _begin(self, made: Pass, depth: int) -> Pass:
+        self._open, self._depth = made, depth
+        self.passes.append(made)
+        if self.on_begin is not None:
+            self.on_begin(len(self.passes) - 1, made)
+        if self._busy is not self._idle:
+            self._resource.listen(self._busy)
+        return made
+
+    def _end(self) -> None:
+        self._open, self._callers = None, frozenset()
+        self._resource.listen(self._idle)
+
+
+def results_are(log: list[Access], memory: bytes | bytearray, span: range | None = None) -> bool:
+    """Makes the last results in a log those that stand in memory now (in these bytes); whether any was another."""
+    known: set[tuple[int, int]] = set()
+    changed = False
+    for index in range(len(log) - 1, -1, -1):
+        access = log[index]
+        if not access.written or (span is not None and not _touches(access, span)):
+            continue
+        now = bytes(memory[access.offset : access.offset + access.size])
+        mine = bytearray(access.value)
+        for at, bits in _bits(access):
+            if (at, bits) not in known:
+                known.add((at, bits))
+                here = at - access.offset
+                mine[here] = mine[here] & ~bits | now[here] & bits
+        if mine != access.value:
+            log[index] = access._replace(value=bytes(mine))
+            changed = True
+    return changed
+
+
+def _bits(access: Access) -> Iterator[tuple[int, int]]:
+    """Each of its bits."""
+    for at in range(access.offset, access.offset + access.size):
+        for bit in range(8):
+            if access.bits >> bit & 1:
+                yield at, 1 << bit
+
+
+def _touches(access: Access, span: range) -> bool:
+    return access.offset < span.stop and span.start < access.offset + access.size

@@ -1,0 +1,221 @@
+"""Who wrote a variable last: a statement, a command, or the PLC itself, whichever came last before a scan."""
+
+from dataclasses import dataclass
+
+from scanbench.check.layout import Layout
+from scanbench.check.program import Program
+from scanbench.check.symbols import Symbol, UnknownPath, resolve
+from scanbench.check.types import BOOL, Elementary, StringType
+from scanbench.check.values import format_value
+from scanbench.debug.breakpoint import Breakpoint
+from scanbench.debug.breakpoints import Breakpoints
+from scanbench.debug.frames import frame_name, instance_path, task_of
+from scanbench.debug.listener import Position
+from scanbench.debug.placed import bytes_of
+from scanbench.debug.probing import Prober
+from scanbench.debug.reverse import Noted, Search, in_front
+from scanbench.runtime.carry_over import changes
+from scanbench.runtime.command import Entry, Patch, Refusal, Restarted, Swapped
+from scanbench.runtime.forces import read_table
+from scanbench.runtime.restart import retained
+from scanbench.runtime.target import Meant, meant, not_called
+from scanbench.verify.findings import Writer
+from scanbench.verify.plc_writes import last_change
+from scanbench.verify.reading import NoReading, Reading
+from scanbench.verify.verified import Place
+
+_BY_ITS = "a temporary, or nothing: ask for a variable that outlives its call, or halt inside of the block"
+
+
+@dataclass(frozen=True, slots=True)
+class _Bytes:
+    """Where a variable lies in one program."""
+
+    offset: int
+    size: int
+    mask: int
+
+    def touched(self, patch: Patch) -> bool:
+        """Whether a patch changes any bit of it."""
+        first, end = max(self.offset, patch.offset), min(self.offset + self.size, patch.offset + len(patch.mask))
+        return any(patch.mask[at - patch.offset] & self.mask for at in range(first, end))
+
+    def of(self, memory: bytes | bytearray) -> bytes:
+        """The value in an image."""
+        data = bytes(memory[self.offset : self.offset + self.size])
+        return bytes((bool(data[0] & self.mask),)) if self.mask != 0xFF else data
+
+
+def find_writer(reading: Reading, path: str, scan: int, prober: Prober | None = None) -> Writer:
+    """Who wrote the variable last before `scan` began. `NoReading` says why that cannot be told.
+
+    The reading has been followed as far as the scan.
+    """
+    reading.goto(scan)
+    resource = reading.timeline.resource
+    symbol = _meant(reading, path)
+    place = bytes_of(symbol, resource.memory)
+    assert place is not None
+    where = _Bytes(*place)
+    value, version = where.of(resource.memory), resource.version
+    held = any(
+        offset in range(where.offset, where.offset + where.size) and mask & where.mask
+        for offset, (mask, _) in read_table(resource.memory).items()
+    )
+    # of a scan that ended by a run-time error a part is over, and shown
+    here: Position = (scan + resource.header.halted_by_trap, 0)
+    entered = _Commands(reading, symbol.path).last(len(resource.journal), version)
+    if held and entered is not None:
+        return _by_command(entered, symbol, value, held=True)
+    first = entered.scan if entered is not None else reading.first
+    noted = _statement(reading, symbol.path, here, prober, first)
+    position = noted.position if noted is not None else (-1, 0)
+    at_command = (entered.scan, entered.step - 1 if entered.step else -1) if entered is not None else (-1, -1)
+    changed = last_change(reading, symbol, scan, max(position[0], at_command[0], reading.first - 1))
+    if changed is not None:
+        return Writer(
+            symbol.path, "plc", changed, 0, None, "PLC",
+            f"the PLC itself, in scan {changed}: {symbol.path}" + _said(symbol, value), value, _shown(symbol, value),
+        )  # fmt: skip
+    if noted is not None and position > at_command:
+        return _by_statement(reading, noted, symbol, value)
+    if entered is not None:
+        return _by_command(entered, symbol, value, held=False)
+    text = f"nobody wrote it since scan {reading.first}, the first one that is kept"
+    return Writer(symbol.path, "start", reading.first, 0, None, "", text, value, _shown(symbol, value))
+
+
+def _meant(reading: Reading, path: str) -> Symbol:
+    """The variable itself, behind in-outs, where it is now."""
+    resource = reading.timeline.resource
+    found = meant(resource.view, path, "")
+    if not isinstance(found, Meant):
+        raise NoReading(found.message, found.near)
+    symbol = resolve(resource.program, found.path)
+    if symbol.type.size == 0:
+        raise NoReading(f"{symbol.path} takes no memory, so nobody writes it")
+    if symbol.locate(resource.memory) is None:
+        raise NoReading(not_called(resource.view, symbol))
+    if symbol.slots:
+        raise NoReading(f"{symbol.path} means {_BY_ITS}")
+    return symbol
+
+
+class _Commands:
+    """What was entered, and whether it wrote the variable."""
+
+    def __init__(self, reading: Reading, path: str) -> None:
+        self._reading, self._path = reading, path
+        self._programs = reading.timeline.programs
+        self._places: dict[int, _Bytes | None] = {}
+
+    def last(self, end: int, version: int) -> Entry | None:
+        """The last of the first `end` entries that wrote it, seen from where program `version` runs."""
+        reading = self._reading
+        entries, versions = reading.entries, reading.versions()
+        begun = reading.timeline.recording.checkpoints[0].entries
+        for index in range(end - 1, begun - 1, -1):
+            entry, effect = entries[index], entries[index].plan.effect
+            place = self._place(versions[index + 1])
+            if place is not None and any(map(place.touched, entry.plan.patches)):
+                return entry
+            if isinstance(effect, Swapped) and self._begins_anew(versions[index], effect):
+                return entry
+            if isinstance(effect, Restarted) and place is not None and not self._survives(entry, effect, place):
+                return entry
+        return None
+
+    def _place(self, version: int) -> _Bytes | None:
+        if version not in self._places:
+            self._places[version] = _in_program(self._programs.get(version).program, self._path)
+        return self._places[version]
+
+    def _begins_anew(self, old: int, effect: Swapped) -> bool:
+        """Whether the new program began with another value than the old one had."""
+        program = self._programs.get(effect.version).program
+        place, before = self._place(effect.version), self._programs.get(old).program
+        if place is None:
+            return False
+        if effect.fresh and not _covered(retained(program, program.initial_image), place):
+            return True
+        lost = changes(before, program).lost
+        return any(_within(self._path, each.path) or _within(each.path, self._path) for each in lost)
+
+    def _survives(self, entry: Entry, effect: Restarted, place: _Bytes) -> bool:
+        if effect.kind == "cold":
+            return False
+        here = self._reading.timeline.resource.header.scan
+        self._reading.goto(entry.scan)
+        resource = self._reading.timeline.resource
+        kept = retained(resource.program, resource.memory)
+        self._reading.goto(here)
+        return _covered(kept, place)
+
+
+def _in_program(program: Program, path: str) -> _Bytes | None:
+    try:
+        symbol = resolve(program, path)
+    except UnknownPath:
+        return None
+    place = None if symbol.slots else bytes_of(symbol, bytearray(program.initial_image))
+    return None if place is None else _Bytes(*place)
+
+
+def _within(path: str, outer: str) -> bool:
+    path, outer = path.upper(), outer.upper()
+    return path == outer or (path.startswith(outer) and path[len(outer)] in ".[")
+
+
+def _covered(spans: list[tuple[int, int]], place: _Bytes) -> bool:
+    """Whether all bytes of it are in these stretches."""
+    end = place.offset + place.size
+    return all(any(first <= at < first + size for first, size in spans) for at in range(place.offset, end)) or (
+        place.offset < Layout.HEADER_SIZE
+    )
+
+
+def _statement(reading: Reading, path: str, here: Position, prober: Prober | None, first: int) -> Noted | None:
+    """The last write by a statement since scan `first`."""
+    wanted = [Breakpoint(0, "data", "", path=path, access="write")]
+    found = Search(reading.timeline, Breakpoints(), wanted, here, prober, lambda entry: (), first).run()
+    if isinstance(found, Refusal):
+        raise NoReading(found.message, found.near)
+    return found
+
+
+def _by_statement(reading: Reading, noted: Noted, symbol: Symbol, value: bytes) -> Writer:
+    """Where it stands: the state in front of it is shown then."""
+    timeline = reading.timeline
+    scan, count = in_front(timeline, noted)
+    reading.goto(scan, count)
+    resource = timeline.resource
+    inside, program, sites = resource.inside, resource.loaded.statements, resource.loaded.debugged().sites
+    assert inside is not None
+    frame = inside.frames[0]
+    span = sites.statements[noted.writer if noted.writer is not None else frame.site].span
+    instance = instance_path(program, frame) or frame_name(program, frame)
+    line = reading.text(resource.version, span.file, span.line)
+    where = Place(task_of(program, inside.frames), instance, frame.pou.name, span.file, span.line, line)
+    text = f"{span.file}:{span.line}, {instance}" + (f": {line}" if line else "")
+    return Writer(symbol.path, "program", scan, count, where, "", text, value, _shown(symbol, value))
+
+
+def _by_command(entry: Entry, symbol: Symbol, value: bytes, held: bool) -> Writer:
+    command = entry.command
+    text = f"{type(command).__name__} by {command.author}: {entry.plan.message}"
+    if held:
+        text += f"; it holds since scan {entry.scan}"
+    return Writer(
+        symbol.path, "command", entry.scan, entry.step, None, command.author, text, value, _shown(symbol, value)
+    )
+
+
+def _said(symbol: Symbol, value: bytes) -> str:
+    shown = _shown(symbol, value)
+    return f" is {shown}" if shown else " changed"
+
+
+def _shown(symbol: Symbol, value: bytes) -> str:
+    if not isinstance(symbol.type, Elementary | StringType):
+        return ""
+    return format_value(BOOL if symbol.bit is not None else symbol.type, value)

@@ -1,0 +1,202 @@
+"""Who wrote a variable last."""
+
+from pathlib import Path
+
+import pytest
+
+from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.native.engine import NativeEngine
+from scanbench.engines.native.probed import ProbedBuilds
+from scanbench.runtime import checkpoints
+from scanbench.runtime.contents import KeptProgram
+from scanbench.runtime.forces import Force
+from scanbench.runtime.programs import EngineFactory
+from scanbench.runtime.restart import Restart
+from scanbench.runtime.timeline import Timeline
+from scanbench.runtime.write import Write
+from scanbench.session.codec import ENTRIES
+from scanbench.verify.findings import Writer
+from scanbench.verify.reading import NoReading, Reading
+from scanbench.verify.writer import find_writer
+from tests.runtime.recorded import advance, begun, of_file, of_file_native, to_program
+
+LINE = """
+TYPE Pair : STRUCT a, b : INT; END_STRUCT END_TYPE
+FUNCTION_BLOCK Belt
+VAR_INPUT go : BOOL; END_VAR
+VAR_IN_OUT level : INT; END_VAR
+VAR seen : INT; END_VAR
+  IF go THEN
+    level := level + 1;
+    seen := seen + 1;
+  END_IF;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR n, quiet, one, two : INT; belt : ARRAY[1..3] OF Belt; pair : Pair; list : ARRAY[0..9] OF INT; text : STRING[10];
+  lamp AT CIO 100.03 : BOOL; bits : WORD; END_VAR
+VAR RETAIN kept : INT; END_VAR
+  n := n + 1;
+  IF n = 5 THEN quiet := 7; text := 'five'; pair.b := 2; bits.3 := TRUE; kept := 1; END_IF;
+  IF n = 7 THEN quiet := 7; lamp := TRUE; END_IF;
+  belt[1](go := n = 9, level := one);
+  belt[2](go := n = 11, level := two);
+  belt[3](go := n = 12, level := one);
+  list[n MOD 10] := n;
+END_PROGRAM
+"""
+ENGINES = pytest.mark.parametrize("engine", [ReferenceEngine, NativeEngine])
+
+
+def _texts(kept: KeptProgram) -> dict[str, str]:
+    return {"main.st": kept.sources.decode()}
+
+
+def _reading(path: Path, engine: EngineFactory = ReferenceEngine) -> Reading:
+    return Reading(path, of_file if engine is ReferenceEngine else of_file_native, ENTRIES, _texts)
+
+
+def _last(timeline: Timeline, path: str, scan: int | None = None, engine: EngineFactory = ReferenceEngine) -> Writer:
+    prober = ProbedBuilds().engine if engine is NativeEngine else None
+    with _reading(timeline.recording.path, engine) as reading:
+        reading.follow(timeline.live_scan)
+        return find_writer(reading, path, timeline.live_scan if scan is None else scan, prober)
+
+
+@ENGINES
+def test_a_statement(engine: EngineFactory, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(checkpoints, "EVERY_NS", 0)
+    timeline = begun(tmp_path / "run", LINE, engine)
+    advance(timeline, 20)
+    found = _last(timeline, "main.quiet", engine=engine)
+    assert (found.path, found.by, found.scan, found.value, found.shown) == ("Main.quiet", "program", 6, b"\7\0", "7")
+    assert found.place is not None
+    assert (found.place.instance, found.place.pou) == ("Main", "Main")
+    assert found.place.text.startswith("IF n = 7 THEN quiet := 7;"), "it is written although the value stays"
+    assert LINE.splitlines()[found.place.line - 1].strip() == found.place.text
+    earlier = _last(timeline, "Main.quiet", 6, engine)
+    assert (earlier.by, earlier.scan) == ("program", 4)
+    assert _last(timeline, "Main.quiet", 4, engine).by == "start"
+
+
+@ENGINES
+@pytest.mark.parametrize(
+    ("path", "meant", "scan", "instance"),
+    [
+        ("Main.belt[3].level", "Main.one", 11, "Main.belt[3]"),
+        ("Main.one", "Main.one", 11, "Main.belt[3]"),
+        ("Main.belt[2].level", "Main.two", 10, "Main.belt[2]"),
+        ("Main.belt[1].seen", "Main.belt[1].seen", 8, "Main.belt[1]"),
+        ("Main.pair", "Main.pair", 4, "Main"),
+        ("Main.list[4]", "Main.list[4]", 13, "Main"),
+        ("Main.list", "Main.list", 19, "Main"),
+        ("Main.text", "Main.text", 4, "Main"),
+        ("Main.bits.3", "Main.bits.3", 4, "Main"),
+        ("CIO 100.03", "100.03", 6, "Main"),
+        ("Main.lamp", "Main.lamp", 6, "Main"),
+        ("CIO 100", "100", 6, "Main"),
+    ],
+)
+def test_paths_of_every_kind(
+    path: str, meant: str, scan: int, instance: str, engine: EngineFactory, tmp_path: Path
+) -> None:
+    timeline = begun(tmp_path / "run", LINE, engine)
+    advance(timeline, 20)
+    found = _last(timeline, path, engine=engine)
+    assert (found.by, found.scan, found.place and found.place.instance) == ("program", scan, instance), found
+    assert found.path.replace("CIO", "") == meant
+
+
+def test_the_position_is_in_front_of_the_statement(tmp_path: Path) -> None:
+    timeline = begun(tmp_path / "run", LINE)
+    advance(timeline, 20)
+    with _reading(timeline.recording.path) as reading:
+        reading.follow(20)
+        found = find_writer(reading, "Main.one", 20)
+        reading.goto(found.scan, found.count)
+        inside = reading.timeline.resource.inside
+        assert inside is not None
+        assert found.place is not None
+        assert inside.frames[0].pou.name == "Belt"
+        assert "level := level + 1" in found.place.text
+
+
+def test_a_command_that_came_later(tmp_path: Path) -> None:
+    timeline = begun(tmp_path / "run", LINE)
+    advance(timeline, 8)
+    timeline.submit(Write("Ada", "Main.belt[1].level", "40"))
+    timeline.submit(Write("Ada", "Main.quiet", "9"))
+    advance(timeline, 8)
+    found = _last(timeline, "Main.quiet")
+    assert (found.by, found.author, found.scan, found.shown) == ("command", "Ada", 8, "9")
+    assert found.text.startswith("Write by Ada: Main.quiet")
+    assert _last(timeline, "Main.quiet", 8).by == "command", "what was entered in front of the scan is there"
+    assert _last(timeline, "Main.quiet", 7).by == "program"
+    assert _last(timeline, "Main.one").by == "program", "a statement wrote it since"
+
+
+def test_a_force_holds(tmp_path: Path) -> None:
+    timeline = begun(tmp_path / "run", LINE)
+    advance(timeline, 3)
+    timeline.submit(Force("Bob", "Main.n", "4"))
+    advance(timeline, 8)
+    found = _last(timeline, "Main.n")
+    assert (found.by, found.author, found.scan) == ("command", "Bob", 3)
+    assert "holds" in found.text
+
+
+def test_a_restart_and_another_program(tmp_path: Path) -> None:
+    timeline = begun(tmp_path / "run", LINE)
+    advance(timeline, 12)
+    timeline.submit(Restart("Ada", "warm"))
+    found = _last(timeline, "Main.quiet")
+    assert (found.by, found.author, found.scan, found.shown) == ("command", "Ada", 12, "0")
+    assert _last(timeline, "Main.kept").by == "program", "it is retained"
+    second = LINE.replace("VAR n, quiet", "VAR more : LINT; n, quiet").replace("IF n = 5", "IF n = 500")
+    timeline.programs.sources[2] = second  # type: ignore[attr-defined]
+    advance(timeline, 10)
+    assert not to_program(timeline, 2, second)
+    advance(timeline, 5)
+    assert (_last(timeline, "Main.more").by, _last(timeline, "Main.more").scan) == ("command", 22)
+    carried = _last(timeline, "Main.quiet")
+    assert (carried.by, carried.scan) == ("program", 18), "the other program wrote it, and it went over"
+
+
+def test_the_plc_itself(tmp_path: Path) -> None:
+    timeline = begun(tmp_path / "run", LINE)
+    advance(timeline, 30)
+    found = _last(timeline, "A200.11")
+    assert (found.by, found.scan) == ("plc", 1), "the first cycle flag goes off"
+    assert found.place is None
+
+
+@pytest.mark.parametrize("path", ["Main.quite", "Nothing", "D99999999"])
+def test_an_unknown_path(path: str, tmp_path: Path) -> None:
+    timeline = begun(tmp_path / "run", LINE)
+    with pytest.raises(NoReading) as caught:
+        _last(timeline, path)
+    assert path == "D99999999" or caught.value.near or path == "Nothing"
+
+
+def test_a_block_that_was_never_called(tmp_path: Path) -> None:
+    timeline = begun(tmp_path / "run", LINE)
+    with pytest.raises(NoReading, match="not called yet"):
+        _last(timeline, "Main.belt[1].level")
+
+
+def test_a_reading_follows_its_file(tmp_path: Path) -> None:
+    timeline = begun(tmp_path / "run", LINE)
+    advance(timeline, 3)
+    with _reading(timeline.recording.path) as reading:
+        for scan in (3, 9, 20):
+            advance(timeline, scan - timeline.live_scan)
+            timeline.submit(Write("Ada", "Main.quiet", str(scan)))
+            reading.follow(scan)
+            assert find_writer(reading, "Main.quiet", scan).shown == str(scan)
+            assert timeline.resource.state == reading.follow(scan).resource.state or reading.timeline.past
+        with pytest.raises(NoReading, match="has not come yet"):
+            find_writer(reading, "Main.quiet", 21)
+        timeline.close()
+        reading.path.unlink()
+        with pytest.raises(NoReading, match="cannot be read"):
+            reading.follow(22)
+

@@ -1,0 +1,55 @@
+/** Rows of a verification: what differs in them, and the way from difference to difference. */
+import type { VerificationInfo, VerifyOutput, VerifyRow } from "../wire/types";
+import { grouped } from "./numbers";
+import type { Unit } from "./verifyColumns";
+
+/** A' as it is shown: on edited inputs where the monitor ran on them. */
+export function resultOf(output: VerifyOutput, memory: VerificationInfo["memory"]): string | null {
+  return memory === "set" && output.set !== null ? output.set : output.monitor;
+}
+
+export const isEdited = (row: VerifyRow) => Object.values(row.inputs).some(({ set }) => set !== null);
+
+/** Whether a unit of a row is not as it should be: an output with two results, an input that the monitor would have read otherwise. */
+export function differsIn(row: VerifyRow, { side, column }: Unit, memory: VerificationInfo["memory"]): boolean {
+  if (side === "output") {
+    const output = row.outputs[column.name];
+    return output !== undefined && output.control !== resultOf(output, memory);
+  }
+  const input = row.inputs[column.name];
+  return input?.expected != null && input.expected !== input.recorded;
+}
+
+/** The next row that differs, from a row on (null: from the front or the end); null when there is none. */
+export function nextDifferent(differing: readonly number[], from: number | null, by: 1 | -1): number | null {
+  if (from === null) return (by === 1 ? differing[0] : differing.at(-1)) ?? null;
+  if (by === 1) return differing.find((index) => index > from) ?? null;
+  return differing.findLast((index) => index < from) ?? null;
+}
+
+/** `Main.st, lines 33 to 42` and the like are the server's words; this is what the dialog begins with. */
+export interface RangeWish {
+  pou?: string | undefined;
+  file?: string | undefined;
+  first?: number | undefined;
+  last?: number | undefined;
+  instance?: string | undefined;
+}
+
+export const isWholeScan = ({ pou, file }: RangeWish) => !pou && !file;
+
+/** `1 200–1 450 (251)`, one in each line. */
+export function stretchLines(stretches: readonly (readonly [number, number])[]): string[] {
+  return stretches.map(([first, last]) =>
+    first === last ? grouped(first) : `${grouped(first)} – ${grouped(last)} (${grouped(last - first + 1)})`,
+  );
+}
+
+/** Scans `a` to `b` as somebody types them: thin gaps, spaces and commas between digits are no mistake; null: not a number. */
+export function scanTyped(text: string): number | null {
+  const digits = text.replace(/[\s\u2009\u202f,._']/g, "");
+  return /^\d+$/.test(digits) ? Number(digits) : null;
+}
+
+export const isGoing = ({ state }: Pick<VerificationInfo, "state">) =>
+  state === "starting" || state === "verifying" || state === "waiting";

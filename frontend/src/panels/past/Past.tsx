@@ -1,0 +1,15 @@
+import { ChangesDialog } from "./ChangesDialog";
+import { RerunDialog } from "./RerunDialog";
+import { WriterDialog } from "./WriterDialog";
+import "./past.css";
+
+/** The dialogs about the past, wherever they were asked for. */
+export function Past() {
+  return (
+    <>
+      <ChangesDialog />
+      <WriterDialog />
+      <RerunDialog />
+    </>
+  );
+}

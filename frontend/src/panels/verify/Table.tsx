@@ -1,0 +1,243 @@
+import { useVirtualizer } from "@tanstack/react-virtual";
+import { type CSSProperties, type KeyboardEvent, useEffect, useLayoutEffect, useMemo, useRef, useState } from "react";
+import { t } from "../../logic/text";
+import { isGoing } from "../../logic/verify";
+import { arranged, type Track, tracksInSight, tracksOf, unitsOf, wholeWidth } from "../../logic/verifyColumns";
+import type { ShownVerification } from "../../store/verify";
+import { useArrangement } from "../../store/verifyColumns";
+import { indexAt, lineCount, lineOfRow, seeLines, selectRow, useVerifyRows } from "../../store/verifyRows";
+import { Menu, type MenuItem } from "../../ui/Menu";
+import { useKeptScroll } from "../../ui/useKeptScroll";
+import { columnMenu } from "./columnMenu";
+import { useEditing } from "./editing";
+import { Heads } from "./Heads";
+import { RowLine } from "./RowLine";
+
+export const ROW = 24;
+/** Two lines of heads. */
+const HEAD = 46;
+
+/** A beside A', scan by scan. The grid holds the focus; the cell with the keys is its active descendant. */
+export function Table({ shown }: { shown: ShownVerification }) {
+  const { info } = shown;
+  const grid = useRef<HTMLDivElement>(null);
+  useKeptScroll(grid);
+  const rows = useVerifyRows();
+  const arrangement = useArrangement(info.title);
+  const units = useMemo(() => unitsOf(rows.columns), [rows.columns]);
+  const steps = useMemo(() => [...rows.byIndex.values()].some(({ kind }) => kind === "step"), [rows.byIndex]);
+  const tracks = useMemo(
+    () =>
+      tracksOf(arranged(units, arrangement), arrangement.pinned, { instances: info.instances.length > 1, steps }),
+    [units, arrangement, info.instances.length, steps],
+  );
+  const [menu, setMenu] = useState<{ items: MenuItem[]; at: { x: number; y: number } } | null>(null);
+  const across = useAcross(grid);
+  const drawn = useMemo(() => tracksInSight(tracks, across.left, across.width), [tracks, across]);
+  const count = lineCount(rows);
+  const virtual = useVirtualizer({
+    count,
+    getScrollElement: () => grid.current,
+    estimateSize: () => ROW,
+    overscan: 10,
+    scrollMargin: HEAD,
+    scrollPaddingStart: HEAD,
+    getItemKey: (line) => indexAt(rows, line),
+  });
+  const items = virtual.getVirtualItems();
+  const from = items[0]?.index ?? 0;
+  const to = (items.at(-1)?.index ?? -1) + 1;
+  useEffect(() => seeLines(from, Math.max(to, from + 40)), [from, to]);
+  useHeldPlace(grid, rows.first, rows.onlyDiffering);
+  useFollowing(grid, count, isGoing(info) && info.source === "live" && info.pace === "free", rows.selected);
+  const at = rows.selected === null ? -1 : lineOfRow(rows, rows.selected);
+  useReveal(at, (line) => virtual.scrollToIndex(line, { align: "auto" }));
+  const editing = useEditing(shown, grid);
+
+  function goTo(line: number, track = rows.track): void {
+    const target = Math.max(0, Math.min(count - 1, line));
+    if (count === 0) return;
+    selectRow(indexAt(rows, target), track);
+    virtual.scrollToIndex(target, { align: "auto" });
+  }
+
+  function goAcross(by: number): void {
+    const cells = tracks.slice(1);
+    const now = cells.findIndex(({ key }) => key === rows.track);
+    const next = cells[Math.max(0, Math.min(cells.length - 1, now + by))];
+    if (!next) return;
+    selectRow(rows.selected ?? indexAt(rows, from), next.key);
+    reveal(grid.current, tracks, next);
+  }
+
+  function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
+    if ((event.target as HTMLElement).matches("input, button")) return;
+    const page = Math.max(1, Math.floor(((grid.current?.clientHeight ?? 0) - HEAD) / ROW) - 1);
+    const down = { ArrowDown: 1, ArrowUp: -1, PageDown: page, PageUp: -page }[event.key];
+    const track = tracks.find(({ key }) => key === rows.track) ?? null;
+    const row = rows.selected === null ? undefined : rows.byIndex.get(rows.selected);
+    if (event.altKey && track?.unit && (event.key === "ArrowLeft" || event.key === "ArrowRight"))
+      columnMenu(info.title, units, track.unit)[event.key === "ArrowLeft" ? 0 : 1]?.onSelect();
+    else if (down !== undefined) goTo(at < 0 ? from : at + down);
+    else if (event.key === "ArrowLeft") goAcross(-1);
+    else if (event.key === "ArrowRight") goAcross(1);
+    else if (event.key === "Home") event.ctrlKey ? goTo(0) : goAcross(-tracks.length);
+    else if (event.key === "End") event.ctrlKey ? goTo(count - 1) : goAcross(tracks.length);
+    else if ((event.key === "Enter" || event.key === "F2") && row && track) editing.begin(row, track);
+    else if (event.key === "ContextMenu" && track) openMenu(track, event.currentTarget);
+    else return;
+    event.preventDefault();
+  }
+
+  function openMenu(track: Track, element: Element): void {
+    const { left, bottom } = (element.querySelector(".vfcell.at") ?? element).getBoundingClientRect();
+    if (track.unit) setMenu({ items: columnMenu(info.title, units, track.unit), at: { x: left, y: bottom } });
+  }
+
+  const width = wholeWidth(tracks);
+  const style = { "--cols": tracks.map((each) => `${each.width}px`).join(" "), "--whole": `${width}px` };
+  return (
+    <div
+      ref={grid}
+      className="grid scroll both ver"
+      role="grid"
+      aria-label={t("verify.table")}
+      aria-rowcount={count + 2}
+      aria-colcount={tracks.length}
+      aria-activedescendant={at >= from && at < to && at >= 0 ? `vf-${rows.selected}-${rows.track ?? ""}` : undefined}
+      style={style as CSSProperties}
+      tabIndex={0}
+      onKeyDown={onKeyDown}
+      onScroll={across.onScroll}
+    >
+      <Heads
+        range={info.title}
+        memory={info.memory}
+        units={units}
+        tracks={tracks}
+        drawn={drawn}
+        onMenu={(unit, at) => setMenu({ items: columnMenu(info.title, units, unit), at })}
+      />
+      <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
+        {items.map(({ index: line, key, start }) => {
+          const index = indexAt(rows, line);
+          return (
+            <RowLine
+              key={key}
+              row={rows.byIndex.get(index) ?? null}
+              index={index}
+              line={line}
+              top={start - HEAD}
+              drawn={drawn}
+              tracks={tracks}
+              memory={info.memory}
+              formats={arrangement.formats}
+              selected={index === rows.selected}
+              track={index === rows.selected ? rows.track : null}
+              editing={editing.at?.index === index ? editing : null}
+              onEdit={editing.begin}
+            />
+          );
+        })}
+      </div>
+      {count === 0 && <NoRows shown={shown} only={rows.onlyDiffering} />}
+      {menu && <Menu label={t("verify.column")} items={menu.items} at={menu.at} onClose={() => setMenu(null)} />}
+    </div>
+  );
+}
+
+function NoRows({ shown: { info }, only }: { shown: ShownVerification; only: boolean }) {
+  const text =
+    info.state === "failed"
+      ? info.message
+      : only && info.rows > 0
+        ? t("verify.nodifference", { count: info.compared })
+        : t(isGoing(info) ? "verify.norows.yet" : "verify.norows");
+  return (
+    <p className="lonely faint vfnone" role="status">
+      {text}
+    </p>
+  );
+}
+
+/** How far it is scrolled to the side, and how wide the window on it is. */
+function useAcross(grid: { current: HTMLDivElement | null }) {
+  const [sight, setSight] = useState({ left: 0, width: 1600 });
+  const note = () => {
+    const element = grid.current;
+    if (!element) return;
+    // In steps: most scrolling draws no other columns.
+    const left = Math.floor(element.scrollLeft / 120) * 120;
+    const width = element.clientWidth;
+    setSight((before) => (before.left === left && before.width === width ? before : { left, width }));
+  };
+  // biome-ignore lint/correctness/useExhaustiveDependencies: once for the element
+  useEffect(() => {
+    const element = grid.current;
+    if (!element) return;
+    const sized = new ResizeObserver(note);
+    sized.observe(element);
+    return () => sized.disconnect();
+  }, []);
+  return useMemo(() => ({ ...sight, onScroll: note }), [sight]);
+}
+
+/** Rows that are forgotten go at the front: what one reads stays where it is. */
+function useHeldPlace(grid: { current: HTMLDivElement | null }, first: number, onlyDiffering: boolean): void {
+  const before = useRef(first);
+  useLayoutEffect(() => {
+    const gone = first - before.current;
+    before.current = first;
+    if (gone > 0 && !onlyDiffering && grid.current) grid.current.scrollTop -= gone * ROW;
+  }, [first, onlyDiffering, grid]);
+}
+
+/** At the end of one that runs freely the newest rows come into sight by themselves, until somebody looks at another one. */
+function useFollowing(
+  grid: { current: HTMLDivElement | null },
+  count: number,
+  live: boolean,
+  selected: number | null,
+): void {
+  const follows = useRef(live);
+  useEffect(() => {
+    const element = grid.current;
+    if (!element) return;
+    const note = () => {
+      if (element.clientHeight > 0)
+        follows.current = element.scrollTop + element.clientHeight >= element.scrollHeight - ROW;
+    };
+    const stop = (event: WheelEvent) => {
+      if (event.deltaY < 0) follows.current = false;
+    };
+    element.addEventListener("scroll", note, { passive: true });
+    element.addEventListener("wheel", stop, { passive: true });
+    return () => {
+      element.removeEventListener("scroll", note);
+      element.removeEventListener("wheel", stop);
+    };
+  }, [grid]);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: more rows are the reason
+  useLayoutEffect(() => {
+    if (live && follows.current && selected === null && grid.current) grid.current.scrollTop = grid.current.scrollHeight;
+  }, [count, live, selected, grid]);
+}
+
+/** Where a jump leads comes into sight; what goes on meanwhile moves nothing. */
+function useReveal(line: number, reveal: (line: number) => void): void {
+  const selected = useVerifyRows((rows) => rows.selected);
+  const last = useRef<number | null>(null);
+  useEffect(() => {
+    if (line < 0 || last.current === selected) return;
+    last.current = selected;
+    reveal(line);
+  }, [line, selected, reveal]);
+}
+
+function reveal(grid: HTMLElement | null, tracks: readonly Track[], track: Track): void {
+  if (!grid || track.sticky) return;
+  const covered = tracks.filter(({ sticky }) => sticky).reduce((sum, { width }) => sum + width, 0);
+  if (track.left < grid.scrollLeft + covered) grid.scrollLeft = track.left - covered;
+  else if (track.left + track.width > grid.scrollLeft + grid.clientWidth)
+    grid.scrollLeft = track.left + track.width - grid.clientWidth;
+}

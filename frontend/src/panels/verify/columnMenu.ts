@@ -1,0 +1,25 @@
+import { formatsFor } from "../../logic/formats";
+import { t } from "../../logic/text";
+import { plainArrangement, type Unit } from "../../logic/verifyColumns";
+import { shapeOf } from "../../logic/verifyValues";
+import { moveColumn, setColumnFormat, toggleHidden, togglePinned, useArrangements } from "../../store/verifyColumns";
+import type { MenuItem } from "../../ui/Menu";
+
+/** What can be done with a column; the first two move it to the left and to the right. */
+export function columnMenu(range: string, units: readonly Unit[], { key, column }: Unit): MenuItem[] {
+  const arrangement = useArrangements.getState().of.get(range) ?? plainArrangement;
+  const pinned = arrangement.pinned.includes(key);
+  const chosen = arrangement.formats[column.name] ?? "default";
+  return [
+    { label: t("verify.column.left"), hint: "Alt+←", onSelect: () => moveColumn(range, units, key, -1) },
+    { label: t("verify.column.right"), hint: "Alt+→", onSelect: () => moveColumn(range, units, key, 1) },
+    { label: t(pinned ? "verify.unpin" : "verify.pin.menu"), onSelect: () => togglePinned(range, key) },
+    { label: t("verify.column.hide"), onSelect: () => toggleHidden(range, key) },
+    ...formatsFor(shapeOf(column)).map((format, at) => ({
+      label: t(`format.${format}`),
+      checked: format === chosen,
+      separated: at === 0,
+      onSelect: () => setColumnFormat(range, column.name, format),
+    })),
+  ];
+}

@@ -1,0 +1,27 @@
+/** Copies a text. Pages that came over plain HTTP from another machine have no clipboard of their own: there a selection is copied. */
+export async function copyText(text: string): Promise<boolean> {
+  try {
+    if (navigator.clipboard) {
+      await navigator.clipboard.writeText(text);
+      return true;
+    }
+  } catch {
+    // Not allowed to this page: the other way may be.
+  }
+  return copySelection(text);
+}
+
+function copySelection(text: string): boolean {
+  const field = document.createElement("textarea");
+  field.value = text;
+  field.style.position = "fixed";
+  field.style.opacity = "0";
+  const active = document.activeElement;
+  // What is outside of a modal dialog cannot be selected.
+  ([...document.querySelectorAll("dialog:modal")].at(-1) ?? document.body).append(field);
+  field.select();
+  const done = document.execCommand("copy");
+  field.remove();
+  if (active instanceof HTMLElement) active.focus();
+  return done;
+}

@@ -1,0 +1,40 @@
+/** Verifications of an instance, their rows, and what was kept of them: the routes of `web/routes_verify.py`. */
+import { json, request } from "./rest";
+import type {
+  DriveVerification,
+  NewVerification,
+  SetCell,
+  VerificationInfo,
+  VerificationRecord,
+  VerifyRows,
+  VerifyUse,
+} from "./types";
+
+/** Where rows come from. */
+export type VerifySource = { kind: "verification" | "record"; id: number };
+export type ExportFormat = "csv" | "json" | "html";
+
+const base = ({ kind, id }: VerifySource) =>
+  kind === "verification" ? `/verifications/${id}` : `/verification-records/${id}`;
+
+export const verify = {
+  all: (instance: number) => json<VerificationInfo[]>("GET", `/instances/${instance}/verifications`),
+  begin: (instance: number, wanted: NewVerification) =>
+    json<VerificationInfo>("POST", `/instances/${instance}/verifications`, wanted),
+  drive: (verification: number, how: DriveVerification) =>
+    json<VerificationInfo>("PATCH", `/verifications/${verification}`, how),
+  delete: async (verification: number): Promise<void> => {
+    await request("DELETE", `/verifications/${verification}`);
+  },
+  /** Rows from index `first` on; `differing`: only those that differ count. */
+  rows: (of: VerifySource, first: number, count: number, differing: boolean) =>
+    json<VerifyRows>("GET", `${base(of)}/rows?first=${first}&count=${count}&differing=${differing}`),
+  setCells: (verification: number, cells: readonly SetCell[]) =>
+    json<VerificationInfo>("POST", `/verifications/${verification}/cells`, { cells }),
+  uses: (verification: number, scan: number, call: number) =>
+    json<VerifyUse[]>("GET", `/verifications/${verification}/uses?scan=${scan}&call=${call}`),
+  export: async (of: VerifySource, format: ExportFormat): Promise<Blob> =>
+    (await request("GET", `${base(of)}/export?format=${format}`)).blob(),
+  keep: (verification: number, name: string) =>
+    json<VerificationRecord>("POST", `/verifications/${verification}/keep`, { name }),
+};

@@ -1,0 +1,14 @@
+/** Verifications that were kept in a project: the routes of `web/routes_verify.py`. */
+import { json, request } from "./rest";
+import type { VerificationRecord } from "./types";
+
+export const verifyRecords = {
+  all: (project: number) => json<VerificationRecord[]>("GET", `/projects/${project}/verification-records`),
+  delete: async (record: number): Promise<void> => {
+    await request("DELETE", `/verification-records/${record}`);
+  },
+};
+
+/** Where a kept verification stands as a file. */
+export const recordFile = (record: number, format: "csv" | "json" | "html") =>
+  `/api/verification-records/${record}/export?format=${format}`;
