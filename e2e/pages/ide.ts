@@ -5,6 +5,7 @@ import { Editor } from './editor';
 import { Explorer } from './explorer';
 import { Forces } from './forces';
 import { InstanceList } from './instances';
+import { Past } from './past';
 import { Problems } from './problems';
 import { Simulator } from './simulator';
 import { Sweeps } from './sweep';
@@ -23,6 +24,7 @@ export class Ide {
   readonly problems: Problems;
   readonly diagnostics: Diagnostics;
   readonly timeline: Timeline;
+  readonly past: Past;
   readonly instances: InstanceList;
   readonly debug: Debug;
 
@@ -36,6 +38,7 @@ export class Ide {
     this.problems = new Problems(page);
     this.diagnostics = new Diagnostics(page);
     this.timeline = new Timeline(page);
+    this.past = new Past(page);
     this.instances = new InstanceList(page);
     this.debug = new Debug(page);
   }

@@ -12,7 +12,7 @@ from scanbench.cli.inputs import usage
 if TYPE_CHECKING:
     from scanbench.bench.run import Result
 
-SUBJECTS = ("instances", "pace", "goto", "watch", "debugging", "trace")
+SUBJECTS = ("instances", "pace", "goto", "watch", "debugging", "trace", "verify")
 BUILDING = (
     ("cold", "text to first scan, cold", "ms"),
     ("cached", "text to first scan, from the disk cache", "ms"),
@@ -35,7 +35,8 @@ def bench(
     """Measure the bench programs: ns per scan, ratio to hand-written C (gcc -O3), what peers reach, what builds take.
 
     Or a subject: instances (many PLCs at once), pace (lateness, scans a second), goto (time travel), watch (live values),
-    debugging (what breakpoints cost), trace (recording every scan);
+    debugging (what breakpoints cost), trace (recording every scan), verify (a second execution,
+    time travel, who wrote last);
     `bench SUBJECT --help` explains its own options.
     """
     from scanbench.bench.run import BenchError, run_bench

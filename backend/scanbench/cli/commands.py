@@ -6,11 +6,13 @@ from scanbench import __version__
 from scanbench.cli.bench import bench
 from scanbench.cli.check import check
 from scanbench.cli.dap import dap
+from scanbench.cli.diff import diff
 from scanbench.cli.errors import errors
 from scanbench.cli.model import model
 from scanbench.cli.replay import replay
 from scanbench.cli.run import run
 from scanbench.cli.serve import serve
+from scanbench.cli.verify import verify
 
 app = typer.Typer(
     no_args_is_help=True,
@@ -19,7 +21,7 @@ app = typer.Typer(
     pretty_exceptions_enable=False,
     help="A bench for debugging PLC programs (IEC 61131-3) on virtual PLCs of real models.",
 )
-for command in (serve, check, run, replay, dap):
+for command in (serve, check, run, verify, replay, diff, dap):
     app.command()(command)
 # its subjects have options of their own
 app.command(context_settings={"allow_extra_args": True, "ignore_unknown_options": True})(bench)

@@ -24,6 +24,8 @@ from scanbench.faults.arm import Arm
 from scanbench.faults.detect import Detection
 from scanbench.faults.schedule import Schedule
 from scanbench.runtime.headless import run_headless
+from scanbench.runtime.joined import Joined
+from scanbench.verify.disturb_schedule import DisturbanceSchedule
 
 
 class EngineChoice(StrEnum):
@@ -93,7 +95,7 @@ def run(
         with recorded(record, program, below(path, sources.texts), read_interval(interval)) as recording:
             result = run_headless(
                 program, scans, ENGINES[engine], commands, every, lambda plc: values(plc, shown),
-                detect=Detection(), agenda=Schedule(OBSERVED[engine]), recording=recording, until=condition,
+                detect=Detection(), agenda=Joined(Schedule(OBSERVED[engine]), DisturbanceSchedule()), recording=recording, until=condition,
             )  # fmt: skip
             if recording is not None:
                 check_whole(recording)

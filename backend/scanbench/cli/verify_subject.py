@@ -1,7 +1,7 @@
 """What `scanbench verify` verifies: the scans of a run file, a project's run that is made on the spot, or a trace."""
 
 import tempfile
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -30,8 +30,9 @@ from scanbench.verify.engines import Make
 from scanbench.verify.mapping import BadMapping, TraceMapping, propose
 from scanbench.verify.report import Source
 from scanbench.verify.trace_bind import check
-from scanbench.verify.trace_read import BadTraceFile, Table, TraceProblem, read_trace
+from scanbench.verify.trace_read import read_trace
 from scanbench.verify.trace_run import TraceVerifier
+from scanbench.verify.trace_table import BadTraceFile, Table, TraceProblem
 from scanbench.verify.verified import Range, ScanVerified
 from scanbench.verify.verifier import Begun, Unverifiable, Verifier
 
@@ -116,7 +117,7 @@ def _is_run(path: Path) -> bool:
 @contextmanager
 def _run_file(path: Path, make: Make) -> Iterator[Verifier]:
     try:
-        with Verifier(path, ENTRIES, _program_of, make) as verifier:
+        with Verifier(path, ENTRIES, _program_of, make, lambda kept: sources_in(kept).files) as verifier:
             yield verifier
     except OSError as error:
         usage(f"{path} cannot be read: {error.strerror or error}")
@@ -176,7 +177,7 @@ def _ran(given: Given, path: Path) -> tuple[Program, str]:
 
 
 def _trace(given: Given, path: Path) -> Subject:
-    program, instance = _program_for_trace(given)
+    program, files = _program_for_trace(given)
     try:
         table = read_trace(path.read_bytes(), path.name)
     except OSError as error:
@@ -190,22 +191,23 @@ def _trace(given: Given, path: Path) -> Subject:
             typer.echo(f"{_where(path, problem)}: {problem.message}", err=True)
     if checked.trace is None:
         _refuse(path, checked.problems)
-    verifier = TraceVerifier(program, checked.trace, path.name)
+    verifier = TraceVerifier(program, checked.trace, path.name, files)
     notes = " ".join(filter(None, (table.note, note)))
     return Subject(
-        verifier, given.path.resolve().name, instance, program.layout.model.name, "trace", path.name, notes
+        verifier, given.path.resolve().name, "real controller", program.layout.model.name, "trace", path.name, notes
     )  # fmt: skip
 
 
-def _program_for_trace(given: Given) -> tuple[Program, str]:
+def _program_for_trace(given: Given) -> tuple[Program, Mapping[str, str]]:
+    """The project's program, or the last one of a run, and its files."""
     if not _is_run(given.path):
-        return _program(given)[0], "real controller"
+        return _program(given)
     try:
         with Recording.open(given.path, ENTRIES, read_only=True) as recording:
             kept = sources_in(recording.programs[max(recording.programs)])
         model = model_of(kept)
         sources = sources_of(given.path, {model.name: model})
-        return checked_program(sources, model), "real controller"
+        return checked_program(sources, model), sources.files
     except OSError as error:
         usage(f"{given.path} cannot be read: {error.strerror or error}")
     except (RunFileError, NoProgram) as error:

@@ -61,7 +61,7 @@ def notes_of(placed: Sequence[Placed], placing: Placing) -> tuple[Probe, ...] | 
             sites = writers(placing.program, placing.sites, each.symbol)
             if sites is None:
                 return None
-            found += [Probe(site, None, False) for site in sorted(sites)]
+            found += [Probe(site, sites[site], False) for site in sorted(sites)]
         elif each.breakpoint.kind not in ("error", "trap", "scan"):
             return None
     return tuple(found)

@@ -21,8 +21,10 @@ Raised = Callable[[Entry], tuple[str, ...]]
 """The errors that an entry of the journal raises."""
 _WORTH = 256
 """Scans for which code with probes is worth making."""
-_TRIES = 16
-"""Scans in which a probe was reached in vain, before all are looked at statement by statement."""
+_TRIES = 4
+"""Scans in which a probe was reached in vain, before all are looked at statement by statement: ..."""
+_LOOK, _WIDER = 1_000, 8
+"""... so many from the end, and then so many times more."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -41,6 +43,18 @@ class Noting(Listener):
     noted: Noted | None = None
     before: Position = (1 << 62, 0)
     """What is there and behind it does not count."""
+
+    def _tell(self, in_scan: bool = False) -> None:
+        """Nobody need be told that a scan begins, where accesses are all that is looked for and stay where they are."""
+        if self._only_accesses:
+            self._resource.listen(Listen(bytes=self._watching.bytes))
+        else:
+            super()._tell(in_scan)
+
+    @property
+    def _only_accesses(self) -> bool:
+        others = self._at or self._scans or self._violations or self._watching.moving or self.passed.end is not None
+        return not others and self.pending is None
 
     def statement(self, site: int, count: int, depth: int) -> bool:
         """See `Hook`."""
@@ -163,6 +177,12 @@ class Search:
             scans = range(scans.start, reached)
             if not scans:
                 return None
+        look = _LOOK
+        while len(scans) > look:
+            found = self._last(range(scans.stop - look, scans.stop))
+            if found is not None:
+                return found
+            scans, look = range(scans.start, scans.stop - look), look * _WIDER
         return self._last(scans)
 
     def _last_reached(self, scans: range) -> Refusal | int | None:

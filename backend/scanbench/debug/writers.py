@@ -7,23 +7,39 @@ from scanbench.check.local import this_of
 from scanbench.check.program import (
     Assign,
     Base,
+    Binary,
     CallBlock,
     CallFunction,
+    Compare,
+    Const,
+    Convert,
+    Expr,
     For,
+    Limit,
     Place,
     Pou,
     Program,
+    RefOf,
+    Sequence,
     SetBytes,
     Stmt,
+    Violates,
 )
 from scanbench.check.sites import Sites
+from scanbench.check.standard.library import in_library
 from scanbench.check.symbols import Symbol, holding
-from scanbench.check.types import Elementary, Kind, Record, Section, Type, base_of
+from scanbench.check.types import BOOL, LWORD, ULINT, Elementary, Kind, Record, Reference, Section, Type, base_of
 from scanbench.problems import Span
 
+_ANYTHING = Reference("REF_TO", Kind.REF, 8)
 
-def writers(program: Program, sites: Sites, symbol: Symbol) -> frozenset[int] | None:
-    """The sites; None when nothing can be said, as where it lies changes while the program runs."""
+
+def writers(program: Program, sites: Sites, symbol: Symbol) -> dict[int, Expr | None] | None:
+    """The sites; None when nothing can be said, as where it lies changes while the program runs.
+
+    With each a condition in the scope of its POU, without which the statement does not write the variable: that it is
+    this element of the array, this instance. None: it may write it whenever it runs.
+    """
     if symbol.slots:
         return None
     return _Search(program, sites, symbol).found()
@@ -39,23 +55,42 @@ class _Search:
         self._typed = symbol.address is None and symbol.bit is None and not mixed
         self._passed: bool | None = None
 
-    def found(self) -> frozenset[int]:
+    def found(self) -> dict[int, Expr | None]:
         """All of them."""
-        found = {site for pou in self._sites.bodies for site in self._in_body(pou, pou.body)}
+        found = {site: when for pou in self._sites.bodies for site, when in self._in_body(pou, pou.body)}
         for task in self._program.tasks:
             for each in task.programs:
                 for stmt in (*each.before, *each.after):
                     number = self._sites.number(stmt)
                     if number is not None and any(self._may_be(each.pou, place) for place in _written(stmt, self)):
-                        found.add(number)
-        return frozenset(found)
+                        found[number] = None
+        return found
 
-    def _in_body(self, pou: Pou, body: tuple[Stmt, ...]) -> Iterator[int]:
+    def _in_body(self, pou: Pou, body: tuple[Stmt, ...]) -> Iterator[tuple[int, Expr | None]]:
         for stmt in _numbered(body, self._sites):
-            if any(self._may_be(pou, place) for place in _written(stmt, self)):
+            places = [place for place in _written(stmt, self) if self._may_be(pou, place)]
+            if places:
                 number = self._sites.number(stmt)
                 assert number is not None
-                yield number
+                yield number, self._when(stmt, places)
+
+    def _when(self, stmt: Stmt, places: list[Place | None]) -> Expr | None:
+        """That an assignment writes the variable, where its target can be told before it runs."""
+        if not isinstance(stmt, Assign) or len(places) != 1 or places[0] is not stmt.target:
+            return None
+        target = stmt.target
+        fixed = target.base is not Base.SELF and not (target.indices or target.slot or target.reference)
+        if fixed or not target.type.size or not (_is_plain(target, False) and _is_plain(stmt.value, True)):
+            return None
+        offset = Binary("and", LWORD, Convert(LWORD, RefOf(target, _ANYTHING)), Const(LWORD, 0xFFFF_FFFF))
+        below = Compare("lt", LWORD, offset, Const(LWORD, self._end))
+        above = Compare(
+            "gt",
+            LWORD,
+            Binary("add", ULINT, Convert(ULINT, offset), Const(ULINT, target.type.size)),
+            Const(ULINT, self._begin),
+        )
+        return Binary("and", BOOL, below, above)
 
     def number(self, stmt: object) -> int | None:
         """The site of a statement."""
@@ -111,6 +146,27 @@ class _Search:
         if not self._typed or not (isinstance(type, Elementary) and isinstance(own, Elementary)):
             return True
         return _kind(type) == _kind(own)
+
+
+def _is_plain(node: object, value: bool) -> bool:
+    """Whether evaluating this changes nothing; of a value: nothing that an index could depend on."""
+    match node:
+        case tuple():
+            return all(_is_plain(each, value) for each in node)
+        case Sequence():
+            return False
+        case Limit() | Violates() if not value:
+            return False
+        case CallFunction(pou=pou, args=args):
+            return (
+                value
+                and in_library(pou.span)
+                and not any(isinstance(each, Place) for each in args)
+                and _is_plain(args, value)
+            )
+    if not is_dataclass(node) or isinstance(node, Pou | Type | Span | type):
+        return True
+    return all(_is_plain(getattr(node, field.name), value) for field in fields(node))
 
 
 def _kind(type: Elementary) -> tuple[Kind, int]:

@@ -19,6 +19,8 @@ class HeldByte:
     offset: int
     mask: int
     value: int
+    since: int
+    """In front of which scan that began."""
     came: int = 0
     """Bits that somebody wrote meanwhile ..."""
     real: int = 0
@@ -55,7 +57,9 @@ def _step(helds: Helds, entry: Entry) -> Helds:
     effect = entry.plan.effect
     match effect:
         case Held(number, spots):
-            more = {f"{number}.{offset}": HeldByte(number, offset, mask, value) for offset, mask, value in spots}
+            more = {
+                f"{number}.{offset}": HeldByte(number, offset, mask, value, entry.scan) for offset, mask, value in spots
+            }
             return {**helds, **more} if more else helds
         case Freed(numbers):
             left = {key: each for key, each in helds.items() if each.number not in numbers}

@@ -25,8 +25,9 @@ from scanbench.faults.shapes import Start as FaultStart
 from scanbench.problems import Span
 from scanbench.runtime.carry_over import Lost
 from scanbench.runtime.clear_violations import ClearViolations
-from scanbench.runtime.command import Entry, Numbered, Patch, Plan, Restarted, Swapped
+from scanbench.runtime.command import Entry, Freed, Held, Numbered, Patch, Plan, Restarted, Swapped
 from scanbench.runtime.forces import FORCED, Force, ForcedValue, Release
+from scanbench.runtime.holds import HELD
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.recording import RecordingInfo
@@ -34,10 +35,12 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped
 from scanbench.runtime.write import Write
-from scanbench.session import debug_protocol, job_protocol, protocol, trace_protocol, verify_protocol
+from scanbench.session import debug_protocol, events, job_protocol, protocol, trace_protocol, verify_protocol
 from scanbench.taps.covered import CoveredFile, CoveredSite
 from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
-from scanbench.verify.disturb import DisturbanceInfo
+from scanbench.verify.disturb import DISTURBED, Calm, Disturb, DisturbanceInfo
+from scanbench.verify.disturb_fire import Corrupt, Flip, Hold, Unfired, Unhold
+from scanbench.verify.disturb_wanted import Disturbance
 from scanbench.verify.findings import Change, Changes, Divergence, RerunChange, Writer
 from scanbench.verify.verified import Column, Input, Mismatch, Output, Place, Range, Row
 
@@ -72,13 +75,15 @@ _CLASSES: dict[str, type] = {
         TraceDefinition, TraceSignal, TraceTrigger, trace_protocol.DefineTrace, trace_protocol.DriveTrace,
         trace_protocol.ReadTrace, trace_protocol.TraceStatus, trace_protocol.TracesAre, trace_protocol.TraceRead,
         trace_protocol.RecordFlight, trace_protocol.FlightAt, trace_protocol.FlightDone,
+        Calm, Corrupt, Disturb, Disturbance, DisturbanceInfo, Flip, Freed, Held, Hold, Unfired, Unhold,
         Column, Input, Mismatch, Output, Place, Range, Row, Change, Changes, Divergence, RerunChange, Writer, DisturbanceInfo,
         verify_protocol.BeginVerify, verify_protocol.BeginTrace, verify_protocol.VerifyScans, verify_protocol.VerifyStep,
         verify_protocol.SetInputs, verify_protocol.UsesOf, verify_protocol.VerifyBegun, verify_protocol.VerifyRefused,
         verify_protocol.PackedRow, verify_protocol.ScansVerified, verify_protocol.UseRow, verify_protocol.UsesAre,
         verify_protocol.FindWriter, verify_protocol.WriterFound, verify_protocol.FindChanges, verify_protocol.ChangesFound,
         verify_protocol.CompareRuns, verify_protocol.PastAt, verify_protocol.RunsCompared, verify_protocol.RerunRun,
-        verify_protocol.RerunDone,
+        verify_protocol.RerunDone, events.VerificationStatus, events.VerifyWish,
+        Disturb, Disturbance, Calm, Flip, Hold, Unhold, Corrupt, Unfired, Held, Freed,
     )
 }  # fmt: skip
 _CLASSES["FaultStart"] = FaultStart  # there is another Start
@@ -128,7 +133,7 @@ class Splitter:
 class EntryCodec:
     """How a run file keeps journal entries."""
 
-    folds = (FORCED, ACTIVE, TRAPPED, ARMED, NUMBERED)
+    folds = (FORCED, ACTIVE, TRAPPED, ARMED, NUMBERED, DISTURBED, HELD)
 
     def pack(self, entry: Entry) -> bytes:
         """The bytes of an entry."""

@@ -241,7 +241,7 @@ class FlightChanged:
 
 
 @dataclass(frozen=True, slots=True)
-class Wanted:
+class VerifyWish:
     """What somebody wants verified."""
 
     range: Range
@@ -259,7 +259,7 @@ class VerificationStatus:
     id: int
     instance: int
     by: str
-    wanted: Wanted
+    wanted: VerifyWish
     source: Literal["live", "past", "trace"]
     pace: VerifyPace
     auto: bool = False

@@ -84,7 +84,7 @@ class Job:
 
     def _asked_about_past(self, request: past_job.Request) -> None:
         if self._past is None:
-            self._past = past_job.PastJob(self._program, self._cache, self._say)
+            self._past = past_job.PastJob(self._program, self._cache, self._make, self._say)
         try:
             self._past.on_request(request)
         except Exception as error:  # as above

@@ -17,6 +17,7 @@ from scanbench.runtime.trap import Trapped
 from scanbench.runtime.write import Write
 from scanbench.session.events import TimelineChanged
 from scanbench.session.protocol import RunMark, RunMarks
+from scanbench.verify.disturb import is_disturbance
 
 LIMIT = 5000
 """Marks that are kept to be shown."""
@@ -30,7 +31,7 @@ _LONGEST = 200
 
 def kind_of(command: Command) -> str:
     """The kind of a line of the log, or of a mark."""
-    return _KINDS.get(type(command), "system")
+    return "disturbance" if is_disturbance(command) else _KINDS.get(type(command), "system")
 
 
 def marks_of(entries: Sequence[Entry]) -> tuple[RunMark, ...]:

@@ -1,13 +1,14 @@
 """In a job process: questions about the past of runs. Run files stay open between questions."""
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable
 from pathlib import Path
 
-from scanbench.debug.probing import Prober
 from scanbench.engines.cache import BlobCache
+from scanbench.engines.observe import MakeObserved
+from scanbench.faults.schedule import Schedule
 from scanbench.runtime.clock import monotonic_ns
-from scanbench.runtime.contents import KeptProgram
-from scanbench.runtime.programs import NoProgram, Shelf
+from scanbench.runtime.joined import Joined
+from scanbench.runtime.programs import NoProgram
 from scanbench.runtime.runfile import RunFileError
 from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import sources_in
@@ -25,8 +26,9 @@ from scanbench.session.verify_protocol import (
     WriterFound,
 )
 from scanbench.verify.changes import find_changes
+from scanbench.verify.disturb_schedule import DisturbanceSchedule
 from scanbench.verify.divergence import find_divergence
-from scanbench.verify.engines import native
+from scanbench.verify.past_engines import past_engines, programs_of
 from scanbench.verify.reading import NoReading, Reading
 from scanbench.verify.rerun import rerun
 from scanbench.verify.writer import find_writer
@@ -41,10 +43,12 @@ REFUSALS = (NoReading, NoStart, NoProgram, RunFileError, OSError)
 class PastJob:
     """Keeps the run files that were asked about."""
 
-    def __init__(self, program_of: ProgramOf, cache: BlobCache | None, say: Callable[[object], None]) -> None:
-        self._program_of, self._say = program_of, say
-        self._make = native(cache)
-        self._prober = _prober(cache)
+    def __init__(
+        self, program_of: ProgramOf, cache: BlobCache | None, observed: MakeObserved, say: Callable[[object], None]
+    ) -> None:  # fmt: skip
+        self._observed, self._say = observed, say
+        make, self._prober = past_engines(cache)
+        self._programs_of = programs_of(lambda kept: program_of(sources_in(kept)), make)
         self._open: dict[str, Reading] = {}
 
     def on_request(self, ask: Request) -> None:
@@ -82,9 +86,10 @@ class PastJob:
             return RunsCompared(ask.ref, None, _words(why))
 
     def _rerun(self, ask: RerunRun) -> RerunDone:
+        agenda = Joined(Schedule(self._observed), DisturbanceSchedule())
         try:
             made = rerun(
-                Path(ask.run), Path(ask.to), ask.change, self._programs_of, ENTRIES, ask.author, ask.until or None,
+                self._reading(ask.run, ask.until), Path(ask.to), ask.change, ask.author, self._programs_of, ENTRIES, agenda,
                 self._telling(ask.ref),
             )  # fmt: skip
         except REFUSALS as why:
@@ -92,15 +97,14 @@ class PastJob:
         return RerunDone(ask.ref, True, made.scan, made.refused)
 
     def _reading(self, run: str, until: int) -> Reading:
-        reading = self._open.pop(run, None) or Reading(Path(run), self._programs_of, ENTRIES)
+        reading = self._open.pop(run, None) or Reading(
+            Path(run), self._programs_of, ENTRIES, lambda kept: sources_in(kept).files
+        )
         self._open[run] = reading  # the last one used stands last
         while len(self._open) > _OPEN:
             self._open.pop(next(iter(self._open))).close()
         reading.follow(until or None)
         return reading
-
-    def _programs_of(self, kept: Mapping[int, KeptProgram]) -> Shelf:
-        return Shelf(*(self._make(each.version, self._program_of(sources_in(each))) for each in kept.values()))
 
     def _telling(self, ref: int) -> Callable[[int, int], None]:
         told = 0
@@ -112,14 +116,6 @@ class PastJob:
                 self._say(PastAt(ref, done, of))
 
         return on_progress
-
-
-def _prober(cache: BlobCache | None) -> Prober | None:
-    try:
-        from scanbench.engines.native.probed import ProbedBuilds
-    except ImportError:
-        return None
-    return ProbedBuilds(cache).engine
 
 
 def _words(why: Exception) -> str:

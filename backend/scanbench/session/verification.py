@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Literal
 
 from scanbench.session import debug_protocol, protocol
-from scanbench.session.events import Event, StateChanged, VerificationStatus, VerifyPace, Wanted
+from scanbench.session.events import Event, StateChanged, VerificationStatus, VerifyPace, VerifyWish
 from scanbench.session.jobs import DIED, Job
 from scanbench.session.refused import Refused
 from scanbench.session.session import Session
@@ -53,7 +53,7 @@ class Verification:
     """Everything in the event loop. `on_change` is called whenever the status is another."""
 
     def __init__(
-        self, id: int, session: Session, wanted: Wanted, trace: TraceSource | None, author: str, cache: Path,
+        self, id: int, session: Session, wanted: VerifyWish, trace: TraceSource | None, author: str, cache: Path,
         on_change: Callable[["Verification"], None],
     ) -> None:  # fmt: skip
         self.session, self.rows = session, Rows()
@@ -71,6 +71,8 @@ class Verification:
         """The scan that is to be verified next."""
         self._count = 0
         """Of a stretch of the past that is gone through step by step: the statement that is next."""
+        self._stepping = 0
+        """The statement of the step that is under way; -1: it is the seam; 0: whole scans are."""
         self._halt = 0
         self._owed = 0
         """Scans that somebody may still go on by, with pace `scan`."""
@@ -218,7 +220,7 @@ class Verification:
                 self._scans(self._next, self._next, until)
             else:
                 self._count += 1
-                self._busy = self._send(lambda ref: VerifyStep(ref, self._next, self._count, until))
+                self._step(self._next, self._count, until)
         elif status.state != "waiting":
             self._change(state="waiting")
 
@@ -226,12 +228,20 @@ class Verification:
         halt = self.session.state.halt
         if halt is None or halt.past or halt.number == self._halt:
             return
+        if self._next < halt.scan:  # those that are over by now are compared as a whole
+            if halt.scan - self._next > BEHIND:
+                self._skip(halt.scan - CAUGHT_UP)
+            self._scans(self._next, halt.scan - 1, live)
+            return
         self._halt = halt.number
-        if self._next < halt.scan:
-            self._skip(halt.scan)
-        self._busy = self._send(lambda ref: VerifyStep(ref, halt.scan, halt.count, live))
+        self._step(halt.scan, halt.count, live)
+
+    def _step(self, scan: int, count: int, until: int) -> None:
+        self._stepping = count or -1
+        self._busy = self._send(lambda ref: VerifyStep(ref, scan, count, until))
 
     def _scans(self, first: int, last: int, until: int) -> None:
+        self._stepping = 0
         self._busy = self._send(lambda ref: VerifyScans(ref, first, last, until))
         if self.status.state != "verifying":
             self._change(state="verifying", message="")
@@ -310,8 +320,8 @@ class Verification:
     def _verified(self, came: ScansVerified) -> None:
         status = self.status
         self.rows.add(came)
-        stepped = bool(came.rows) and status.pace == "step"
-        if not stepped or (came.rows and came.rows[-1].count == 0):  # a step at the end of a scan is behind it
+        over = not self._stepping or (self._stepping > 0 and bool(came.rows) and came.rows[-1].count == 0)
+        if over:
             self._next, self._count = max(self._next, came.scan + 1), 0
         first = status.first_difference
         new = next((row for row in came.rows if row.first is not None), None)

@@ -1,16 +1,15 @@
 """The verifications of a server: those that go on, and those that somebody kept."""
 
 import asyncio
-import json
 from collections.abc import Iterable
-from dataclasses import asdict, dataclass
+from dataclasses import dataclass
 from pathlib import Path
-from typing import Literal, cast
+from typing import Literal
 
 from scanbench import __version__
 from scanbench.runtime.clock import iso, monotonic_ns, wall_time
-from scanbench.session.codec import BadMessage, Splitter, pack
-from scanbench.session.events import VerificationsChanged, VerificationStatus, VerifyPace, Wanted
+from scanbench.session.codec import BadMessage, Splitter, pack, pack_body, unpack
+from scanbench.session.events import VerificationsChanged, VerificationStatus, VerifyPace, VerifyWish
 from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.session.trace_files import TraceFile
@@ -24,7 +23,7 @@ from scanbench.verify.report import Report, ReportHead
 from scanbench.verify.report_html import to_html
 from scanbench.verify.report_json import to_json
 from scanbench.verify.table_csv import to_csv
-from scanbench.verify.verified import Memory, Mismatch, Place, Range, Row
+from scanbench.verify.verified import Memory, Range, Row
 
 MOST = 6
 """Verifications at a time: each is a process."""
@@ -91,7 +90,7 @@ class Verifications:
         """Those of an instance, the oldest first."""
         return tuple(each.status for each in self._all.values() if each.session is session)
 
-    async def begin(self, session: Session, wanted: Wanted, author: str) -> VerificationStatus:
+    async def begin(self, session: Session, wanted: VerifyWish, author: str) -> VerificationStatus:
         """Verifies the run of an instance."""
         return await self._begin(session, wanted, None, author)
 
@@ -100,10 +99,10 @@ class Verifications:
     ) -> VerificationStatus:  # fmt: skip
         """Verifies the trace of a real controller with the program of an instance."""
         trace = TraceSource(file.path, file.name, mapping.to_json())
-        return await self._begin(session, Wanted(range, "free", 0, None, limit), trace, author)
+        return await self._begin(session, VerifyWish(range, "free", 0, None, limit), trace, author)
 
     async def _begin(
-        self, session: Session, wanted: Wanted, trace: TraceSource | None, author: str
+        self, session: Session, wanted: VerifyWish, trace: TraceSource | None, author: str
     ) -> VerificationStatus:  # fmt: skip
         if len(self._all) >= MOST:
             over = [id for id, each in self._all.items() if each.status.state in ("done", "failed", "stopped")]
@@ -219,7 +218,7 @@ class Verifications:
         session, status, rows = verification.session, verification.status, verification.rows
         if not rows.kept:
             raise Refused("nothing was verified yet: let it run first")
-        content: Json = {"status": _status_to_json(status), "model": session.sources.model}
+        content: Json = {"status": pack_body(status).hex(), "model": session.sources.model}
         packed = pack(
             ScansVerified(
                 0, 0, rows.first, tuple(rows.kept), tuple(rows.columns), tuple(rows.inputs), tuple(rows.outputs), 0
@@ -292,32 +291,8 @@ def _exported(head: ReportHead, rows: Rows, kept: Iterable[Row], format: Format)
     return Exported(text, _MEDIA[format], f"{head.instance} {head.title}.{format}".replace("/", "_"))
 
 
-# ---- as JSON ---------------------------------------------------------------------------------------------------------
-
-
-def _status_to_json(status: VerificationStatus) -> Json:
-    content = asdict(status)
-    first = status.first_difference
-    if first is not None:
-        content["first_difference"] = {**asdict(first), "control": first.control.hex(), "monitor": first.monitor.hex()}
-    return cast(Json, json.loads(json.dumps(content)))
-
-
 def _kept(row: KeptRow) -> Kept:
-    content = dict(cast(dict[str, object], row.content["status"]))
-    wanted = cast(dict[str, object], content["wanted"])
-    content["wanted"] = Wanted(**{**wanted, "range": Range(**cast(dict[str, str], wanted["range"]))})  # type: ignore[arg-type]  # as it was kept
-    first = cast("dict[str, object] | None", content["first_difference"])
-    if first is not None:
-        place = cast("dict[str, object] | None", first["place"])
-        content["first_difference"] = Mismatch(
-            **{
-                **first, "control": bytes.fromhex(str(first["control"])), "monitor": bytes.fromhex(str(first["monitor"])),
-                "place": None if place is None else Place(**place),  # type: ignore[arg-type]
-            }  # type: ignore[arg-type]
-        )  # fmt: skip
-    for name in ("instances", "stretches"):
-        content[name] = tuple(
-            tuple(each) if isinstance(each, list) else each for each in cast("list[object]", content[name])
-        )
-    return Kept(row, VerificationStatus(**content))  # type: ignore[arg-type]
+    """The status is kept as the rows are, packed."""
+    status = unpack(bytes.fromhex(str(row.content["status"])))
+    assert isinstance(status, VerificationStatus)
+    return Kept(row, status)

@@ -86,7 +86,9 @@ class VerifyJob:
         def program_of(kept: KeptProgram) -> Program:
             return self._program_of(sources_in(kept))
 
-        verifier = Verifier(Path(ask.run), ENTRIES, program_of, native(self._cache))
+        verifier = Verifier(
+            Path(ask.run), ENTRIES, program_of, native(self._cache), lambda kept: sources_in(kept).files
+        )
         self._verifier = verifier
         verifier.follow(ask.until)
         begun = verifier.begin(ask.range, ask.limit, ask.first)

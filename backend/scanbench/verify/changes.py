@@ -104,16 +104,18 @@ class Comparer:
         if not same:
             self._here, self._there = _common(one, other)
 
-    def equal(self, one: bytes | bytearray, other: bytes | bytearray) -> bool:
-        """Whether two images are the same in all that both have, so that whatever is determined by it is the same too."""
-        if self.same:
-            size = self._one.layout.state_size
-            return bool(memoryview(one)[:size] == memoryview(other)[:size])
-        return not self._differing(one, other).any()
+    def equal(self, one: bytearray, other: bytearray) -> bool:
+        """Whether two whole images are the same to the last byte, of one program, so that what comes of them is the same."""
+        size = self._one.layout.state_size
+        return self.same and np.array_equal(np.frombuffer(one, np.uint8, size), np.frombuffer(other, np.uint8, size))
 
-    def counts(self, one: bytes | bytearray, other: bytes | bytearray) -> bool:
-        """Whether anything is another that people count."""
-        return bool(self._differing(one, other).any())
+    def differ(self, one: bytearray, other: bytearray) -> bool:
+        """Whether anything in two whole images is another that people count."""
+        if not self.same:
+            return bool(self._differing(one, other).any())
+        mask = self._mask.view(np.uint64)
+        here, there = (np.frombuffer(each, np.uint64, len(mask)) for each in (one, other))
+        return bool(((here ^ there) & mask).any())
 
     def changes(self, one: bytes | bytearray, other: bytes | bytearray) -> tuple[tuple[Change, ...], int]:
         """The variables that are another, the first of them by their place, and how many there are."""

@@ -10,12 +10,13 @@ from scanbench.engines.engine import Reason
 from scanbench.runtime.command import Entry
 from scanbench.runtime.contents import Codec, KeptProgram
 from scanbench.runtime.inside import Diverged
-from scanbench.runtime.programs import NoProgram, Programs
+from scanbench.runtime.programs import Loaded, NoProgram, Programs
 from scanbench.runtime.recording import Recording, Replaced
 from scanbench.runtime.replay import replay
 from scanbench.runtime.runfile import RunFileError
 from scanbench.runtime.thinning import Checkpoint
 from scanbench.runtime.timeline import NOT_AS_RECORDED, KeptPrograms, open_at
+from scanbench.runtime.trap import Trapped
 from scanbench.verify.engines import Make
 from scanbench.verify.sides import Begin, Shelf, Side
 from scanbench.verify.uses import Recorder
@@ -60,8 +61,10 @@ class Source:
 
     @property
     def end(self) -> int:
-        """Scans in front of this one are over, as far as is known."""
-        return self.recording.last_scan if self._until is None else self._until
+        """Scans in front of this one are over, as far as is known. One that a run-time error ended is, though time stands."""
+        end = self.recording.last_scan if self._until is None else self._until
+        last = self.entries[-1] if self.entries else None
+        return end + (last is not None and last.scan == end and isinstance(last.command, Trapped))
 
     def follow(self, until: int) -> bool:
         """Reads on; false when the file is another one now, and whoever stands in it has to begin anew."""
@@ -120,6 +123,10 @@ class Control:
         """The scan that is next."""
         return self.side.resource.header.scan
 
+    def loaded(self, version: int) -> Loaded:
+        """A program of the run."""
+        return self._programs.get(version)
+
     def goto(self, scan: int) -> None:
         """In front of what was entered in a scan."""
         source, resource = self._source, self.side.resource
@@ -152,8 +159,7 @@ class Control:
             raise Unverifiable(str(error)) from error
         if live is None:
             return told.trap if told.reason is Reason.TRAP else 0
-        if side.state != live:
-            side.memory[: len(live)] = live
+        side.memory[: len(live)] = live
         return stop.trap if stop.reason is Reason.TRAP else 0
 
     def recorded(self) -> bytes | None:

@@ -8,6 +8,8 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
 from scanbench.check.layout import Layout
+from scanbench.check.symbols import Symbol
+from scanbench.check.types import Elementary, StringType
 from scanbench.check.values import format_value
 from scanbench.runtime.command import Command, Freed, Held, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import notes_of, read_table, table_patches
@@ -56,8 +58,8 @@ class Flip(Firing):
         before = bytes(view.memory[place[0] : place[0] + symbol.type.size])
         after = bytearray(before)
         after[self.bit // 8] ^= 1 << bit
-        shown = [_text(each[0] >> place[1] & 1) if place[1] is not None else format_value(symbol.type, bytes(each)) for each in (before, after)]
-        return Plan((patch,), f"Memory {symbol.path}, bit {self.bit}: {shown[0]} became {shown[1]}")
+        was, now = (_text(symbol, each, place[1]) for each in (before, after))
+        return Plan((patch,), f"Memory {symbol.path}, bit {self.bit}: {was} became {now}")
 
 
 @dataclass(frozen=True, slots=True)
@@ -89,7 +91,9 @@ class Hold(Firing):
             )
         what = f"Input {self.path}" if self.path.strip() else f"All inputs ({len(spots)} bytes)"
         end = "until it is taken back" if self.until is None else f"until scan {self.until}"
-        return Plan(table_patches(view, table), f"{what} {'late' if self.late else 'stuck'} {end}", Held(self.id, spots))
+        return Plan(
+            table_patches(view, table), f"{what} {'late' if self.late else 'stuck'} {end}", Held(self.id, spots)
+        )
 
 
 @dataclass(frozen=True, slots=True)
@@ -109,16 +113,18 @@ class Corrupt(Firing):
     offset: int
     bit: int
     """Of that byte."""
-    shown: str
-    """Of the value, for people: `Main.level, bit 6`."""
+    index: int
+    """Which bit of the value that is."""
+    name: str
+    """Of the value, for people."""
 
     def plan(self, view: View) -> Plan | Refusal:
         """One bit, of a temporary perhaps."""
         patch = turned_over(view.memory, self.offset, self.bit)
         number = holder(view.journal, patch)
         if number:
-            return Refusal(f"{self.shown}: that is held by disturbance {number}")
-        return Plan((patch,), f"Result of {self.site}: {self.shown} turned over")
+            return Refusal(f"{self.name} is held by disturbance {number}")
+        return Plan((patch,), f"Result of {self.site}: bit {self.index} of {self.name} turned over")
 
 
 @dataclass(frozen=True, slots=True)
@@ -156,7 +162,7 @@ def freed(view: View, numbers: tuple[int, ...]) -> tuple[Patch, ...]:
 
 def _real(each: HeldByte, before: int, scan: int) -> Patch | None:
     """What the plant made of it in the scan that ran last, unless somebody wrote it later, or made nothing new of it."""
-    plant = (before ^ each.value) & each.mask & ~(each.came if each.at >= scan else 0)
+    plant = (before ^ each.value) & each.mask & ~(each.came if each.at >= scan else 0) if scan > each.since else 0
     mask = plant | each.came
     if not mask:
         return None
@@ -196,5 +202,6 @@ def _free(view: View, wanted: Iterable[tuple[int, int]], taken: dict[int, int]) 
             yield at, free, view.memory[at] & free
 
 
-def _text(on: int) -> str:
-    return "TRUE" if on else "FALSE"
+def _text(symbol: Symbol, data: bytes | bytearray, bit: int | None) -> str:
+    assert isinstance(symbol.type, Elementary | StringType)
+    return format_value(symbol.type, bytes(data) if bit is None else bytes((data[0] >> bit & 1,)))

@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from hashlib import blake2b
 from typing import Literal, get_args
 
-from scanbench.check.program import Assign, CallBlock, Evaluate, For, Program, SetBytes
 from scanbench.check.bodies import every
+from scanbench.check.program import Assign, CallBlock, Evaluate, For, Program, SetBytes
 from scanbench.check.sites import sites_of
 from scanbench.check.symbols import Symbol
 from scanbench.check.types import BOOL, Elementary, StringType
@@ -117,7 +117,9 @@ def single_value(view: View, path: str) -> Symbol | Refusal:
     if not isinstance(symbol.type, Elementary | StringType):
         return Refusal(f"{symbol.path} is {symbol.type.name}, not a single value: name one of its members instead")
     if symbol.constant:
-        return Refusal(f"{symbol.path} is a constant: it is part of the code, no bit of it is in memory that could turn over")
+        return Refusal(
+            f"{symbol.path} is a constant: it is part of the code, no bit of it is in memory that could turn over"
+        )
     return symbol
 
 
@@ -131,12 +133,18 @@ def _bad_numbers(wanted: Disturbance) -> Refusal | None:
         return Refusal(f"{wanted.kind} is no kind of disturbance", get_args(DisturbanceKind))
     if not 0 <= wanted.probability <= 1:
         return Refusal(f"the probability is {wanted.probability:g}: it must be 0 (once) to 1 (in each scan)")
-    limits = {"seed": (wanted.seed, 0, MOST_SEED), "scans": (wanted.scans, 1, FOR_EVER), "times": (wanted.times, 0, FOR_EVER)}
+    limits = {
+        "seed": (wanted.seed, 0, MOST_SEED),
+        "scans": (wanted.scans, 1, FOR_EVER),
+        "times": (wanted.times, 0, FOR_EVER),
+    }
     for name, (number, least, most) in limits.items():
         if not least <= number <= most:
             return Refusal(f"{name} is {number}: it must be {least} to {most}")
     if wanted.times and not wanted.probability:
-        return Refusal(f"{wanted.times} times of what? Give a probability of each scan, or leave `times` at 0: it comes once")
+        return Refusal(
+            f"{wanted.times} times of what? Give a probability of each scan, or leave `times` at 0: it comes once"
+        )
     if wanted.bit is not None and wanted.kind in ("late", "stuck"):
         return Refusal(f"an input that is {wanted.kind} is so with all its bits: name the bit in its path, as `0.03`")
     return None
@@ -157,7 +165,9 @@ def _bad_place(wanted: Disturbance, view: View) -> Refusal | None:
     if not wanted.path.strip():
         if any(each.letter == "I" for each in view.model.iec_maps):
             return None
-        return Refusal(f"{view.model.name} has no area of inputs: name the variable or address that is to be {wanted.kind}")
+        return Refusal(
+            f"{view.model.name} has no area of inputs: name the variable or address that is to be {wanted.kind}"
+        )
     symbol = single_value(view, wanted.path)
     if isinstance(symbol, Refusal):
         return symbol

@@ -9,6 +9,7 @@ from collections import Counter
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
 from operator import attrgetter
+from typing import Literal
 
 from scanbench.runtime.command import Entry
 from scanbench.runtime.inside import Diverged
@@ -111,7 +112,7 @@ class _Comparison:
     def run(self) -> Divergence:
         """Both, up to where they part, and the stretches behind that."""
         same_model(self._one.resource.program, self._other.resource.program)
-        if not self._equal():
+        if self._differ():
             scan, begun = self._first, True
             changes = self._changes(scan, scan)
             marks = [(scan, scan)]
@@ -133,12 +134,12 @@ class _Comparison:
         return self._comparers[key]
 
     def _equal(self) -> bool:
+        """Whether they stay the same as long as the same is entered."""
         return self._comparer().equal(self._one.state, self._other.state)
 
-    @property
-    def _alike(self) -> bool:
-        """Whether the same program runs in both, so that equal states stay equal."""
-        return self._comparer().same
+    def _differ(self) -> bool:
+        """Whether anything is another that people count: not the clock, which every run has of its own."""
+        return self._comparer().differ(self._one.state, self._other.state)
 
     def _changes(self, first: int, last: int) -> Changes:
         comparer = self._comparer()
@@ -153,7 +154,7 @@ class _Comparison:
         places = sorted({each.entry.scan for each in self._only})
         now = self._first
         while now < self._end:
-            place = next((each for each in places if each >= now), self._end) if self._alike else now
+            place = next((each for each in places if each >= now), self._end) if self._equal() else now
             upto = min(place, self._end)
             if upto > now:
                 found = self._together(now, upto)
@@ -164,7 +165,7 @@ class _Comparison:
             self._one.front()
             self._other.front()
             self._behind(now + 1)
-            if not self._equal():
+            if self._differ():
                 return now
             now += 1
             if now % _CHUNK == 0:
@@ -178,7 +179,7 @@ class _Comparison:
             upto = min(end, now + _CHUNK)
             self._behind(upto)
             self._on_progress(upto - self._first, self._end - self._first)
-            if not self._equal():
+            if self._differ():
                 return self._exactly(now, upto)
             now = upto
         return None
@@ -189,7 +190,7 @@ class _Comparison:
             side.reading.goto(first)
         for scan in range(first, end):
             self._behind(scan + 1)
-            if not self._equal():
+            if self._differ():
                 break
         return scan
 
@@ -206,13 +207,13 @@ class _Comparison:
         equal = False
         while now < self._end:
             upto = min(self._end, now + stride)
-            if equal and self._alike:
+            if equal:
                 upto = max(now, min(self._end, next((each for each in places if each >= now), self._end)))
                 upto = upto + 1 if upto == now else upto
             self._behind(upto)
             self._on_progress(upto - self._first, self._end - self._first)
             equal = self._equal()
-            if not equal:
+            if not equal and self._differ():
                 if marks and marks[-1][1] >= now - 1:
                     marks[-1] = marks[-1][0], upto - 1
                 else:
@@ -231,9 +232,10 @@ class _Comparison:
         return Divergence(count, self._first, self._end, None, "", text, None, None, told)
 
     def _told(self, scan: int, begun: bool, changes: Changes, marks: tuple[tuple[int, int], ...]) -> Divergence:
-        before = [each for each in self._only if each.entry.scan <= scan]
+        before = [each for each in self._only if each.entry.scan <= scan and each.entry.command.author != "PLC"]
         told = [each.told for each in self._only if each.entry.scan <= scan + BEHIND]
         differ = self._programs_differ(scan)
+        cause: Literal["command", "program", "start"]
         cause = "command" if before else "program" if differ else "start" if begun else "program"
         change = changes.changes[0] if changes.changes else None
         place: Place | None = None
@@ -279,8 +281,8 @@ def _unpaired(one: Sequence[Entry], other: Sequence[Entry], first: int, end: int
 
 
 def _key(entry: Entry) -> tuple[object, ...]:
-    """What an entry does; not when on the wall it was entered, nor who did."""
-    return entry.scan, entry.step, type(entry.command), entry.plan.patches, repr(entry.plan.effect)
+    """What was entered, and where; not when on the wall, nor by whom. On equal states it does the same."""
+    return entry.scan, entry.step, repr(replace(entry.command, author=""))
 
 
 def _surplus(entries: Iterable[Entry], count: "Counter[tuple[object, ...]]") -> Iterator[Entry]:

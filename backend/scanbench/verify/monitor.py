@@ -2,16 +2,16 @@
 
 from collections.abc import Mapping, Sequence
 
-from scanbench.check.layout import Layout
-from scanbench.engines.engine import Reason, Stop
-from scanbench.runtime.command import Entry, Patch, View
-from scanbench.runtime.inside import Diverged
+from scanbench.engines.engine import Stop
+from scanbench.runtime.command import Entry, Patch
+from scanbench.runtime.forces import forced_table, table_patches
+from scanbench.runtime.holds import HELD, held
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.programs import Programs
 from scanbench.runtime.resource import Resource
-from scanbench.verify.disturb import is_disturbance, taken_over
-from scanbench.verify.sides import Begin, ProgramOf, Shelf, Side
+from scanbench.verify.disturb import is_disturbance
 from scanbench.verify.engines import reference
+from scanbench.verify.sides import ProgramOf, Shelf, Side
 from scanbench.verify.uses import Fresh, Pass, Recorder
 
 Own = Mapping[int, int]
@@ -31,12 +31,18 @@ class Monitor:
         return Side(resource)
 
     def take_over(self, control: Side, own: bytes | None = None) -> None:
-        """All that the control device has, but for what a disturbance holds there: that stays as it is in `own`."""
+        """All that the control device has, but for what a disturbance holds there: that stays as it is here, or in `own`."""
         there, here = control.resource, self.side.resource
         if there.version != here.version:
-            here.restore(self._programs.get(there.version), there.state, Journal())
-        state = taken_over(there.state, there.state if own is None else own, there.view)
-        here.memory[: len(state)] = state
+            here.restore(self._programs.get(there.version), there.state, here.journal)
+        bits, size = held(there.journal), there.program.layout.state_size
+        kept = {at: (here.memory if own is None else own)[at] & mask for at, mask in bits.items()}
+        here.memory[:size] = memoryview(there.memory)[:size]
+        if bits:
+            for at, mask in bits.items():
+                here.memory[at] = here.memory[at] & ~mask | kept[at]
+            for patch in table_patches(there.view, forced_table(there.view)):
+                here.memory[patch.offset : patch.offset + len(patch.data)] = patch.data
 
     def restart(self, control: Side) -> None:
         """The same, with the journal of the control device as far as it counts here."""
@@ -44,7 +50,10 @@ class Monitor:
         self.side = self._made(there.version)
         entries = [each for each in there.journal if not is_disturbance(each.command)]
         self.side.resource.journal = Journal(entries)
-        self.take_over(control)
+        own = bytearray(there.state)
+        for each in there.journal.derived(HELD).values():  # what came meanwhile is what it would have
+            own[each.offset] = own[each.offset] & ~each.came | each.real & each.came
+        self.take_over(control, bytes(own))
 
     def enter(self, entry: Entry) -> None:
         """In the seam, unless it is a disturbance."""

@@ -174,6 +174,34 @@ class Namer:
                 return tuple(found)
         return tuple(self._raw(offset, size, bits))
 
+    def holding(self, offset: int, bits: int) -> Leaf:
+        """The whole variable that has these bits of a byte, else the address."""
+        found: list[Leaf] = []
+        if self.program.layout.area_at(offset) is None:
+            for root in roots_at(self.program, offset):
+                _below(root.type, root.offset, root.path, offset, 1, WHOLE, found, parts=False)
+            if found:
+                return found[0]
+            return Leaf(at_offset(self.program, offset), RAW_TYPES[8], offset, None)
+        for symbol in sorted(self._located.get(offset, ()), key=lambda each: _fit(each, offset, 1, bits)):
+            if symbol.bit is None:
+                _below(symbol.type, symbol.offset, symbol.path, offset, 1, WHOLE, found, parts=False)
+            elif bits == 1 << symbol.bit:
+                found.append(Leaf(symbol.path, BOOL, offset, symbol.bit))
+            if found:
+                return found[0]
+        area = self.program.layout.area_at(offset)
+        assert area is not None
+        even = offset - area[1] % 2
+        return next(self._raw(even, 2, WHOLE)) if area[0].unit == "word" else next(self._raw(offset, 1, bits))
+
+    def temporaries(self, pou: Pou) -> tuple[Leaf, ...]:
+        """All temporaries of a POU of the user's."""
+        found: list[Leaf] = []
+        if pou in self._mine and pou.frame.size:
+            _below(pou.frame, pou.frame_offset, pou.name, pou.frame_offset, pou.frame.size, WHOLE, found)
+        return tuple(found)
+
     def _raw(self, offset: int, size: int, bits: int) -> Iterator[Leaf]:
         model = self.program.layout.model
         area = self.program.layout.area_at(offset)
@@ -232,12 +260,15 @@ def _fit(symbol: Symbol, offset: int, size: int, bits: int) -> tuple[bool, bool,
     return as_bit != (bits != WHOLE), symbol.offset != offset, abs(symbol.type.size - size)
 
 
-def _below(type: Type, start: int, name: str, offset: int, size: int, bits: int, found: list[Leaf]) -> None:
-    """The single values in these bytes of a variable that begins at `start`."""
+def _below(
+    type: Type, start: int, name: str, offset: int, size: int, bits: int, found: list[Leaf], parts: bool = True
+) -> None:  # fmt: skip
+    """The single values in these bytes of a variable that begins at `start`; with `parts`, of one that is only used in part
+    that part."""
     if isinstance(type, Record):
         for member in _members(type, start, offset, size):
             inner = f"{name}.{member.name}" if name else member.name
-            _below(member.type, start + member.offset, inner, offset, size, bits, found)
+            _below(member.type, start + member.offset, inner, offset, size, bits, found, parts)
     elif isinstance(type, ArrayType):
         step = type.element.size
         if not step:
@@ -245,9 +276,9 @@ def _below(type: Type, start: int, name: str, offset: int, size: int, bits: int,
         first = max(0, (offset - start) // step)
         last = min(type.count - 1, (offset + size - 1 - start) // step)
         for number in range(first, last + 1):
-            _below(type.element, start + number * step, name + _index(type, number), offset, size, bits, found)
+            _below(type.element, start + number * step, name + _index(type, number), offset, size, bits, found, parts)
     elif isinstance(type, Elementary | StringType):
-        found.append(_leaf(type, start, name, offset, size, bits))
+        found.append(_leaf(type, start, name, offset, size, bits) if parts else Leaf(name, type, start, None))
 
 
 def _members(record: Record, start: int, offset: int, size: int) -> list[Member]:

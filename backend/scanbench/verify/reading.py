@@ -16,7 +16,10 @@ from scanbench.runtime.inside import Diverged
 from scanbench.runtime.programs import NoProgram, Programs
 from scanbench.runtime.recording import Recording, Replaced
 from scanbench.runtime.replay import replay
+from scanbench.runtime.resource import Resource
 from scanbench.runtime.runfile import RunFileError
+from scanbench.runtime.smaller import Standing
+from scanbench.runtime.thinning import Checkpoint
 from scanbench.runtime.timeline import NOT_AS_RECORDED, KeptPrograms, ProgramsOf, Timeline, open_at
 
 TextsOf = Callable[[KeptProgram], Mapping[str, str]]
@@ -138,6 +141,23 @@ class Reading:
         lines = self._texts[version].get(file, "").splitlines()
         return lines[line - 1].strip() if 0 < line <= len(lines) else ""
 
+    def copy(self, to: Path, entries: int, scan: int, by: str) -> None:
+        """A new run file that ends in front of `scan`, with so many entries of the journal; `OSError`. It is followed anew
+        before it is looked at again."""
+        recording = self.timeline.recording
+        before = [each for each in recording.checkpoints if each.scan <= scan and each.entries <= entries]
+        try:
+            resource = self._at(recording, before[-1], self._entries[:entries], scan)
+        except (Diverged, *NOT_AS_RECORDED) as error:
+            raise NoReading(f"{self.path.name} cannot be replayed: {error}") from error
+        self._timeline = None
+        failed: list[Exception] = []
+        standing = Standing(scan, entries, resource.version, resource.state)
+        recording.copy(to, standing, by, lambda error: failed.append(error) if error is not None else None)
+        recording.wait()
+        if failed:
+            raise failed[0]
+
     def _read_on(self) -> list[Entry]:
         if self._recording is None:
             self._recording = Recording.open(self.path, self._codec, read_only=True)
@@ -152,13 +172,19 @@ class Reading:
         return new
 
     def _stand(self, recording: Recording, end: int) -> None:
-        assert self._programs is not None
         checkpoint = recording.before(end)
         if checkpoint is None:
             raise NoReading(f"scan {end} is not kept any more: the run begins with scan {recording.first_scan}")
         entries = self._entries[: bisect_right(self._entries, end, key=attrgetter("scan"))]
-        programs = KeptPrograms(recording, self._programs)
-        resource = open_at(recording, programs, checkpoint, entries)
-        replay(resource, entries[checkpoint.entries :], end)
+        resource = self._at(recording, checkpoint, entries, end)
+        assert isinstance(resource.programs, KeptPrograms)
+        programs = resource.programs
         self._trapped = resource.header.halted_by_trap
         self._timeline, self._until = Timeline(recording, resource, programs), resource.header.scan
+
+    def _at(self, recording: Recording, checkpoint: Checkpoint, entries: Sequence[Entry], scan: int) -> Resource:
+        """In front of a scan, when these entries are all that was entered."""
+        assert self._programs is not None
+        resource = open_at(recording, KeptPrograms(recording, self._programs), checkpoint, entries)
+        replay(resource, entries[checkpoint.entries :], scan)
+        return resource

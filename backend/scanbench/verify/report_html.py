@@ -5,7 +5,7 @@ from html import escape
 from importlib.resources import files
 
 from scanbench.faults.record_text import Language
-from scanbench.verify.report import Report
+from scanbench.verify.report import CONTEXT, Report
 from scanbench.verify.report_words import WORDS
 from scanbench.verify.value_text import column_of, differing_bits, value_text
 from scanbench.verify.verified import Column, Mismatch, Output, Place, Row
@@ -13,6 +13,8 @@ from scanbench.verify.verified import Column, Mismatch, Output, Place, Row
 DIFFERENCES = 50
 """Differences that have a section of their own."""
 ROWS = 500
+SAME = 20
+"""Rows that are shown where none differs."""
 OUTPUTS, INPUTS = 8, 8
 """Columns that fit a page; CSV and JSON have them all."""
 _BITS = 64
@@ -41,8 +43,8 @@ class _Document:
             f"<title>{title}</title>\n<style>\n{style}</style>\n</head>\n<body>\n{''.join(parts)}</body>\n</html>\n"
         )
 
-    def _word(self, name: str, **values: object) -> str:
-        return escape(self._words[name].format(**values) if values else self._words[name])
+    def _word(self, word: str, /, **values: object) -> str:
+        return escape(self._words[word].format(**values) if values else self._words[word])
 
     # ---- head and verdict -----------------------------------------------------------------------------------------
 
@@ -54,7 +56,7 @@ class _Document:
             ("model", escape(head.model)), ("version", str(head.version)),
             ("range", escape(head.title)), ("scans", f"{head.first} – {head.last}"),
             ("source", source), ("interval", f"{head.interval_ns / 1e6:g} ms"),
-            ("when", escape(head.when)), ("by", escape(head.by)), ("tool", escape(head.tool)),
+            ("when", escape(_moment(head.when))), ("by", escape(head.by)), ("tool", escape(head.tool)),
         ]  # fmt: skip
         rows = "".join(f"<dt>{self._word(name)}</dt><dd>{value}</dd>" for name, value in pairs)
         return f'<h1>{self._word("title")}</h1>\n<dl class="head">{rows}<dt></dt><dd></dd></dl>\n'
@@ -119,30 +121,44 @@ class _Document:
     # ---- rows -----------------------------------------------------------------------------------------------------
 
     def _table(self) -> str:
-        rows = self._report.rows
+        rows, title = self._around(), "rows" if self._differences else "rows_same"
         if not rows:
             return ""
         outputs, inputs, left_out = self._shown()
-        head = f"<tr>{self._th('scan')}{self._th('call')}{self._th('instance_path')}"
-        for column in outputs:
-            name = escape(column.name)
-            head += f'<th scope="col">{name} {self._word("control")}</th><th scope="col">{name} {self._word("monitor")}</th>'
-        head += "".join(f'<th scope="col" class="faint">{escape(column.name)}</th>' for column in inputs)
-        head += f"{self._th('note')}</tr>"
         body = "".join(self._row(row, outputs, inputs) for row in rows[:ROWS])
         notes = []
         if left_out:
             notes.append(self._word("columns_left_out", count=left_out))
         if len(rows) > ROWS:
             notes.append(self._word("rows_left_out", count=f"{len(rows) - ROWS:,}"))
-        title = "rows" if self._differences else "rows_same"
         return (
-            f'<h2>{self._word(title)}</h2>\n<div class="scroll"><table>\n<thead>{head}</thead>\n<tbody>\n{body}</tbody>\n'
-            f'</table></div>\n<p class="faint">{" ".join(notes)}</p>\n'
+            f'<h2>{self._word(title)}</h2>\n<div class="scroll"><table>\n<thead>{self._heads(outputs, inputs)}</thead>\n'
+            f'<tbody>\n{body}</tbody>\n</table></div>\n<p class="faint">{" ".join(notes)}</p>\n'
         )
 
-    def _th(self, word: str) -> str:
-        return f'<th scope="col">{self._word(word)}</th>'
+    def _around(self) -> list[Row]:
+        """The rows that differ, with a few on either side; where none does, the last ones."""
+        rows = self._report.rows
+        if not self._differences:
+            return [*rows[-SAME:]]
+        near: dict[int, None] = {}
+        for index, row in enumerate(rows):
+            if row.differs:
+                near |= dict.fromkeys(range(max(index - CONTEXT, 0), min(index + CONTEXT + 1, len(rows))))
+        return [rows[index] for index in near]
+
+    def _heads(self, outputs: Sequence[Column], inputs: Sequence[Column]) -> str:
+        def over(word: str) -> str:
+            return f'<th scope="col" rowspan="2">{self._word(word)}</th>'
+
+        names = "".join(f'<th scope="colgroup" colspan="2">{escape(each.name)}</th>' for each in outputs)
+        group = f'<th scope="colgroup" colspan="{len(inputs)}">{self._word("inputs")}</th>' if inputs else ""
+        sides = f'<th scope="col">{self._word("control")}</th><th scope="col">{self._word("monitor")}</th>' * len(
+            outputs
+        )
+        used = "".join(f'<th scope="col" class="faint">{escape(each.name)}</th>' for each in inputs)
+        first = "".join(map(over, ("scan", "call", "instance_path")))
+        return f"<tr>{first}{names}{group}{over('note')}</tr><tr>{sides}{used}</tr>"
 
     def _shown(self) -> tuple[list[Column], list[Column], int]:
         """The columns that fit, those first that differ somewhere; and how many there are beside."""
@@ -203,6 +219,11 @@ def _value(column: Column, data: bytes, nothing: str, bits: Iterable[int]) -> st
         digits += f"<mark>{digit}</mark>" if bit in marked else digit
         digits += " " if bit and bit % 4 == 0 else ""
     return f'{text} <span class="faint">{digits}</span></span>'
+
+
+def _moment(iso: str) -> str:
+    """To the second, for people."""
+    return f"{iso[:10]} {iso[11:19]} UTC" if iso.endswith("Z") else iso
 
 
 def _numbers(bits: Sequence[int]) -> str:

@@ -2,7 +2,7 @@
 
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
-from typing import Protocol
+from typing import Protocol, TypeVar
 
 from scanbench.check.program import Program
 from scanbench.engines.debug import Frame, Listen
@@ -13,6 +13,8 @@ from scanbench.runtime.journal import Journal
 from scanbench.runtime.programs import Loaded, NoProgram
 from scanbench.runtime.resource import Resource
 from scanbench.verify.engines import Make
+
+T = TypeVar("T")
 
 
 class ProgramOf(Protocol):
@@ -102,23 +104,24 @@ class Side:
         journal = self.resource.journal
         return front(journal, self.resource.header.scan) < len(journal)
 
-    def at_count(self, begin: Begin, count: int, then: Callable[[], None] | None = None) -> tuple[Frame, ...] | None:
-        """The open calls in front of the statement of a count; `then` is called there. None: the scan has no such statement,
-        and `then` is called at its end. Leaves everything as it is."""
+    def again(self, begin: Begin, run: Callable[[], T]) -> T:
+        """Runs something from where a scan began, and leaves everything as it is."""
         resource = self.resource
         here, journal, loaded = bytes(self.memory), resource.journal, resource.loaded
         self.stand(begin)
         try:
-            stop = self.run(HaltAt(count), Listen(count=count))
-            frames = resource.inside.frames if stop.reason is Reason.HALTED and resource.inside is not None else None
-            if then is not None:
-                then()
+            return run()
         finally:
             resource.restore(loaded, here, journal)
-        return frames
 
     def frames_at(self, begin: Begin, count: int) -> tuple[Frame, ...]:
-        """The open calls in front of the statement of a count."""
+        """The open calls in front of the statement of a count; none where it does not get so far."""
         if count not in self._frames:
-            self._frames[count] = self.at_count(begin, count) or ()
+
+            def run() -> tuple[Frame, ...]:
+                self.run(HaltAt(count), Listen(count=count))
+                inside = self.resource.inside
+                return () if inside is None else inside.frames
+
+            self._frames[count] = self.again(begin, run)
         return self._frames[count]

@@ -127,12 +127,13 @@ def _counted(numbers: list[Decimal], table: Table, axis: str, problems: Problems
 def _timed(
     numbers: list[Decimal], table: Table, axis: str, unit: Unit, interval_ns: int, problems: Problems
 ) -> tuple[list[int], bool]:
-    """Times count from the PLC's start; where the first one cannot, from the first row."""
+    """Times count from the PLC's start; where the first one cannot, from the first row, which is scan 1 then: not the first
+    cycle of a program."""
     in_scans = [each * UNITS_NS[unit] / interval_ns for each in numbers]
     start = in_scans[0]
     counts = 0 <= start <= MAX_SCAN and abs(start - round(start)) <= _NEAR
     if not counts:
-        in_scans = [each - start for each in in_scans]
+        in_scans = [each - start + 1 for each in in_scans]
     found = []
     for each, shown, row in zip(in_scans, numbers, table.numbers, strict=True):
         near = round(each)

@@ -23,7 +23,7 @@ LEAST_DIGITS = 6
 def cell_value(type: Leaf, text: str, unit: Unit | None, comma: bool) -> bytes:
     """The bytes of a cell. Raises ValueError that says what fits."""
     if isinstance(type, StringType):
-        return parse_value(type, text)
+        return parse_value(type, text).ljust(type.size, b"\0")
     if type.kind is Kind.REAL and text.upper().lstrip("+-") not in ("NAN", "INF", "INFINITY"):
         return parse_value(type, str(number(text.replace("_", ""), comma)))
     if type.kind is Kind.TIME and not text.upper().startswith(("T#", "LT#", "TIME#", "LTIME#")):

@@ -27,6 +27,10 @@ class Access(NamedTuple):
     value: bytes
 
 
+_new = tuple.__new__
+"""Makes an access in half the time: there are hundreds in a scan."""
+
+
 class Fresh(NamedTuple):
     """A read of what the pass had not written. `mask`: which of its bits, None where all of them."""
 
@@ -48,6 +52,8 @@ class Pass:
     log: list[Access] = field(default_factory=list)
     used: int = 0
     """Uses, the ones that found no room included."""
+    called: int = 1 << 62
+    """Where frames begin. What stands there of the POUs that it calls is no input: arguments are passed untold."""
     frames_of: list[tuple[Frame, ...]] = field(default_factory=list)
     """Of each entry of the log the open calls, where that was asked for."""
 
@@ -60,8 +66,12 @@ class Pass:
         """Its inputs: what it read before it wrote it, each once."""
         known: dict[int, int] = {}
         found = []
+        pou, called = self.pou, self.called
+        own = range(0) if pou is None else range(pou.frame_offset, pou.frame_offset + pou.frame.size)
         for access in self.log:
             _, _, offset, size, bits, written, _ = access
+            if offset >= called and offset not in own:
+                continue
             if size == 1:
                 before = known.get(offset, 0)
                 if not written and bits & ~before:
@@ -147,7 +157,7 @@ class Recorder:
         self._left -= 1
         bits = self._engine.bits
         value = bytes(self._memory[offset : offset + size]) if bits == WHOLE else bytes((self._memory[offset] & bits,))
-        open.log.append(Access(site, count, offset, size, bits, written, value))
+        open.log.append(_new(Access, (site, count, offset, size, bits, written, value)))
         if self._detail:
             open.frames_of.append(self._engine.frames())
 
@@ -185,6 +195,7 @@ class Recorder:
         self._begin(Pass(pou, instance, count, around, frames), depth)
 
     def _begin(self, made: Pass, depth: int) -> Pass:
+        made.called = self._namer.program.layout.state_size
         self._open, self._depth = made, depth
         self.passes.append(made)
         if self.on_begin is not None:

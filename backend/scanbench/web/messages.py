@@ -284,7 +284,7 @@ class Mark(Wire):
     """A point of the timeline."""
 
     scan: int
-    kind: Literal["write", "force", "error", "recover", "mode", "run", "build", "system", "halt"]
+    kind: Literal["write", "force", "error", "recover", "mode", "run", "build", "system", "halt", "disturbance"]
     author: str
     text: str
 
@@ -368,7 +368,7 @@ class LogLine(Wire):
     scan: int
     author: str
     text: str
-    kind: Literal["write", "force", "error", "recover", "mode", "run", "build", "system", "halt"]
+    kind: Literal["write", "force", "error", "recover", "mode", "run", "build", "system", "halt", "disturbance"]
 
 
 class User(Wire):

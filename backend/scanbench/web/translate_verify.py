@@ -2,14 +2,15 @@
 
 from scanbench.runtime.clock import iso
 from scanbench.session import events
-from scanbench.session.events import VerificationStatus, Wanted
+from scanbench.session.events import VerificationStatus, VerifyWish
 from scanbench.session.trace_files import Checked, TraceFile, mapping_of
 from scanbench.session.verifications import Kept
 from scanbench.session.verify_protocol import UseRow
 from scanbench.session.verify_rows import RowsPage
 from scanbench.store.records import MappingRow
 from scanbench.verify import verified
-from scanbench.verify.disturb import Disturb, Disturbance, DisturbanceInfo
+from scanbench.verify.disturb import Disturb, DisturbanceInfo
+from scanbench.verify.disturb_wanted import Disturbance
 from scanbench.verify.mapping import ColumnMap, TraceMapping
 from scanbench.web import messages_verify as wire
 
@@ -19,9 +20,9 @@ def range_of(of: wire.VerifyRange) -> verified.Range:
     return verified.Range(of.pou.strip(), of.file.strip(), of.first, of.last, of.instance.strip())
 
 
-def wanted(of: wire.NewVerification) -> Wanted:
+def wanted(of: wire.NewVerification) -> VerifyWish:
     """How somebody wants it verified."""
-    return Wanted(range_of(of.range), of.pace, of.first, of.last, of.limit)
+    return VerifyWish(range_of(of.range), of.pace, of.first, of.last, of.limit)
 
 
 def info(of: VerificationStatus) -> wire.VerificationInfo:

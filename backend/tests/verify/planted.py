@@ -9,9 +9,9 @@ from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field
 from unittest.mock import patch
 
-from scanbench.check.program import Program, Stmt
+from scanbench.check.program import Assign, Place, Program, Stmt
 from scanbench.check.types import Elementary
-from scanbench.engines.native import emit_expressions, emit_statements
+from scanbench.engines.native import emit_expressions, emit_operators, emit_statements
 from scanbench.engines.native.debugged import DebugBuilds
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
@@ -44,14 +44,16 @@ class Fault:
     @contextmanager
     def in_place(self) -> Iterator[None]:
         """What is emitted meanwhile has the fault."""
-        one, binary, compare = emit_statements.one, emit_expressions.binary, emit_expressions.compare
+        one, store_if = emit_statements.one, emit_statements._store_if
+        binary, compare = emit_operators.binary, emit_operators.compare
 
         def statement(body: Body, statement: Stmt) -> None:
-            self._running.append(statement)
-            try:
+            with self._in(statement):
                 one(body, statement)
-            finally:
-                self._running.pop()
+
+        def selected(body: Body, guard: str, target: Place, statement: Assign) -> None:
+            with self._in(statement):
+                store_if(body, guard, target, statement)
 
         def operation(body: Body, op: str, type: Elementary, left: Value, right: Value, trap: int) -> Value:
             return binary(body, self.here(op), type, left, right, trap)
@@ -61,10 +63,19 @@ class Fault:
 
         with (
             patch.object(emit_statements, "one", statement),
+            patch.object(emit_statements, "_store_if", selected),
             patch.object(emit_expressions, "binary", operation),
             patch.object(emit_expressions, "compare", comparison),
         ):
             yield
+
+    @contextmanager
+    def _in(self, statement: Stmt) -> Iterator[None]:
+        self._running.append(statement)
+        try:
+            yield
+        finally:
+            self._running.pop()
 
 
 def planted(fault: Fault, *, debug: bool) -> Make:

@@ -143,6 +143,16 @@ def test_the_page_needs_nothing_else_and_shows_each_difference(language: str) ->
     assert "url(" not in text
 
 
+def test_a_page_of_a_trace_with_skipped_scans_says_what_was_not_compared() -> None:
+    head = replace(
+        HEAD, source="trace", trace="press {4}.csv", skipped=12, stretches=((5, 5), (7, 17)), forgotten=3, differing=0
+    )
+    text = to_html(Report(head, COLUMNS, (row(1),), ("state",), ("speed",)))
+    assert "trace of a real controller: press {4}.csv" in text
+    assert "Skipped: 5, 7 – 17. 3 rows are not in this report." in text
+    assert "No scan was skipped" not in text
+
+
 def test_a_page_without_a_difference_says_so() -> None:
     text = to_html(report(row(187)))
     assert "No difference" in text

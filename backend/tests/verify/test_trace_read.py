@@ -180,8 +180,7 @@ def test_bounds(monkeypatch: pytest.MonkeyPatch) -> None:
 def test_any_bytes_are_read_or_refused(data: bytes, name: str) -> None:
     try:
         table = read_trace(data, name)
-    except BadTraceFile as refusal:
-        assert refusal.problems
+    except BadTraceFile:
         return
     assert table.rows
     assert all(len(row) == len(table.columns) for row in table.rows)

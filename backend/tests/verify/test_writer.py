@@ -199,4 +199,3 @@ def test_a_reading_follows_its_file(tmp_path: Path) -> None:
         reading.path.unlink()
         with pytest.raises(NoReading, match="cannot be read"):
             reading.follow(22)
-

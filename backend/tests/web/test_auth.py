@@ -57,3 +57,17 @@ def test_nonsense_on_a_socket_is_answered(server: Server) -> None:
             answer = browser.wait_for("done", ref=1 if "ref" in text else -1)
             assert not answer["ok"]
             assert "not a message" in answer["message"]
+
+
+def test_a_link_to_a_scan_keeps_where_it_leads(server: Server) -> None:
+    """Also for somebody who opens it with the token, and for one whose browser comes from another site."""
+    with httpx.Client(follow_redirects=True) as browser:
+        page = browser.get(f"{server.base}/i/1/scan/40", params={"panel": "verify", "token": server.token})
+        assert page.status_code in (200, 503)
+        assert str(page.url) == f"{server.base}/i/1/scan/40?panel=verify"
+        again = browser.get(f"{server.base}/i/1/scan/41", headers={"Sec-Fetch-Site": "cross-site"})
+        assert again.status_code in (200, 503)
+    assert httpx.get(f"{server.base}/i/1/scan/40").status_code == 401
+    with httpx.Client() as browser:
+        reply = browser.get(f"{server.base}//evil.example/i/", params={"token": server.token})
+        assert not reply.headers.get("location", "").startswith("//")

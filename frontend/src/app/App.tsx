@@ -11,6 +11,8 @@ import { StatusBar } from "../panels/status/StatusBar";
 import { Sweeping } from "../panels/sweep/Sweeping";
 import { Timeline } from "../panels/timeline/Timeline";
 import { TopBar } from "../panels/topbar/TopBar";
+import { TraceImport } from "../panels/traceimport/TraceImport";
+import { VerifyRecords } from "../panels/verifyrecords/VerifyRecords";
 import { start, useBench } from "../store/bench";
 import { useDocuments } from "../store/documents";
 import { useOnline, usePlc } from "../store/plc";
@@ -83,6 +85,8 @@ function Window() {
       <Instances />
       <OnlineChange />
       <Sweeping />
+      <TraceImport />
+      <VerifyRecords />
       <Past />
     </div>
   );

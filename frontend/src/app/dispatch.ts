@@ -18,6 +18,7 @@ import { onTimeline } from "../store/timeline";
 import { onFlight, onTraces, refreshTraces } from "../store/traces";
 import { onFileSaved } from "../store/userErrors";
 import { apply } from "../store/values";
+import { onVerifications, refreshVerifications } from "../store/verify";
 import { onWatching, watchAgain } from "../store/watches";
 import { refreshMembers } from "../store/watchlist";
 import { catchUpLists, onWatchList } from "../store/watchlists";
@@ -57,6 +58,7 @@ function dispatch(message: ServerMessage): void {
       void catchUpLists();
       onSweepHello();
       void refreshTraces();
+      void refreshVerifications();
       void refreshComparisons();
       void catchUp();
       followLink();
@@ -123,6 +125,9 @@ function dispatch(message: ServerMessage): void {
       return;
     case "traces":
       onTraces(message.traces);
+      return;
+    case "verifications":
+      onVerifications(message.verifications);
       return;
     case "flight":
       onFlight(message);

@@ -13,6 +13,7 @@ import { HistoryPanel } from "../panels/history/HistoryPanel";
 import { LogPanel } from "../panels/log/LogPanel";
 import { ProblemsPanel } from "../panels/problems/ProblemsPanel";
 import { TracePanel } from "../panels/trace/TracePanel";
+import { VerifyPanel } from "../panels/verify/VerifyPanel";
 import { WatchPanel } from "../panels/watch/WatchPanel";
 import { isDirty, useDocuments } from "../store/documents";
 import { type PageName, pageOf } from "../store/navigate";
@@ -29,6 +30,7 @@ export const components = {
   editor: ({ params }: IDockviewPanelProps<{ path: string }>) => <EditorPanel path={params.path} />,
   watch: WatchPanel,
   trace: TracePanel,
+  verify: VerifyPanel,
   forces: ForcesPanel,
   problems: ProblemsPanel,
   diagnostics: DiagnosticsPanel,

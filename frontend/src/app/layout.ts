@@ -26,13 +26,25 @@ export function standardLayout(dock: DockviewApi): void {
     position: { referencePanel: "start", direction: "below" },
     initialHeight: innerHeight < 800 ? 248 : 340,
   });
-  for (const id of ["trace", "forces", "problems", "diagnostics", "log", "history", "console"]) {
+  for (const id of ["trace", "verify", "forces", "problems", "diagnostics", "log", "history", "console"]) {
     dock.addPanel({ id, component: id, position: { referencePanel: "watch" }, inactive: true });
   }
   dock.getPanel("start")?.api.setActive();
 }
 
-const FIXED = ["errors", "disturb", "watch", "trace", "forces", "problems", "diagnostics", "log", "history", "console"];
+const FIXED = [
+  "errors",
+  "disturb",
+  "watch",
+  "trace",
+  "verify",
+  "forces",
+  "problems",
+  "diagnostics",
+  "log",
+  "history",
+  "console",
+];
 
 /** What was kept, when it still fits this version of the page; else the usual arrangement. */
 export function restoreLayout(dock: DockviewApi, kept: unknown): void {

@@ -3,7 +3,7 @@ import type { Comparison, Instance, VariableChange } from "../wire/types";
 import {
   changesAsText,
   compareWith,
-  errorIn,
+  errorsIn,
   filterChanges,
   leftOut,
   ordered,
@@ -61,7 +61,17 @@ describe("comparisons", () => {
   });
 
   it("tell what came of them", () => {
-    const going: Comparison = { type: "comparison", id: 1, a: 1, b: 2, by: "A", done: 5, of: 10, result: null, message: "" };
+    const going: Comparison = {
+      type: "comparison",
+      id: 1,
+      a: 1,
+      b: 2,
+      by: "A",
+      done: 5,
+      of: 10,
+      result: null,
+      message: "",
+    };
     const result = {
       compared: 9,
       first: 0,
@@ -83,8 +93,14 @@ describe("comparisons", () => {
   });
 
   it("keep the newest word on each", () => {
-    const known = [{ id: 3, done: 1 }, { id: 1, done: 1 }];
-    expect(withNewest(known, { id: 1, done: 2 })).toEqual([{ id: 3, done: 1 }, { id: 1, done: 2 }]);
+    const known = [
+      { id: 3, done: 1 },
+      { id: 1, done: 1 },
+    ];
+    expect(withNewest(known, { id: 1, done: 2 })).toEqual([
+      { id: 3, done: 1 },
+      { id: 1, done: 2 },
+    ]);
     expect(withNewest(known, { id: 4, done: 0 })[0]?.id).toBe(4);
   });
 });
@@ -92,7 +108,10 @@ describe("comparisons", () => {
 describe("errors of marks", () => {
   it("are named by their ids", () => {
     const ids = new Set(["battery-error", "io-bus"]);
-    expect(errorIn("generate battery-error (rack=2)", ids)).toBe("battery-error");
-    expect(errorIn("write battery", ids)).toBeNull();
+    expect(errorsIn("generate battery-error (rack=2), io-bus, battery-error", ids)).toEqual([
+      "battery-error",
+      "io-bus",
+    ]);
+    expect(errorsIn("write battery", ids)).toEqual([]);
   });
 });

@@ -31,9 +31,7 @@ export function compareWith(here: Instance, all: readonly Instance[]): Instance[
   const stem = stemOf(here.name);
   const rank = (other: Instance) =>
     other.project.id !== here.project.id ? 2 : stemOf(other.name) === stem || other.name.startsWith(stem) ? 0 : 1;
-  return all
-    .filter(({ id }) => id !== here.id)
-    .sort((a, b) => rank(a) - rank(b) || b.id - a.id);
+  return all.filter(({ id }) => id !== here.id).sort((a, b) => rank(a) - rank(b) || b.id - a.id);
 }
 
 const stemOf = (name: string) => name.replace(/-\d+$/, "");
@@ -59,10 +57,7 @@ export const leftOut = ({ changes, count }: RunChanges) => Math.max(0, count - c
 
 const WORD = /[\w-]+/g;
 
-/** The error that a mark or an entry speaks of: the first word that is the id of one. */
-export function errorIn(text: string, ids: ReadonlySet<string>): string | null {
-  return (text.match(WORD) ?? []).find((word) => ids.has(word)) ?? null;
+/** The errors that a mark or an entry speaks of, by their ids. */
+export function errorsIn(text: string, ids: ReadonlySet<string>): string[] {
+  return [...new Set(text.match(WORD) ?? [])].filter((word) => ids.has(word));
 }
-
-/** Where a click with the stretches' arithmetic leads: `scans` later, negative is earlier, never before the first scan. */
-export const shifted = (scan: number, by: number, first = 0) => Math.max(first, scan + by);

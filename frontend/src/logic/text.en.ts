@@ -3,12 +3,14 @@ import { debugEnglish } from "./text.debug.en";
 import { disturbEnglish } from "./text.disturb.en";
 import { pastEnglish } from "./text.past.en";
 import { traceEnglish } from "./text.trace.en";
+import { verifyEnglish } from "./text.verify.en";
 
 export const english = {
   ...debugEnglish,
   ...disturbEnglish,
   ...pastEnglish,
   ...traceEnglish,
+  ...verifyEnglish,
   "area.access": "{words} words · program: {program} · tools: {tool} · engine: {engine}",
   build: "Build",
   "build.by": " by {author}",
@@ -425,7 +427,6 @@ export const english = {
   "picker.newproject": "New project…",
   "picker.noinstance": "no instance",
   "picker.none": "No project",
-  "problems.label": "Problems",
   "problems.list": "Problems",
   "problems.none": "No problems. What you type is checked as you go.",
   "read.cycle": "Cycle",
@@ -588,7 +589,6 @@ export const english = {
   "explorer.vendor": "Vendor: {vendor}",
   "explorer.verified": "{verified} of {count} errors verified ({share})",
   "explorer.words": "{words} words",
-  "force.release.menu": "Release {path} = {value}",
   "instances.branch": "Branch…",
   "instances.branch.about": "A new virtual PLC that begins as {name} was before this scan, with the program of then.",
   "instances.branch.at": "Branch from {name} before scan {scan}",

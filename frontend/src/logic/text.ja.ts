@@ -4,12 +4,14 @@ import { disturbJapanese } from "./text.disturb.ja";
 import type { TextKey } from "./text.en";
 import { pastJapanese } from "./text.past.ja";
 import { traceJapanese } from "./text.trace.ja";
+import { verifyJapanese } from "./text.verify.ja";
 
 export const japanese: Record<TextKey, string> = {
   ...debugJapanese,
   ...disturbJapanese,
   ...pastJapanese,
   ...traceJapanese,
+  ...verifyJapanese,
   "area.access": "{words} ワード · プログラム: {program} · ツール: {tool} · エンジン: {engine}",
   build: "ビルド",
   "build.by": "（{author}）",
@@ -424,7 +426,6 @@ export const japanese: Record<TextKey, string> = {
   "picker.newproject": "新しいプロジェクト…",
   "picker.noinstance": "インスタンスなし",
   "picker.none": "プロジェクトなし",
-  "problems.label": "問題",
   "problems.list": "問題",
   "problems.none": "問題はありません。入力のたびに検査されます。",
   "read.cycle": "サイクル",
@@ -587,7 +588,6 @@ export const japanese: Record<TextKey, string> = {
   "explorer.vendor": "メーカー: {vendor}",
   "explorer.verified": "異常 {count} 件中 {verified} 件が確認済み（{share}）",
   "explorer.words": "{words} ワード",
-  "force.release.menu": "{path} = {value} を解除",
   "instances.branch": "分岐…",
   "instances.branch.about": "このスキャンの前の {name} の状態とその時のプログラムから始まる、新しい仮想 PLC です。",
   "instances.branch.at": "{name} のスキャン {scan} の前から分岐",

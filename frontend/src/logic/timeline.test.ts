@@ -2,6 +2,7 @@ import { describe, expect, it } from "vitest";
 import type { Mark } from "../wire/types";
 import {
   around,
+  closeTo,
   clusters,
   countKinds,
   including,
@@ -10,8 +11,10 @@ import {
   readScan,
   readTime,
   scanAt,
+  spanOn,
   stepTo,
   ticks,
+  withDifferences,
   zoomed,
 } from "./timeline";
 
@@ -143,5 +146,36 @@ describe("moving", () => {
     expect(readTime("4711")).toBeNull();
     expect(readTime("")).toBeNull();
     expect(readTime("1:")).toBeNull();
+  });
+});
+
+describe("stretches on the axis", () => {
+  const whole = { from: 0, to: 10_000 };
+
+  it("are looked at closely with some room around them", () => {
+    const close = closeTo({ from: 4000, to: 5000 }, whole);
+    expect(close?.from).toBeLessThan(4000);
+    expect(close?.to).toBeGreaterThan(5000);
+    expect((close?.to ?? 0) - (close?.from ?? 0)).toBe(1100);
+    expect(closeTo({ from: 9990, to: 10_000 }, whole)).toEqual({ from: 9980, to: 10_000 });
+    expect(closeTo({ from: 0, to: 9999 }, whole)).toBeNull();
+  });
+
+  it("are drawn with their last scan, as far as they are in sight", () => {
+    expect(spanOn({ from: 0, to: 4999 }, whole)).toEqual({ left: 0, width: 0.5 });
+    expect(spanOn({ from: 9000, to: 20_000 }, whole)).toEqual({ left: 0.9, width: expect.closeTo(0.1) });
+    expect(spanOn({ from: 20_000, to: 30_000 }, whole)).toBeNull();
+  });
+
+  it("have the marks of differences among the others, which speak for a group", () => {
+    const difference = { scan: 15, kind: "difference" as const, author: "A", text: "x" };
+    const all = withDifferences([mark(10, "write"), mark(20, "write")], [difference]);
+    expect(all.map(({ scan }) => scan)).toEqual([10, 15, 20]);
+    expect(clusters(all, whole, 100)[0]?.first.kind).toBe("difference");
+    expect(countKinds([...all, mark(30, "halt")])).toEqual([
+      ["difference", 1],
+      ["halt", 1],
+      ["write", 2],
+    ]);
   });
 });

@@ -33,19 +33,40 @@ export function ticks(axis: Axis, width: number, apart = 92): number[] {
   return found;
 }
 
+/** A mark of the journal, or where a verification or a comparison found a difference. */
+export type ShownMark = Omit<Mark, "kind"> & { kind: Mark["kind"] | "difference" };
+
+/** Both in the order of their scans. */
+export function withDifferences(marks: readonly Mark[], differences: readonly ShownMark[]): readonly ShownMark[] {
+  if (differences.length === 0) return marks;
+  return [...marks, ...differences].sort((a, b) => a.scan - b.scan);
+}
+
 /** Marks at one place of the axis, that of the earliest; `first` speaks for them: it is the most serious one. */
 export interface Cluster {
   place: number;
-  first: Mark;
-  marks: readonly Mark[];
+  first: ShownMark;
+  marks: readonly ShownMark[];
 }
 
 /** What is most worth seeing when several marks share a place. */
-const SERIOUS: readonly Mark["kind"][] = ["error", "system", "build", "recover", "mode", "force", "run", "write"];
+const SERIOUS: readonly ShownMark["kind"][] = [
+  "error",
+  "difference",
+  "disturbance",
+  "system",
+  "halt",
+  "build",
+  "recover",
+  "mode",
+  "force",
+  "run",
+  "write",
+];
 
 /** Marks closer than `apart` pixels to the first of a group join it. They come, and the groups stay, in the order of their scans. */
-export function clusters(marks: readonly Mark[], axis: Axis, width: number, apart = 16): Cluster[] {
-  const found: { place: number; marks: Mark[] }[] = [];
+export function clusters(marks: readonly ShownMark[], axis: Axis, width: number, apart = 16): Cluster[] {
+  const found: { place: number; marks: ShownMark[] }[] = [];
   for (const mark of marks) {
     if (mark.scan < axis.from || mark.scan > axis.to) continue;
     const place = placeOf(mark.scan, axis);
@@ -65,7 +86,7 @@ export function clusters(marks: readonly Mark[], axis: Axis, width: number, apar
 const NUMBER_ROOM = 26;
 
 /** A group at the right edge moves in, so that its number is not cut; one that then stands too close to the last joins it. */
-function keepInside(found: { place: number; marks: Mark[] }[], width: number, apart: number): void {
+function keepInside(found: { place: number; marks: ShownMark[] }[], width: number, apart: number): void {
   const last = found.at(-1);
   const most = 1 - NUMBER_ROOM / width;
   if (!last || last.marks.length < 2 || last.place <= most) return;
@@ -77,7 +98,7 @@ function keepInside(found: { place: number; marks: Mark[] }[], width: number, ap
 }
 
 /** The part of the run to look closer at a group of marks; null when they lie too close for that. */
-export function around(marks: readonly Mark[], axis: Axis, whole: Axis): Axis | null {
+export function around(marks: readonly ShownMark[], axis: Axis, whole: Axis): Axis | null {
   const scans = marks.map((mark) => mark.scan);
   const first = Math.min(...scans);
   const span = Math.max(...scans) - first;
@@ -87,24 +108,41 @@ export function around(marks: readonly Mark[], axis: Axis, whole: Axis): Axis | 
   return { from, to: from + length };
 }
 
-function rank(mark: Mark): number {
+function rank(mark: ShownMark): number {
   return SERIOUS.indexOf(mark.kind);
 }
 
 /** How many marks of each kind, the most serious kind first. */
-export function countKinds(marks: readonly Mark[]): [Mark["kind"], number][] {
-  return SERIOUS.map((kind): [Mark["kind"], number] => [
+export function countKinds(marks: readonly ShownMark[]): [ShownMark["kind"], number][] {
+  return SERIOUS.map((kind): [ShownMark["kind"], number] => [
     kind,
     marks.filter((mark) => mark.kind === kind).length,
   ]).filter(([, count]) => count > 0);
 }
 
 /** The next mark in a direction, for the keyboard. */
-export function neighbour(marks: readonly Mark[], scan: number, direction: 1 | -1): Mark | undefined {
+export function neighbour(marks: readonly ShownMark[], scan: number, direction: 1 | -1): ShownMark | undefined {
   return direction > 0 ? marks.find((mark) => mark.scan > scan) : marks.findLast((mark) => mark.scan < scan);
 }
 
 const LEAST_SHOWN = 20;
+
+/** The part of the run to see a stretch of it closely, both of its ends included; null is the whole run. */
+export function closeTo(stretch: Axis, whole: Axis): Axis | null {
+  const length = Math.max(LEAST_SHOWN, Math.ceil((stretch.to - stretch.from) * 1.1));
+  if (length >= whole.to - whole.from) return null;
+  const middle = Math.round((stretch.from + stretch.to - length) / 2);
+  const from = Math.min(whole.to - length, Math.max(whole.from, middle));
+  return { from, to: from + length };
+}
+
+/** A stretch as it is drawn, in shares of the axis; null when it is out of sight. */
+export function spanOn(stretch: Axis, axis: Axis): { left: number; width: number } | null {
+  if (stretch.to < axis.from || stretch.from > axis.to) return null;
+  const left = placeOf(stretch.from, axis);
+  // The last scan is part of it: it ends where the next one begins.
+  return { left, width: placeOf(Math.min(axis.to, stretch.to + 1), axis) - left };
+}
 
 /** A closer or wider look around a scan; null is the whole run. */
 export function zoomed(axis: Axis, whole: Axis, factor: number, around: number): Axis | null {

@@ -17,7 +17,9 @@ import { resetSeenAs } from "./seenAs";
 import { resetSimulator } from "./simulator";
 import { resetStack } from "./stack";
 import { resetTimeline } from "./timeline";
+import { resetTraceImport } from "./traceImport";
 import { resetTraces } from "./traces";
+import { resetVerify } from "./verify";
 import { loadWatchList } from "./watchlist";
 
 interface Bench {
@@ -69,6 +71,7 @@ export async function chooseProject(project: Project): Promise<void> {
 
 async function look(project: Project, instance: Instance | null): Promise<void> {
   const other = get().project?.id !== project.id;
+  if (other) resetTraceImport();
   set({ project, instance, model: null });
   link.connect(null);
   resetPlc();
@@ -77,6 +80,7 @@ async function look(project: Project, instance: Instance | null): Promise<void> 
   resetDisturb();
   resetTimeline();
   resetTraces();
+  resetVerify();
   resetDebug();
   resetStack();
   resetSeenAs();

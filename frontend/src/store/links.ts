@@ -86,7 +86,12 @@ function writeAddress(): void {
 
 useBench.subscribe((now, before) => {
   const { opened } = get();
-  if (opened !== null && now.phase === "ready" && now.app && !now.app.instances.some(({ id }) => id === opened.instance))
+  if (
+    opened !== null &&
+    now.phase === "ready" &&
+    now.app &&
+    !now.app.instances.some(({ id }) => id === opened.instance)
+  )
     set({ opened: null, trouble: t("link.gone", { instance: opened.instance }) });
   if (now.instance?.id !== before.instance?.id) {
     if (before.instance) set({ question: null });

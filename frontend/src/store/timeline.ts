@@ -24,7 +24,16 @@ interface Run {
   read: string;
 }
 
-const nothing: Run = { info: null, marks: [], view: null, follows: true, aim: null, refused: null, selection: null, read: "" };
+const nothing: Run = {
+  info: null,
+  marks: [],
+  view: null,
+  follows: true,
+  aim: null,
+  refused: null,
+  selection: null,
+  read: "",
+};
 
 export const useTimeline = create<Run>(() => nothing);
 const get = useTimeline.getState;

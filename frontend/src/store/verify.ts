@@ -1,14 +1,10 @@
 /** Verifications of the PLC: which there are, which one is shown, and what people want of them. */
 import { create } from "zustand";
 import { lineIn } from "../logic/breakpoints";
+import { t } from "../logic/text";
 import type { RangeWish } from "../logic/verify";
 import { Refused } from "../wire/rest";
-import type {
-  DriveVerification,
-  NewVerification,
-  VerificationInfo,
-  VerificationRecord,
-} from "../wire/types";
+import type { DriveVerification, NewVerification, VerificationInfo, VerificationRecord } from "../wire/types";
 import { type ExportFormat, type VerifySource, verify as wire } from "../wire/verify";
 import { useBench } from "./bench";
 import { messageOf, useDocuments } from "./documents";
@@ -145,10 +141,12 @@ export async function beginVerification(wanted: NewVerification): Promise<void> 
   set({ asking: null });
 }
 
+const WHOLE_SCAN = { pou: "", file: "", first: 0, last: 0, instance: "" };
+
 /** The whole program from now on, without a question. */
 export async function verifyWholeProgram(): Promise<void> {
   try {
-    await beginVerification({ range: {}, pace: "free", first: null, last: null, limit: 4096 });
+    await beginVerification({ range: WHOLE_SCAN, pace: "free", first: null, last: null, limit: 4096 });
   } catch (error) {
     fail(error);
   }
@@ -158,6 +156,12 @@ export async function verifyWholeProgram(): Promise<void> {
 
 export function fail(error: unknown): void {
   set({ trouble: { message: messageOf(error), near: error instanceof Refused ? (error.refusal.near ?? []) : [] } });
+}
+
+/** Why something was refused, with what was perhaps meant. */
+export function reasonOf(error: unknown): string {
+  const near = error instanceof Refused ? (error.refusal.near ?? []) : [];
+  return near.length > 0 ? `${messageOf(error)} ${t("verify.near", { near: near.join(", ") })}` : messageOf(error);
 }
 
 export const putAwayTrouble = () => set({ trouble: null });

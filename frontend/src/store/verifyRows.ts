@@ -21,6 +21,8 @@ interface Rows {
   selected: number | null;
   /** Of the column of cells that has the keys. */
   track: string | null;
+  /** The cell that shall be edited, until the table does it. */
+  wanted: { index: number; track: string } | null;
 }
 
 const nothing: Omit<Rows, "onlyDiffering"> = {
@@ -33,6 +35,7 @@ const nothing: Omit<Rows, "onlyDiffering"> = {
   differing: [],
   selected: null,
   track: null,
+  wanted: null,
 };
 
 export const useVerifyRows = create<Rows>(() => ({ ...nothing, onlyDiffering: false }));
@@ -190,6 +193,13 @@ export function showOnlyDiffering(onlyDiffering: boolean): void {
 export function selectRow(index: number | null, track?: string | null): void {
   set({ selected: index, ...(track === undefined ? {} : { track }) });
 }
+
+/** Lets somebody type into an input of a row. */
+export function editInput(row: VerifyRow, name: string): void {
+  set({ selected: row.index, track: `input:${name}`, wanted: { index: row.index, track: `input:${name}` } });
+}
+
+export const editBegun = () => set({ wanted: null });
 
 /** To the first, next or previous row that differs, from the one that is looked at. Null: there is none. */
 export function goToDifference(which: "first" | "next" | "previous"): number | null {

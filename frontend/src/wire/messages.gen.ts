@@ -3534,7 +3534,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "write" | "force" | "error" | "recover" | "mode" | "run" | "build" | "system" | "halt";
+            kind: "write" | "force" | "error" | "recover" | "mode" | "run" | "build" | "system" | "halt" | "disturbance";
             /** Scan */
             scan: number;
             /** Text */
@@ -3567,7 +3567,7 @@ export interface components {
              * Kind
              * @enum {string}
              */
-            kind: "write" | "force" | "error" | "recover" | "mode" | "run" | "build" | "system" | "halt";
+            kind: "write" | "force" | "error" | "recover" | "mode" | "run" | "build" | "system" | "halt" | "disturbance";
             /** Scan */
             scan: number;
             /** Text */

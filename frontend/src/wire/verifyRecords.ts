@@ -8,7 +8,3 @@ export const verifyRecords = {
     await request("DELETE", `/verification-records/${record}`);
   },
 };
-
-/** Where a kept verification stands as a file. */
-export const recordFile = (record: number, format: "csv" | "json" | "html") =>
-  `/api/verification-records/${record}/export?format=${format}`;

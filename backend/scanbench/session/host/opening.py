@@ -5,9 +5,11 @@ from pathlib import Path
 
 from scanbench.faults.detect import Detection
 from scanbench.faults.schedule import Schedule
+from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.contents import KeptProgram
+from scanbench.runtime.joined import Joined
 from scanbench.runtime.runfile import RunFileError
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.timeline import Timeline
@@ -18,6 +20,7 @@ from scanbench.session.host.link import Link
 from scanbench.session.host.loop import Loop
 from scanbench.session.host.shelf import HostPrograms
 from scanbench.session.runs import run_limit, sources_in
+from scanbench.verify.disturb_schedule import DisturbanceSchedule
 
 
 def open_loop(start: protocol.Start, builder: Builder, link: Link) -> Loop:
@@ -39,7 +42,7 @@ def _begun(start: protocol.Start, path: Path, builder: Builder) -> tuple[Timelin
     programs = HostPrograms(builder, {sources.version: sources})
     timeline = Timeline.begin(
         path, programs, sources.version, pack_body(sources), ENTRIES, start.name, Detection(), run_limit(start.run_mib),
-        Schedule(builder.observed.make),
+        _agenda(builder),
     )  # fmt: skip
     refusal = timeline.submit(SetClock("server", wall_time()))
     if isinstance(refusal, Refusal):
@@ -51,9 +54,12 @@ def _resumed(start: protocol.Start, path: Path, builder: Builder) -> tuple[Timel
     def programs_of(kept: Mapping[int, KeptProgram]) -> HostPrograms:
         return HostPrograms(builder, {each.version: sources_in(each) for each in kept.values()})
 
-    schedule = Schedule(builder.observed.make)
     timeline = Timeline.resume(
-        path, programs_of, ENTRIES, start.until, Detection(), run_limit(start.run_mib), schedule
+        path, programs_of, ENTRIES, start.until, Detection(), run_limit(start.run_mib), _agenda(builder)
     )  # fmt: skip
     assert isinstance(timeline.programs, HostPrograms)
     return timeline, timeline.programs
+
+
+def _agenda(builder: Builder) -> Agenda:
+    return Joined(Schedule(builder.observed.make), DisturbanceSchedule())

@@ -22,6 +22,7 @@ from scanbench.session.host.status import host_state
 from scanbench.session.host.swaps import Optimising
 from scanbench.session.marks import marks_of
 from scanbench.taps.watch import WatchPlan
+from scanbench.verify.disturb import DISTURBED, disturbances
 
 TICK_NS = 50_000_000
 IDLE_TICK_NS = 1_000_000_000
@@ -158,7 +159,9 @@ class Services:
     def _tell_standing(self) -> None:
         journal = self._resource.journal
         present = journal.derived(ACTIVE)
-        standing = protocol.Standing(dict(present), armed_faults(journal.derived(ARMED)))
+        standing = protocol.Standing(
+            dict(present), armed_faults(journal.derived(ARMED)), disturbances(journal.derived(DISTURBED))
+        )
         if standing != self._standing:
             self._standing = standing
             self._link.post(standing)

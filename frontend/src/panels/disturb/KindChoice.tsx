@@ -12,7 +12,7 @@ export function KindChoice({ kind }: { kind: DisturbKind }) {
   return (
     <div className="kinds" role="radiogroup" aria-label={t("disturb.kind")}>
       {KINDS.map((each) => (
-        <label key={each} className={`kind${each === kind ? " on" : ""}`}>
+        <label key={each} title={t(`disturb.kind.${each}.about`)} className={`kind${each === kind ? " on" : ""}`}>
           <input
             type="radio"
             className="sr"

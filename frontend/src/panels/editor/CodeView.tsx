@@ -22,7 +22,9 @@ import { modelOf } from "./models";
 import { editor, KeyCode, KeyMod, monospaceFont, options } from "./monaco";
 import { markReaction } from "./reaction";
 import { markTrap } from "./trap";
+import { addVerifyAction } from "./verifyAction";
 import { addWatchAction, dragToWatch } from "./watchAction";
+import { addWriterAction } from "./writerAction";
 import { openZone, type Zone } from "./zone";
 
 /** The text of one file in Monaco. */
@@ -43,6 +45,7 @@ export default function CodeView({ path }: { path: string }) {
     view.current = code;
     addActions(code, path);
     addWatchAction(code, path);
+    addWriterAction(code, path);
     const noDrag = dragToWatch(code, host.current, path);
     let gutter: Gutter | null = null;
     const openMenu = (line: number, at: { x: number; y: number }) => {
@@ -51,6 +54,7 @@ export default function CodeView({ path }: { path: string }) {
     };
     const breakpoints = showBreakpoints(code, path, openMenu);
     gutter = breakpoints;
+    addVerifyAction(code, path);
     addDebugActions(code, path, () => breakpoints, openMenu);
     addDisturbAction(code, path, () => breakpoints);
     const caret = () => {

@@ -14,6 +14,7 @@ import type { Pou } from "../../wire/types";
 import { DebugSwitches } from "./DebugSwitches";
 import { shownLine, useStanding } from "./halt";
 import { SeenAs } from "./SeenAs";
+import { VerifyButton } from "./VerifyButton";
 
 /** What has instances: its values are those of one. */
 const INSTANCED: readonly Pou["kind"][] = ["program", "function_block", "class"];
@@ -45,6 +46,7 @@ export function EditorBar({ path }: { path: string }) {
       <BuildOutcome />
       <RollBack />
       <DebugSwitches path={path} />
+      <VerifyButton path={path} pou={found} />
       <ChecksToggle />
       <button
         type="button"

@@ -65,7 +65,7 @@ export function dragToWatch(code: editor.IStandaloneCodeEditor, host: HTMLElemen
   return () => events.abort();
 }
 
-function selectedNames(code: editor.IStandaloneCodeEditor): string[] | null {
+export function selectedNames(code: editor.IStandaloneCodeEditor): string[] | null {
   const selection = code.getSelection();
   const text = selection && code.getModel()?.getValueInRange(selection);
   const names = text ? pathsIn(text) : [];
@@ -73,7 +73,7 @@ function selectedNames(code: editor.IStandaloneCodeEditor): string[] | null {
 }
 
 /** The path of names around the caret: `belt[1].run`. */
-function nameAtCaret(code: editor.IStandaloneCodeEditor): string[] {
+export function nameAtCaret(code: editor.IStandaloneCodeEditor): string[] {
   const position = code.getPosition();
   const line = position && code.getModel()?.getLineContent(position.lineNumber);
   for (const match of line?.matchAll(/%?[\p{L}_][\p{L}\d_]*(?:\[[\d, ]+\]|\.%?[\p{L}\d_]+)*/gu) ?? []) {
@@ -83,13 +83,16 @@ function nameAtCaret(code: editor.IStandaloneCodeEditor): string[] {
   return [];
 }
 
-/** What is written in a POU means variables of the instance that it is seen as, or globals. */
 async function watchNames(path: string, line: number, names: readonly string[]): Promise<void> {
-  if (names.length === 0) return;
+  if (names.length > 0) addToWatch(await pathsOf(path, line, names));
+}
+
+/** What is written in a POU means variables of the instance that it is seen as, or globals. */
+export async function pathsOf(path: string, line: number, names: readonly string[]): Promise<string[]> {
   const { pous, open } = useDocuments.getState();
   const pou = pouAt(pous, path, line, open[path]?.text);
   if (pou) await loadNames(pou.name);
-  addToWatch(names.map((name) => pathIn(pou?.name, name)));
+  return names.map((name) => pathIn(pou?.name, name));
 }
 
 function pathIn(pou: string | undefined, name: string): string {

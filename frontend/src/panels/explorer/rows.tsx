@@ -12,6 +12,7 @@ import { openFile } from "../../store/navigate";
 import { usePlc } from "../../store/plc";
 import { addToTrace } from "../../store/traces";
 import { openUserErrors } from "../../store/userErrors";
+import { verifyPou } from "../../store/verify";
 import { addToWatch } from "../../store/watchlist";
 import type { IconName } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
@@ -34,6 +35,9 @@ const POU_ICONS: Record<Exclude<PouGroup["kind"], "plant">, IconName> = {
 };
 
 const SYMBOL_ICONS: Partial<Record<PlcSymbol["kind"], IconName>> = { array: "array", struct: "struct", block: "fb" };
+
+/** What runs, and so can be verified. */
+const VERIFIED: readonly PouGroup["kind"][] = ["program", "function_block", "function"];
 
 interface Folding {
   isOpen: (key: string) => boolean;
@@ -77,6 +81,9 @@ export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) =>
       const line = node.kind === "pou" ? (node as PouNode).line : 1;
       const menu: MenuItem[] = [
         { label: t("open"), onSelect: () => openFile(node.file, line) },
+        ...(VERIFIED.some((kind) => kind === group.kind)
+          ? [{ label: t("verify.pou", { pou: node.name }), icon: "differs" as const, onSelect: () => verifyPou(node.name) }]
+          : []),
         { label: t("file.delete.menu", { path: node.file }), separated: true, onSelect: () => askDelete(node.file) },
       ];
       rows.push({

@@ -3,6 +3,10 @@ import type { HistoryLine } from "../../logic/history";
 import { dayTime, grouped, wallTime } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
+import { showRerun } from "../../store/reruns";
+import { travel } from "../../store/timeline";
+import { Icon } from "../../ui/Icon";
+import { MenuButton, type MenuItem } from "../../ui/Menu";
 import { ReactionWord } from "../../ui/ReactionWord";
 import { StateWord } from "../../ui/StateWord";
 import { STATUS_ICONS } from "../../ui/statuses";
@@ -30,8 +34,8 @@ export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
         <Reaction line={line} />
       </td>
       <td className="num">{reactionOf(line)?.scans ?? ""}</td>
-      <Moment at={line.generated_at} scan={line.generated_scan} dated={dated} />
-      <Moment at={line.recovered_at} scan={line.recovered_scan} dated={dated} />
+      <Moment at={line.generated_at} scan={line.generated_scan} dated={dated} error={dated ? null : line.id} />
+      <Moment at={line.recovered_at} scan={line.recovered_scan} dated={dated} error={null} />
       <td className="mono c-code">{line.status === "never" ? "" : line.code}</td>
       <td className="details" title={details || undefined}>
         {details}
@@ -61,13 +65,49 @@ function Reaction({ line }: { line: HistoryLine }) {
   );
 }
 
-function Moment({ at, scan, dated }: { at: string | null; scan: number | null; dated: boolean }) {
+interface MomentProps {
+  at: string | null;
+  scan: number | null;
+  dated: boolean;
+  /** What was raised then, in the run that is looked at; null: nothing that could be replayed. */
+  error: string | null;
+}
+
+function Moment({ at, scan, dated, error }: MomentProps) {
   const before = scan === null ? "" : t("history.scan", { scan: grouped(scan) });
   const time = at === null ? "" : dated ? dayTime(at) : wallTime(at);
   return (
     <td className="mono" title={[at, before].filter(Boolean).join(" · ") || undefined}>
-      {time}
-      {before && <span className="faint scan"> {before}</span>}
+      {time}{" "}
+      {scan !== null && error !== null ? (
+        <MenuButton
+          label={t("rerun.of", { scan: grouped(scan) })}
+          className="link"
+          items={() => thenItems(scan, error)}
+        >
+          <span className="scan">{before}</span>
+          <Icon name="chev-d" small />
+        </MenuButton>
+      ) : (
+        before && <span className="faint scan">{before}</span>
+      )}
     </td>
   );
+}
+
+/** To the scan in front of which it was raised, and the run once more with it another. */
+function thenItems(scan: number, error: string): MenuItem[] {
+  const of = { scan, error };
+  return [
+    { label: t("changes.goto", { scan: grouped(scan) }), icon: "moved", onSelect: () => void travel(scan) },
+    {
+      label: t("rerun.menu.instead"),
+      icon: "branch",
+      separated: true,
+      onSelect: () => showRerun(of, { how: "instead" }),
+    },
+    { label: t("rerun.menu.earlier"), onSelect: () => showRerun(of, { by: -1 }) },
+    { label: t("rerun.menu.later"), onSelect: () => showRerun(of, { by: 1 }) },
+    { label: t("rerun.menu.out"), onSelect: () => showRerun(of, { how: "out" }) },
+  ];
 }

@@ -1,6 +1,7 @@
 /** What can be done with an instance: the buttons below the list, and the menu of a row. */
 import { t } from "../../logic/text";
-import { exportInstance, setPower } from "../../store/instances";
+import { showCompare } from "../../store/comparisons";
+import { exportInstance, setPower, showInstances } from "../../store/instances";
 import type { IconName } from "../../ui/Icon";
 import type { Instance } from "../../wire/types";
 import type { Question } from "./Asking";
@@ -27,6 +28,7 @@ export function deeds(instance: Instance, onAsk: (question: Question) => void): 
     },
     { icon: "plc", label: t("instances.clone"), onSelect: () => onAsk({ ask: "clone", instance }) },
     { icon: "branch", label: t("instances.branch"), onSelect: () => onAsk({ ask: "branch", instance }) },
+    { icon: "swap", label: t("compare.runs"), onSelect: () => compareThis(instance) },
     { icon: "keyboard", label: t("instances.rename"), onSelect: () => onAsk({ ask: "rename", instance }) },
     {
       icon: "fit",
@@ -43,4 +45,10 @@ export function deeds(instance: Instance, onAsk: (question: Question) => void): 
     },
     { icon: "trash", label: t("instances.delete"), onSelect: () => onAsk({ ask: "delete", instance }) },
   ];
+}
+
+/** With the one that is looked at. */
+function compareThis(instance: Instance): void {
+  showInstances(false);
+  showCompare(instance.id);
 }

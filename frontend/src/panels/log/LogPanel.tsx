@@ -20,6 +20,7 @@ const LOOK: Record<LogLine["kind"], { icon: IconName; tone: string }> = {
   build: { icon: "init", tone: "stopped" },
   system: { icon: "info", tone: "warning" },
   halt: { icon: "halted", tone: "halted" },
+  disturbance: { icon: "disturbance", tone: "warning" },
 };
 
 /** Everything that was done to this PLC, by whom and before which scan; the newest at the end. */

@@ -71,12 +71,7 @@ export function ChangesDialog() {
                 writerBefore={found.last}
               />
             )}
-            <Entries
-              title={t("changes.entered")}
-              entries={found.entries}
-              none={t("changes.noentries")}
-              onGo={go}
-            />
+            <Entries title={t("changes.entered")} entries={found.entries} none={t("changes.noentries")} onGo={go} />
           </>
         )}
       </div>

@@ -79,7 +79,7 @@ function Rows({ rows, label, heads, writerBefore }: RowsProps) {
   return (
     <div
       ref={scroll}
-      className="grid scroll changed"
+      className="grid scroll chtable"
       role="table"
       aria-label={label}
       aria-rowcount={rows.length + 1}

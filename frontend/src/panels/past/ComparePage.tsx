@@ -65,11 +65,7 @@ function Choose() {
         <>
           <label className="row">
             <span className="muted nowrap">{t("compare.other", instance)}</span>
-            <select
-              className="inp sm"
-              value={chosen.id}
-              onChange={(event) => chooseOther(Number(event.target.value))}
-            >
+            <select className="inp sm" value={chosen.id} onChange={(event) => chooseOther(Number(event.target.value))}>
               {offered.map(({ id, name, project }) => (
                 <option key={id} value={id}>
                   {project.id === instance.project.id ? name : `${project.name} / ${name}`}
@@ -95,7 +91,7 @@ export function useRunName(id: number): string {
 
 function Known({ list, shown }: { list: readonly Comparison[]; shown: number | null }) {
   return (
-    <div className="sub known" role="toolbar" aria-label={t("compare.known")}>
+    <div className="sub cmpknown" role="toolbar" aria-label={t("compare.known")}>
       {list.map((comparison) => (
         <KnownOne key={comparison.id} comparison={comparison} on={comparison.id === shown} />
       ))}
@@ -132,7 +128,7 @@ function Shown({ comparison }: { comparison: Comparison }) {
   const verdict = verdictOf(comparison);
   const underway = verdict === "underway";
   return (
-    <section className="compared" aria-label={t("compare.with", { name: names.B })}>
+    <section className="cmpview" aria-label={t("compare.with", { name: names.B })}>
       <div className="cmphead">
         <StateWord {...LOOK[verdict]} word={word(comparison)} />
         <span className="cut">

@@ -26,8 +26,7 @@ export function Divergence({ result, b, names }: Props) {
   return (
     <>
       <p className="verdict">
-        {scan === null ? t("compare.same.about") : text}{" "}
-        <span className="faint">{t("compare.compared", range)}</span>
+        {scan === null ? t("compare.same.about") : text} <span className="faint">{t("compare.compared", range)}</span>
       </p>
       {scan !== null && <Why result={result} scan={scan} b={b} nameB={names.B} />}
       {result.marks.length > 0 && <Stretches marks={result.marks} />}
@@ -58,7 +57,7 @@ function Why({ result, scan, b, nameB }: WhyProps) {
   const { place, cause } = result;
   const locked = useForbidden("travel");
   return (
-    <div className="why">
+    <div className="parting">
       {cause !== "" && <p className="muted">{t(`compare.cause.${cause}`)}</p>}
       {place && (
         <button type="button" className="stmt mono" onClick={() => openFile(place.file, place.line)}>

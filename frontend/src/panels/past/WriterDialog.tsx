@@ -122,6 +122,11 @@ function Ways({ found }: { found: LastWriter | null }) {
         </button>
       )}
       <span className="grow" />
+      {!found && (
+        <button type="button" className="btn" onClick={closeWriter}>
+          {t("close")}
+        </button>
+      )}
       {place && (
         <button type="button" className="btn" onClick={show}>
           {t("writer.show")}

@@ -4,7 +4,9 @@ import { zoomed } from "../../logic/timeline";
 import { setView, useTimeline } from "../../store/timeline";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
+import { MenuButton } from "../../ui/Menu";
 import type { TimelineInfo } from "../../wire/types";
+import { stretchMenu } from "./menus";
 import type { RunOnAxis } from "./useRun";
 
 const STEP = 4;
@@ -13,6 +15,7 @@ const STEP = 4;
 export function Facts({ run, interval }: { run: RunOnAxis | null; interval: number }) {
   const info = useTimeline((timeline) => timeline.info);
   const view = useTimeline((timeline) => timeline.view);
+  const selection = useTimeline((timeline) => timeline.selection);
 
   function zoom(factor: number): void {
     if (!run) return;
@@ -27,6 +30,15 @@ export function Facts({ run, interval }: { run: RunOnAxis | null; interval: numb
     <div className="tl-info">
       <div className="row tight">
         <h2 className="grow">{t("timeline.label")}</h2>
+        {run && selection && (
+          <MenuButton
+            label={t("stretch.menu", { first: grouped(selection.from), last: grouped(selection.to) })}
+            className="ib sm"
+            items={() => stretchMenu(selection, run.whole)}
+          >
+            <Icon name="more" />
+          </MenuButton>
+        )}
         <IconButton
           icon="zoom-out"
           label={t("timeline.zoom.out")}
@@ -50,8 +62,10 @@ export function Facts({ run, interval }: { run: RunOnAxis | null; interval: numb
         />
       </div>
       {run && (
-        <span className="hint cut">
-          {t("timeline.length", { scans: grouped(scans), time: duration(scans * interval) })}
+        <span className="hint cut" role="status" title={t("stretch.hint")}>
+          {selection
+            ? t("stretch.selected", { first: grouped(selection.from), last: grouped(selection.to) })
+            : t("timeline.length", { scans: grouped(scans), time: duration(scans * interval) })}
         </span>
       )}
       {info && <RunFile info={info} />}

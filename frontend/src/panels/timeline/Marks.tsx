@@ -2,15 +2,15 @@ import { memo, useMemo, useState } from "react";
 import { inNames } from "../../logic/catalogue";
 import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
-import { type Axis, around, type Cluster, clusters, countKinds } from "../../logic/timeline";
+import { type Axis, around, type Cluster, clusters, countKinds, type ShownMark } from "../../logic/timeline";
 import { useCatalogue } from "../../store/catalogue";
 import { usePlc } from "../../store/plc";
-import { setView, travel, useTimeline } from "../../store/timeline";
+import { setView, travel } from "../../store/timeline";
 import { Icon, type IconName } from "../../ui/Icon";
 import { Menu, type MenuItem } from "../../ui/Menu";
-import type { Mark } from "../../wire/types";
+import { pointMenu } from "./menus";
 
-const LOOK: Record<Mark["kind"], { icon: IconName | null; tone: string }> = {
+const LOOK: Record<ShownMark["kind"], { icon: IconName | null; tone: string }> = {
   write: { icon: null, tone: "cmd" },
   run: { icon: null, tone: "plain" },
   force: { icon: "forced", tone: "forced" },
@@ -20,12 +20,19 @@ const LOOK: Record<Mark["kind"], { icon: IconName | null; tone: string }> = {
   build: { icon: "init", tone: "plain" },
   system: { icon: "info", tone: "system" },
   halt: { icon: "bp", tone: "brk" },
+  disturbance: { icon: "disturbance", tone: "system" },
+  difference: { icon: "differs", tone: "diff" },
 };
 
 /** Room for an icon and a number of two digits with its plus. */
 const APART = 42;
 
+const kindWord = (kind: ShownMark["kind"]) =>
+  t(kind === "difference" ? "timeline.kind.difference" : `log.kind.${kind}`);
+
 interface Props {
+  /** In the order of their scans. */
+  marks: readonly ShownMark[];
   axis: Axis;
   whole: Axis;
   width: number;
@@ -33,15 +40,14 @@ interface Props {
 }
 
 /** What was done to the PLC, where it was done; what lies too close is one mark with a number, which is looked at closer. By keyboard: Ctrl with an arrow. */
-export const Marks = memo(function Marks({ axis, whole, width, position }: Props) {
-  const marks = useTimeline((timeline) => timeline.marks);
+export const Marks = memo(function Marks({ marks, axis, whole, width, position }: Props) {
   const found = useMemo(() => (width > 0 ? clusters(marks, axis, width, APART) : []), [marks, axis, width]);
   const { errors } = useCatalogue();
   const you = usePlc((plc) => plc.you?.name);
   const [listed, setListed] = useState<{ items: MenuItem[]; at: { x: number; y: number } } | null>(null);
-  const say = (mark: Mark) =>
+  const say = (mark: ShownMark) =>
     t("timeline.mark", {
-      kind: t(`log.kind.${mark.kind}`),
+      kind: kindWord(mark.kind),
       text: mark.kind === "error" || mark.kind === "recover" ? inNames(errors, mark.text) : mark.text,
       scan: grouped(mark.scan),
       author: mark.author,
@@ -64,6 +70,11 @@ export const Marks = memo(function Marks({ axis, whole, width, position }: Props
     setListed({ items, at: { x: left, y: top - 4 } });
   }
 
+  /** What else can be done there: the errors among them are replayed with a change. */
+  function openMenu(cluster: Cluster, at: { x: number; y: number }): void {
+    setListed({ items: pointMenu({ scan: cluster.first.scan, marks: cluster.marks, position }), at });
+  }
+
   return (
     <ul className="tl-marks" aria-label={t("timeline.marks")}>
       {listed && <Menu label={t("timeline.marks")} {...listed} onClose={() => setListed(null)} />}
@@ -75,6 +86,7 @@ export const Marks = memo(function Marks({ axis, whole, width, position }: Props
             you={cluster.first.author === you}
             later={cluster.first.scan > position}
             onChoose={(button) => choose(cluster, button)}
+            onMenu={(at) => openMenu(cluster, at)}
           />
         </li>
       ))}
@@ -84,7 +96,7 @@ export const Marks = memo(function Marks({ axis, whole, width, position }: Props
 
 function sayMany({ marks }: Cluster, first: string): string {
   const kinds = countKinds(marks)
-    .map(([kind, count]) => `${t(`log.kind.${kind}`)} ${count}`)
+    .map(([kind, count]) => `${kindWord(kind)} ${count}`)
     .join(", ");
   const scans = marks.map((mark) => mark.scan);
   return t("timeline.mark.many", {
@@ -102,9 +114,10 @@ interface MarkProps {
   you: boolean;
   later: boolean;
   onChoose: (button: HTMLElement) => void;
+  onMenu: (at: { x: number; y: number }) => void;
 }
 
-function MarkButton({ cluster, label, you, later, onChoose }: MarkProps) {
+function MarkButton({ cluster, label, you, later, onChoose, onMenu }: MarkProps) {
   const { icon, tone } = LOOK[cluster.first.kind];
   const many = cluster.marks.length > 1;
   return (
@@ -115,6 +128,10 @@ function MarkButton({ cluster, label, you, later, onChoose }: MarkProps) {
       aria-label={label}
       title={label}
       onClick={(event) => onChoose(event.currentTarget)}
+      onContextMenu={(event) => {
+        event.preventDefault();
+        onMenu({ x: event.clientX, y: event.clientY });
+      }}
     >
       {icon ? <Icon name={icon} /> : <i />}
       {many && <span className="n">{cluster.marks.length > 99 ? "99+" : cluster.marks.length}</span>}

@@ -1,13 +1,18 @@
-import { type KeyboardEvent, type PointerEvent, useEffect, useMemo, useRef, useState } from "react";
+import { type KeyboardEvent, type MouseEvent, type PointerEvent, useEffect, useMemo, useRef, useState } from "react";
 import { grouped, plcTime } from "../../logic/numbers";
 import { pieces, stretches } from "../../logic/stretches";
 import { t } from "../../logic/text";
-import { neighbour, placeOf, scanAt, stepTo, ticks } from "../../logic/timeline";
+import { placeOf, scanAt, spanOn, ticks } from "../../logic/timeline";
 import { useCatalogue } from "../../store/catalogue";
+import { shownComparison, useComparisons } from "../../store/comparisons";
+import { useAllMarks } from "../../store/differences";
 import { useForbidden } from "../../store/plc";
-import { travel, useTimeline } from "../../store/timeline";
+import { selectStretch, travel, useTimeline } from "../../store/timeline";
+import { Menu, type MenuItem } from "../../ui/Menu";
 import { Marks } from "./Marks";
+import { pointMenu, stretchMenu } from "./menus";
 import { type RunOnAxis, timeOf } from "./useRun";
+import { keyTarget, useStretch } from "./useStretch";
 
 /** So close to the right edge one means the live end. */
 const LIVE_REACH = 6;
@@ -22,16 +27,22 @@ export function Track({ run, interval }: Props) {
   const track = useRef<HTMLDivElement>(null);
   const width = useWidth(track);
   const [hover, setHover] = useState<number | null>(null);
-  const dragging = useRef(false);
+  const dragging = useRef<"travel" | "select" | null>(null);
+  const [menu, setMenu] = useState<{ items: MenuItem[]; at: { x: number; y: number } } | null>(null);
   const locked = useForbidden("travel") !== null;
+  const marks = useAllMarks();
+  const selection = useTimeline((timeline) => timeline.selection);
   const { axis, whole, position, past } = run;
+  const stretch = useStretch(position, whole);
   const at = (scan: number) => `${placeOf(scan, axis) * 100}%`;
 
-  function scanUnder(event: PointerEvent): number | "live" {
+  function scanUnder(event: MouseEvent): number | "live" {
     const { left, width: wide } = track.current?.getBoundingClientRect() ?? { left: 0, width: 1 };
     const x = event.clientX - left;
     return x > wide - LIVE_REACH && axis.to === whole.to ? "live" : scanAt(x / wide, axis);
   }
+
+  const numberOf = (target: number | "live") => (target === "live" ? whole.to : target);
 
   function go(target: number | "live"): void {
     if (target === "live") {
@@ -40,34 +51,75 @@ export function Track({ run, interval }: Props) {
   }
 
   function onPointerDown(event: PointerEvent<HTMLDivElement>): void {
-    if (event.button !== 0 || locked) return;
+    if (event.button !== 0 || (locked && !event.shiftKey)) return;
     event.currentTarget.setPointerCapture(event.pointerId);
-    dragging.current = true;
-    go(scanUnder(event));
+    const target = scanUnder(event);
+    dragging.current = event.shiftKey ? "select" : "travel";
+    if (event.shiftKey) stretch.begin(numberOf(target));
+    else {
+      selectStretch(null);
+      go(target);
+    }
   }
 
   function onPointerMove(event: PointerEvent<HTMLDivElement>): void {
     const target = scanUnder(event);
-    setHover(target === "live" ? whole.to : target);
-    if (dragging.current) go(target);
+    setHover(numberOf(target));
+    if (dragging.current === "travel") go(target);
+    if (dragging.current === "select") stretch.drag(numberOf(target));
   }
 
   function onPointerUp(event: PointerEvent<HTMLDivElement>): void {
-    if (!dragging.current) return;
-    go(scanUnder(event));
-    dragging.current = false;
+    const { current } = dragging;
+    if (current === null) return;
+    if (current === "travel") go(scanUnder(event));
+    dragging.current = null;
+    if (current === "select") openMenu(numberOf(scanUnder(event)), { x: event.clientX, y: event.clientY });
+  }
+
+  /** Of the stretch that is selected, else of a scan. */
+  function openMenu(scan: number, at: { x: number; y: number }): void {
+    const { selection: chosen } = useTimeline.getState();
+    const inside = chosen && scan >= chosen.from && scan <= chosen.to;
+    const here = marks.filter((mark) => mark.scan === scan);
+    const items = inside ? stretchMenu(chosen, whole) : pointMenu({ scan, marks: here, position });
+    setMenu({ items, at });
+  }
+
+  /** By keyboard: at the end of the stretch that is selected, else at the playhead. */
+  function openMenuByKey(): void {
+    const scan = useTimeline.getState().selection?.to ?? position;
+    const { left, top, width: wide } = track.current?.getBoundingClientRect() ?? { left: 0, top: 0, width: 1 };
+    openMenu(scan, { x: left + placeOf(scan, axis) * wide, y: top });
+  }
+
+  function onContextMenu(event: MouseEvent): void {
+    event.preventDefault();
+    if (event.button === 2) openMenu(numberOf(scanUnder(event)), { x: event.clientX, y: event.clientY });
+    else openMenuByKey();
   }
 
   function onKeyDown(event: KeyboardEvent): void {
-    const target = keyTarget(event, position, whole);
-    if (target === undefined || locked) return;
+    if (!takeKey(event)) return;
     event.preventDefault();
     event.stopPropagation();
-    go(target);
+  }
+
+  function takeKey(event: KeyboardEvent): boolean {
+    if (stretch.key(event, marks)) return true;
+    if (event.key === "Escape" && selection) selectStretch(null);
+    else if (event.key === "Enter" || event.key === "ContextMenu") openMenuByKey();
+    else {
+      const target = keyTarget(event, position, whole, marks);
+      if (target === undefined || locked) return false;
+      go(target);
+    }
+    return true;
   }
 
   return (
     <div className="tl-track" ref={track}>
+      <Selected run={run} />
       <Ribbon run={run} width={width} />
       <div className="tl-axis" aria-hidden="true">
         {ticks(axis, width).map((scan) => (
@@ -105,9 +157,11 @@ export function Track({ run, interval }: Props) {
         onPointerMove={onPointerMove}
         onPointerUp={onPointerUp}
         onPointerLeave={() => setHover(null)}
+        onContextMenu={onContextMenu}
         onKeyDown={onKeyDown}
       />
-      <Marks axis={axis} whole={whole} width={width} position={position} />
+      <Marks marks={marks} axis={axis} whole={whole} width={width} position={position} />
+      {menu && <Menu label={t("timeline.label")} {...menu} onClose={() => setMenu(null)} />}
       {hover !== null && hover !== position && (
         <span className={`tl-hover ${edgeOf(placeOf(hover, axis) * width, width)}`} style={{ left: at(hover) }}>
           {t("timeline.hover", { scan: grouped(hover), time: plcTime(timeOf(hover, interval)) })}
@@ -117,11 +171,29 @@ export function Track({ run, interval }: Props) {
   );
 }
 
-/** Ctrl with an arrow leads from mark to mark. */
-function keyTarget(event: KeyboardEvent, position: number, whole: RunOnAxis["whole"]): number | "live" | undefined {
-  if (!event.ctrlKey && !event.metaKey) return stepTo(event.key, position, whole);
-  const direction = event.key === "ArrowLeft" ? -1 : event.key === "ArrowRight" ? 1 : null;
-  return direction === null ? undefined : neighbour(useTimeline.getState().marks, position, direction)?.scan;
+/** The stretch that is selected. */
+function Selected({ run }: { run: RunOnAxis }) {
+  const selection = useTimeline((timeline) => timeline.selection);
+  const span = selection && spanOn(selection, run.axis);
+  if (!span) return null;
+  return <span className="tl-sel" style={{ left: `${span.left * 100}%`, width: `${span.width * 100}%` }} />;
+}
+
+/** Where the run differs from the one that it was compared with. */
+function Differing({ run }: { run: RunOnAxis }) {
+  const stretches = useComparisons((comparisons) => shownComparison(comparisons)?.result?.marks);
+  return stretches?.map(([from, to]) => {
+    const span = spanOn({ from, to }, run.axis);
+    return (
+      span && (
+        <i
+          key={from}
+          className="differs"
+          style={{ left: `${span.left * 100}%`, width: `max(2px, ${span.width * 100}%)` }}
+        />
+      )
+    );
+  });
 }
 
 /** The ribbon: the states there were, what of it is slower to reach, and that something before it is gone. */
@@ -138,6 +210,7 @@ function Ribbon({ run, width }: { run: RunOnAxis; width: number }) {
       ))}
       {info && info.thinned_before > run.axis.from && <i className="thinned" style={{ width: `${thinned * 100}%` }} />}
       {dropped && <i className="dropped" />}
+      <Differing run={run} />
     </div>
   );
 }

@@ -1,7 +1,10 @@
 import { useState } from "react";
 import { t } from "../../logic/text";
 import { chooseInstance, chooseProject, refreshApp, useBench } from "../../store/bench";
+import { showCompare } from "../../store/comparisons";
 import { showInstances } from "../../store/instances";
+import { openTraceImport } from "../../store/traceImport";
+import { openVerifyRecords } from "../../store/verifyRecords";
 import { Icon } from "../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../ui/Menu";
 import type { AppInfo } from "../../wire/types";
@@ -65,7 +68,14 @@ function itemsOf(
   return [
     ...instances,
     ...projects,
-    { label: t("instances.show"), icon: "list", separated: true, onSelect: () => showInstances(true) },
+    {
+      label: t("compare.runs"),
+      icon: "swap",
+      separated: true,
+      disabled: instance === undefined,
+      onSelect: () => showCompare(),
+    },
+    { label: t("instances.show"), icon: "list", onSelect: () => showInstances(true) },
     {
       label: t("picker.newinstance"),
       icon: "plc",
@@ -73,5 +83,13 @@ function itemsOf(
       onSelect: () => ask("instance"),
     },
     { label: t("picker.newproject"), icon: "plus", onSelect: () => ask("project") },
+    {
+      label: t("import.trace"),
+      icon: "import",
+      separated: true,
+      disabled: instance === undefined,
+      onSelect: () => openTraceImport(),
+    },
+    { label: t("verify.records"), icon: "list", disabled: project === undefined, onSelect: openVerifyRecords },
   ];
 }

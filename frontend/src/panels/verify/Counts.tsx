@@ -9,7 +9,6 @@ import { AskName } from "../../ui/AskName";
 import { Icon, type IconName } from "../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../ui/Menu";
 import { StateWord } from "../../ui/StateWord";
-import { Switch } from "../../ui/Switch";
 import type { VerificationInfo } from "../../wire/types";
 import { ColumnsDialog } from "./ColumnsDialog";
 import { spanOf } from "./Head";
@@ -37,9 +36,17 @@ export function Counts({ shown }: { shown: ShownVerification }) {
       <State info={info} />
       <RecordUse info={info} />
       <span className="grow" />
-      <Switch on={onlyDiffering} onToggle={() => showOnlyDiffering(!onlyDiffering)}>
-        {t("verify.only")}
-      </Switch>
+      <button
+        type="button"
+        className={`btn quiet sm${onlyDiffering ? " on" : ""}`}
+        aria-pressed={onlyDiffering}
+        aria-label={t("verify.only")}
+        title={t("verify.only.about")}
+        onClick={() => showOnlyDiffering(!onlyDiffering)}
+      >
+        <Icon name="filter" small />
+        <span className="long">{t("verify.only")}</span>
+      </button>
       <button type="button" className="btn quiet sm" title={t("verify.columns")} onClick={() => ask("columns")}>
         <Icon name="list" small />
         <span className="long">{t("verify.columns")}</span>
@@ -155,8 +162,16 @@ function Jumps({ none }: { none: boolean }) {
   const why = none ? t("verify.differences.none") : undefined;
   return (
     <>
-      <button type="button" className="btn sm" disabled={none} title={why} onClick={() => goToDifference("first")}>
-        {t("verify.first")}
+      <button
+        type="button"
+        className="btn sm"
+        disabled={none}
+        title={why ?? t("verify.first")}
+        aria-label={t("verify.first")}
+        onClick={() => goToDifference("first")}
+      >
+        <Icon name="differs" small />
+        <span className="long">{t("verify.first")}</span>
       </button>
       <button
         type="button"

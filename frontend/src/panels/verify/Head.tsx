@@ -3,7 +3,9 @@ import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { isGoing } from "../../logic/verify";
 import { useBench } from "../../store/bench";
+import { askDisturb } from "../../store/disturb";
 import { useForbidden } from "../../store/plc";
+import { openTraceImport } from "../../store/traceImport";
 import {
   askVerification,
   chooseVerification,
@@ -13,6 +15,7 @@ import {
   type ShownVerification,
   useVerify,
 } from "../../store/verify";
+import { openVerifyRecords } from "../../store/verifyRecords";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import { MenuButton, type MenuItem } from "../../ui/Menu";
@@ -77,6 +80,9 @@ function What({ shown }: { shown: ShownVerification | null }) {
         separated: verifications.length > 0,
         onSelect: () => askVerification({ range: {}, stretch: null }),
       },
+      { label: t("verify.trace"), icon: "import", onSelect: () => openTraceImport() },
+      { label: t("verify.saved"), icon: "list", onSelect: openVerifyRecords },
+      { label: t("verify.disturb"), icon: "disturbance", onSelect: () => askDisturb({}) },
       ...(shown?.source.kind === "verification"
         ? [
             {
@@ -102,7 +108,9 @@ function What({ shown }: { shown: ShownVerification | null }) {
           <span className="muted">{t(shown?.record ? "verify.record" : "verify.range")}</span>{" "}
           <b>{info ? (shown?.record?.name ?? info.title) : t("verify.none")}</b>
         </span>
-        <span className="cut">{info ? <Sides shown={shown as ShownVerification} name={name} /> : t("verify.none.about")}</span>
+        <span className="cut">
+          {info ? <Sides shown={shown as ShownVerification} name={name} /> : t("verify.none.about")}
+        </span>
       </span>
       <Icon name="chev-d" small />
     </MenuButton>

@@ -20,7 +20,12 @@ export function Segments<T extends string>({ label, value, options, disabled = n
     radios[(now + step + radios.length) % radios.length]?.focus();
   }
   return (
-    <span className={`seg sm${disabled === null ? "" : " lock"}`} role="radiogroup" aria-label={label} onKeyDown={onKeyDown}>
+    <span
+      className={`seg sm${disabled === null ? "" : " lock"}`}
+      role="radiogroup"
+      aria-label={label}
+      onKeyDown={onKeyDown}
+    >
       {options.map(({ value: each, word, title, icon }) => (
         <button
           key={each}

@@ -1,11 +1,20 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { type CSSProperties, type KeyboardEvent, useEffect, useLayoutEffect, useMemo, useRef, useState } from "react";
+import {
+  type CSSProperties,
+  type KeyboardEvent,
+  useCallback,
+  useEffect,
+  useLayoutEffect,
+  useMemo,
+  useRef,
+  useState,
+} from "react";
 import { t } from "../../logic/text";
 import { isGoing } from "../../logic/verify";
 import { arranged, type Track, tracksInSight, tracksOf, unitsOf, wholeWidth } from "../../logic/verifyColumns";
 import type { ShownVerification } from "../../store/verify";
 import { useArrangement } from "../../store/verifyColumns";
-import { indexAt, lineCount, lineOfRow, seeLines, selectRow, useVerifyRows } from "../../store/verifyRows";
+import { editBegun, indexAt, lineCount, lineOfRow, seeLines, selectRow, useVerifyRows } from "../../store/verifyRows";
 import { Menu, type MenuItem } from "../../ui/Menu";
 import { useKeptScroll } from "../../ui/useKeptScroll";
 import { columnMenu } from "./columnMenu";
@@ -27,8 +36,7 @@ export function Table({ shown }: { shown: ShownVerification }) {
   const units = useMemo(() => unitsOf(rows.columns), [rows.columns]);
   const steps = useMemo(() => [...rows.byIndex.values()].some(({ kind }) => kind === "step"), [rows.byIndex]);
   const tracks = useMemo(
-    () =>
-      tracksOf(arranged(units, arrangement), arrangement.pinned, { instances: info.instances.length > 1, steps }),
+    () => tracksOf(arranged(units, arrangement), arrangement.pinned, { instances: info.instances.length > 1, steps }),
     [units, arrangement, info.instances.length, steps],
   );
   const [menu, setMenu] = useState<{ items: MenuItem[]; at: { x: number; y: number } } | null>(null);
@@ -53,6 +61,15 @@ export function Table({ shown }: { shown: ShownVerification }) {
   const at = rows.selected === null ? -1 : lineOfRow(rows, rows.selected);
   useReveal(at, (line) => virtual.scrollToIndex(line, { align: "auto" }));
   const editing = useEditing(shown, grid);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: the wish is the reason, once
+  useEffect(() => {
+    const track = tracks.find(({ key }) => key === rows.wanted?.track);
+    const row = rows.wanted && rows.byIndex.get(rows.wanted.index);
+    if (!track || !row) return;
+    editBegun();
+    reveal(grid.current, tracks, track);
+    editing.begin(row, track);
+  }, [rows.wanted, tracks]);
 
   function goTo(line: number, track = rows.track): void {
     const target = Math.max(0, Math.min(count - 1, line));
@@ -163,23 +180,22 @@ function NoRows({ shown: { info }, only }: { shown: ShownVerification; only: boo
 /** How far it is scrolled to the side, and how wide the window on it is. */
 function useAcross(grid: { current: HTMLDivElement | null }) {
   const [sight, setSight] = useState({ left: 0, width: 1600 });
-  const note = () => {
+  const note = useCallback(() => {
     const element = grid.current;
     if (!element) return;
     // In steps: most scrolling draws no other columns.
     const left = Math.floor(element.scrollLeft / 120) * 120;
     const width = element.clientWidth;
     setSight((before) => (before.left === left && before.width === width ? before : { left, width }));
-  };
-  // biome-ignore lint/correctness/useExhaustiveDependencies: once for the element
+  }, [grid]);
   useEffect(() => {
     const element = grid.current;
     if (!element) return;
     const sized = new ResizeObserver(note);
     sized.observe(element);
     return () => sized.disconnect();
-  }, []);
-  return useMemo(() => ({ ...sight, onScroll: note }), [sight]);
+  }, [grid, note]);
+  return useMemo(() => ({ ...sight, onScroll: note }), [sight, note]);
 }
 
 /** Rows that are forgotten go at the front: what one reads stays where it is. */
@@ -219,7 +235,8 @@ function useFollowing(
   }, [grid]);
   // biome-ignore lint/correctness/useExhaustiveDependencies: more rows are the reason
   useLayoutEffect(() => {
-    if (live && follows.current && selected === null && grid.current) grid.current.scrollTop = grid.current.scrollHeight;
+    if (live && follows.current && selected === null && grid.current)
+      grid.current.scrollTop = grid.current.scrollHeight;
   }, [count, live, selected, grid]);
 }
 

@@ -23,6 +23,7 @@ import {
   useWatchList,
 } from "../../store/watchlist";
 import { editList, told, undoEdit, useWatchLists } from "../../store/watchlists";
+import { showWriter } from "../../store/writer";
 import type { MenuItem } from "../../ui/Menu";
 import type { PlcSymbol } from "../../wire/types";
 import { siteShown } from "./sites";
@@ -39,6 +40,16 @@ export function rowMenu(row: ValueRow, onNewGroup: (path: string) => void): Menu
     ...copyItems(row, symbol),
     ...(row.level === 0 ? groupItems(row, onNewGroup) : []),
     ...actualItems(row),
+    ...(symbol && !symbol.expandable
+      ? [
+          {
+            label: t("writer.menu"),
+            icon: "past" as const,
+            separated: true,
+            onSelect: () => showWriter(row.path),
+          },
+        ]
+      : []),
     ...breakItems(row, symbol),
     { label: t("watch.remove"), hint: "Del", separated: true, onSelect: () => removeFromWatch(row.root) },
   ];

@@ -1,0 +1,130 @@
+"""`scanbench diff`: two recorded runs beside each other: where they part first, and why."""
+
+import json
+from collections.abc import Mapping
+from dataclasses import asdict
+from pathlib import Path
+
+import typer
+
+from scanbench.check.program import Program
+from scanbench.cli.inputs import find_model_named, usage, with_near
+from scanbench.runtime.contents import KeptProgram
+from scanbench.runtime.programs import NoProgram
+from scanbench.runtime.runfile import RunFileError
+from scanbench.session.codec import ENTRIES
+from scanbench.session.runs import sources_in
+from scanbench.session.starting import checked_program
+from scanbench.verify.divergence import find_divergence
+from scanbench.verify.findings import Change, Divergence
+from scanbench.verify.past_engines import past_engines, programs_of
+from scanbench.verify.reading import NoReading, Reading
+
+_SHOWN = 40
+"""Variables, and commands, that are printed; `--json` has all of them."""
+
+
+def diff(
+    run1: Path = typer.Argument(metavar="RUN1", help="A run as the bench exports it (.scanrun), or `run --record` wrote it: A."),
+    run2: Path = typer.Argument(metavar="RUN2", help="The run that it is compared with: B."),
+    as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
+) -> None:  # fmt: skip
+    """Compare two runs scan by scan: the first scan behind which anything differs, and what.
+
+    Exit 0: the same, as far as both go; 1: different; 2: wrong usage, or files that cannot be compared here.
+    """
+    make, _ = past_engines()
+    of = programs_of(_Checked().program, make)
+    try:
+        with Reading(run1, of, ENTRIES, _texts) as one, Reading(run2, of, ENTRIES, _texts) as other:
+            one.follow()
+            other.follow()
+            found = find_divergence(one, other)
+    except NoReading as error:
+        usage(with_near(str(error), error.near))
+    except RunFileError as error:
+        usage(str(error))
+    typer.echo(json.dumps(_data(found)) if as_json else "\n".join(_text(found)))
+    raise typer.Exit(0 if found.scan is None else 1)
+
+
+class _Checked:
+    """Programs that both runs have are checked once."""
+
+    def __init__(self) -> None:
+        self._known: dict[bytes, Program] = {}
+
+    def program(self, kept: KeptProgram) -> Program:
+        """The program that was kept."""
+        if kept.sources not in self._known:
+            sources = sources_in(kept)
+            try:
+                self._known[kept.sources] = checked_program(sources, find_model_named(sources.model))
+            except NoProgram as error:
+                raise NoProgram(f"program version {kept.version} of the run does not compile here: {error}") from error
+        return self._known[kept.sources]
+
+
+def _texts(kept: KeptProgram) -> Mapping[str, str]:
+    return sources_in(kept).files
+
+
+def _data(found: Divergence) -> dict[str, object]:
+    """As JSON: bytes of values are hex, entries and marks have names."""
+    data: dict[str, object] = asdict(found)
+    data["changes"] = [] if found.changes is None else [_change(each) for each in found.changes.changes]
+    data["count"] = 0 if found.changes is None else found.changes.count
+    data["note"] = "" if found.changes is None else found.changes.note
+    names = ("scan", "run", "author", "text")
+    data["entries"] = [dict(zip(names, each, strict=True)) for each in found.entries]
+    data["marks"] = [{"first": first, "last": last} for first, last in found.marks]
+    return data
+
+
+def _change(change: Change) -> dict[str, object]:
+    return {
+        "path": change.path,
+        "type": change.type,
+        "a": change.before_shown,
+        "b": change.after_shown,
+        "a_bytes": change.before.hex(),
+        "b_bytes": change.after.hex(),
+    }
+
+
+def _text(found: Divergence) -> list[str]:
+    lines = [found.text[:1].upper() + found.text[1:]]
+    if found.scan is not None:
+        lines.append(f"scan       {found.scan} (scans {found.first} to {found.last} were compared)")
+    place = found.place
+    if place is not None:
+        lines += [f"task       {place.task}", f"instance   {place.instance}", f"line       {place.file}:{place.line}"]
+        lines += [f"           {place.text}"] * bool(place.text)
+    changes = found.changes
+    if changes is not None and changes.changes:
+        lines += [
+            "",
+            f"{changes.count:,} variable{'s' * (changes.count != 1)} differ{'s' * (changes.count == 1)} behind it:",
+        ]
+        lines += _table(
+            [
+                ("variable", "A", "B"),
+                *((each.path, each.before_shown, each.after_shown) for each in changes.changes[:_SHOWN]),
+            ]
+        )
+        lines += [f"... and {changes.count - _SHOWN:,} more"] * (changes.count > _SHOWN)
+        lines += [changes.note] * bool(changes.note)
+    if found.entries:
+        lines += ["", "Entered in one of them only:"]
+        lines += [f"  {run}  scan {scan}  {author}: {text}" for scan, run, author, text in found.entries[:_SHOWN]]
+        lines += [f"... and {len(found.entries) - _SHOWN:,} more"] * (len(found.entries) > _SHOWN)
+    if found.marks:
+        stretches = ", ".join(str(first) if first == last else f"{first} to {last}" for first, last in found.marks[:10])
+        more = f" and {len(found.marks) - 10} more stretches" if len(found.marks) > 10 else ""
+        lines += ["", f"They differ behind scans {stretches}{more}"]
+    return lines
+
+
+def _table(rows: list[tuple[str, str, str]]) -> list[str]:
+    widths = [max(len(row[at]) for row in rows) for at in range(2)]
+    return [f"  {path:<{widths[0]}}  {one:<{widths[1]}}  {other}".rstrip() for path, one, other in rows]

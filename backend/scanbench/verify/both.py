@@ -1,0 +1,377 @@
+"""One scan on both sides: what the range used, what came out, and where the two part."""
+
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+
+import numpy as np
+from numpy.typing import NDArray
+
+from scanbench.check.layout import Layout
+from scanbench.check.values import format_value
+from scanbench.runtime.command import Entry
+from scanbench.runtime.holds import held
+from scanbench.runtime.trap import Trapped, trap_info
+from scanbench.verify.control import Control, Source, Unverifiable
+from scanbench.verify.disturb import is_disturbance, told
+from scanbench.verify.monitor import Inputs, Monitor
+from scanbench.verify.naming import WHOLE, Leaf
+from scanbench.verify.ranges import Resolved
+from scanbench.verify.rows import MAX_MISMATCHES, Disturbed, Pair, Reader, row_of
+from scanbench.verify.sentences import mismatch
+from scanbench.verify.sides import Begin, Side
+from scanbench.verify.uses import Access, Pass, Recorder, results_are
+from scanbench.verify.verified import Mismatch, Row
+
+MAX_BYTES = 2000
+"""Bytes that are another of which the variables are looked for."""
+
+
+@dataclass(frozen=True, slots=True)
+class View:
+    """How the program that runs is looked at."""
+
+    reader: Reader
+    range: Resolved
+    limit: int
+
+
+ViewOf = Callable[[Side], View]
+"""Of the program that runs on a side."""
+
+
+@dataclass(slots=True)
+class Ran:
+    """A scan, or the part of one in front of a trap, so that it can be run again."""
+
+    view: View
+    control: Begin
+    monitor: Begin
+    held: Mapping[int, int]
+    calls: int
+    """Passes of the scan before it."""
+    there: dict[int, tuple[int, int]] = field(default_factory=dict)
+    """What is held: offset -> mask, and the byte of the control device as the first statement began."""
+    passes: list[Pass] = field(default_factory=list)
+    """Of the control device."""
+
+
+class Both:
+    """The control device and the monitor, side by side."""
+
+    def __init__(self, source: Source, control: Control, monitor: Monitor) -> None:
+        self.source, self.control, self.monitor = source, control, monitor
+        self.ran: list[Ran] = []
+        """The scan that ran last."""
+        self.ran_last = -1
+        """Its number, also where nothing ran in it; -1: none since this was put somewhere."""
+        self.told: list[str] = []
+        self.extra: list[Mismatch] = []
+        self._disturbed = Disturbed()
+
+    def goto(self, scan: int) -> None:
+        """In front of what was entered in a scan."""
+        self.control.goto(scan)
+        self.monitor.restart(self.control.side)
+        self.ran, self.ran_last = [], -1
+        self.told, self.extra, self._disturbed = [], [], Disturbed()
+
+    # ---- a whole scan ---------------------------------------------------------------------------------------------
+
+    def run(self, scan: int, view_of: ViewOf) -> tuple[Row, ...]:
+        """Runs the scan that is next."""
+        self.ran, self.told, self.extra, self._disturbed = [], [], [], Disturbed()
+        rows: list[Row] = []
+        while True:
+            self.seam(scan)
+            view = view_of(self.control.side)
+            trapped = False
+            if self.control.side.resource.runnable:
+                more, trapped = self._run(scan, view, len(rows))
+                rows += more
+            elif not rows:
+                rows.append(Row("none", scan, note=self._stopped()))
+            if not trapped:
+                break
+            if self._next(scan) is None:
+                break
+        self._pass_time(scan)
+        self._look_at_record(view, scan)
+        self.tell_disturbed(view, scan)
+        self.ran_last = scan
+        rows[0] = replace(rows[0], differences=(*self.extra, *rows[0].differences)[:MAX_MISMATCHES])
+        injected = tuple(dict.fromkeys(self.told))
+        return tuple(replace(each, disturbances=injected) for each in rows) if injected else tuple(rows)
+
+    def _stopped(self) -> str:
+        header = self.control.side.resource.header
+        if header.halted_by_trap:
+            return "the program is stopped by a run-time error"
+        return "the program is stopped by a fatal error" if header.halt else "the program is stopped: mode PROGRAM"
+
+    def _pass_time(self, scan: int) -> None:
+        control, monitor = self.control.side.resource, self.monitor.side.resource
+        if control.header.scan == scan and not control.runnable and not control.header.halted_by_trap:
+            control.pass_time(1)
+            monitor.pass_time(1)
+
+    def _next(self, scan: int) -> Entry | None:
+        """What is to be entered next, in this scan."""
+        entries, at = self.source.entries, len(self.control.side.resource.journal)
+        return entries[at] if at < len(entries) and entries[at].scan == scan else None
+
+    def seam(self, scan: int) -> None:
+        """Enters what was entered in front of the scan; then the monitor stands where the control device stands."""
+        control, monitor = self.control, self.monitor
+        disturbed = entered = False
+        while (entry := self._next(scan)) is not None and not entry.step and not isinstance(entry.command, Trapped):
+            entered = True
+            control.enter(entry)
+            monitor.enter(entry)
+            if is_disturbance(entry.command):
+                disturbed = True
+                self._tell(entry)
+        if disturbed:
+            for at in self.different():
+                self._disturbed.there[at] = control.side.memory[at]
+                self._disturbed.own[at] = monitor.side.memory[at]
+        if entered:
+            monitor.take_over(control.side)
+        steps = []
+        while (entry := self._next(scan)) is not None and entry.step:
+            control.side.wait_for([entry])
+            steps.append(entry)
+            if is_disturbance(entry.command):
+                self._tell(entry)
+        monitor.wait_for(steps)
+
+    def _tell(self, entry: Entry) -> None:
+        text = told(entry)
+        if text:
+            self.told.append(text)
+
+    def _run(self, scan: int, view: View, calls: int) -> tuple[list[Row], bool]:
+        """The rows, and whether it ended by a run-time error."""
+        control, monitor = self.control.side, self.monitor.side
+        ran = Ran(view, control.begin(), monitor.begin(), held(control.resource.journal), calls)
+        self.ran.append(ran)
+        recorder = Recorder(control.resource, view.reader.namer, view.range, view.limit)
+        ran.passes = recorder.passes
+
+        def first() -> None:
+            ran.there.update((at, (mask, control.memory[at])) for at, mask in ran.held.items())
+
+        recorder.on_first = first
+        trap = self.control.run(recorder, ran.control)
+        if not recorder.began:
+            first()
+        inputs = Inputs(ran.passes, ran.there)
+        other = Recorder(monitor.resource, view.reader.namer, view.range, view.limit)
+        stop = self.monitor.run(other, inputs)
+        if not other.began:
+            inputs.first()
+        self._note_held(inputs, ran)
+        rows = self._rows(scan, ran, other.passes, inputs)
+        if trap != stop.trap:
+            rows[-1] = _with(rows[-1], self._trap(view, scan, trap, stop.trap))
+        if trap:
+            note = f"ended by a run-time error: {trap_info(control.resource.program, trap, scan)}"
+            rows[-1] = replace(rows[-1], note="; ".join(filter(None, (rows[-1].note, note))))
+        self._keep_own(inputs, ran)
+        self._go_on(scan, trap)
+        return rows, bool(trap)
+
+    def _go_on(self, scan: int, trap: int) -> None:
+        entry = self._next(scan)
+        if trap:
+            if entry is None or not isinstance(entry.command, Trapped):
+                raise Unverifiable(f"scan {scan} ends by a run-time error, and did not when it was recorded")
+            self.control.enter(entry)
+            self.monitor.enter(entry)
+        elif entry is not None:
+            raise Unverifiable(f"scan {scan} went to its end, and was broken off when it was recorded")
+        self.monitor.take_over(self.control.side)
+
+    # ---- what came out --------------------------------------------------------------------------------------------
+
+    def _rows(self, scan: int, ran: Ran, other: list[Pass], inputs: Inputs) -> list[Row]:
+        control, monitor, passes = self.control.side, self.monitor.side, ran.passes
+        different = self.different()
+        if different:
+            _settle(passes, other, control.memory, monitor.memory, different)
+        rows = []
+        for number in range(max(len(passes), len(other))):
+            pair = Pair(
+                passes[number] if number < len(passes) else None, other[number] if number < len(other) else None, scan,
+                ran.calls + number + 1,
+            )  # fmt: skip
+            rows.append(
+                row_of(
+                    ran.view.reader, pair, inputs, number, self._disturbed,
+                    lambda count: control.frames_at(ran.control, count),
+                    lambda count: monitor.frames_at(ran.monitor, count),
+                )
+            )  # fmt: skip
+        if not rows:
+            rows.append(Row("none", scan, note="not run in this scan"))
+        known = _explained(passes, other) if different else set()
+        left = [at for at in different if at not in known]
+        if left:
+            rows[-1] = _with(rows[-1], *self._outside(ran.view, scan, left, control.memory, monitor.memory))
+        return rows
+
+    def different(self, one: bytes | bytearray = b"", other: bytes | bytearray = b"") -> list[int]:
+        """The bytes of the two states (else those of now) that are another, but for the force table, and what a disturbance
+        holds."""
+        one, other = one or self.control.side.memory, other or self.monitor.side.memory
+        size = self.control.side.resource.program.layout.state_size
+        found = np.flatnonzero(_bytes(one, size) != _bytes(other, size)).tolist()
+        if not found:
+            return []
+        bits = held(self.control.side.resource.journal)
+        return [
+            at
+            for at in found
+            if not Layout.FORCE_COUNT <= at < Layout.FORCES_END and (one[at] ^ other[at]) & ~bits.get(at, 0)
+        ]
+
+    def _outside(
+        self, view: View, scan: int, found: Sequence[int], control: bytes | bytearray, monitor: bytes | bytearray
+    ) -> list[Mismatch]:  # fmt: skip
+        """Variables that the range does not use."""
+        made = []
+        for leaf in self.leaves(view, found, control, monitor):
+            was, right = _cut(leaf, control), _cut(leaf, monitor)
+            text = (
+                f"{leaf.name} is {format_value(leaf.type, was)}, the reference gives {format_value(leaf.type, right)}, "
+                f"behind scan {scan}"
+            )
+            made.append(mismatch("outside", leaf, was, right, None, text))
+        return made
+
+    @staticmethod
+    def leaves(
+        view: View, found: Sequence[int], one: bytes | bytearray, other: bytes | bytearray
+    ) -> list[Leaf]:  # fmt: skip
+        """The variables that have any of these bytes, where their values differ."""
+        leaves: dict[str, Leaf] = {}
+        for at in found[:MAX_BYTES]:
+            leaf = view.reader.namer.holding(at, one[at] ^ other[at])
+            if leaf.name not in leaves and _cut(leaf, one) != _cut(leaf, other):
+                leaves[leaf.name] = leaf
+        return list(leaves.values())[:MAX_MISMATCHES]
+
+    def _trap(self, view: View, scan: int, control: int, monitor: int) -> Mismatch:
+        program = self.control.side.resource.program
+        texts = [str(trap_info(program, each, scan)) if each else "" for each in (control, monitor)]
+        if control:
+            text = f"a run-time error ended scan {scan}: {texts[0]}; " + (
+                f"in the reference another one: {texts[1]}" if monitor else "the reference went on"
+            )
+        else:
+            text = f"the control device went to the end of scan {scan}, and a run-time error ended the reference: {texts[1]}"
+        return Mismatch("trap", "run-time error", texts[0].encode(), texts[1].encode(), None, text)
+
+    # ---- disturbances ---------------------------------------------------------------------------------------------
+
+    def _note_held(self, inputs: Inputs, ran: Ran) -> None:
+        for at, (mask, value) in ran.there.items():
+            own = inputs.own.get(at, value)
+            if (own ^ value) & mask:
+                self._disturbed.there[at], self._disturbed.own[at] = value, value & ~mask | own & mask
+
+    def _keep_own(self, inputs: Inputs, ran: Ran) -> None:
+        """What is held is taken from the monitor's inputs for one scan only, unless the program wrote it."""
+        memory = self.monitor.side.memory
+        for at, (mask, value) in ran.there.items():
+            if not (memory[at] ^ value) & mask:
+                memory[at] = memory[at] & ~mask | inputs.own.get(at, value) & mask
+
+    def tell_disturbed(self, view: View, scan: int) -> None:
+        """Bytes that nobody wrote and no row has read."""
+        disturbed = self._disturbed
+        left = [at for at in disturbed.own if at not in disturbed.told]
+        if not left:
+            return
+        there, own = (self._patched(each) for each in (disturbed.there, disturbed.own))
+        made = []
+        for leaf in self.leaves(view, left, there, own):
+            was, right = _cut(leaf, there), _cut(leaf, own)
+            text = (
+                f"{leaf.name} was {format_value(leaf.type, was)} in scan {scan}, and should have been "
+                f"{format_value(leaf.type, right)}: nobody wrote it"
+            )
+            made.append(mismatch("input", leaf, was, right, None, text))
+        self.extra = [*made, *self.extra]
+
+    def _patched(self, bytes_of: Mapping[int, int]) -> bytes:
+        made = bytearray(self.ran[0].control.memory if self.ran else self.control.side.memory)
+        for at, byte in bytes_of.items():
+            made[at] = byte
+        return bytes(made)
+
+    def _look_at_record(self, view: View, scan: int) -> None:
+        """The run file may have the state of this moment: it counts."""
+        side = self.control.side
+        recorded = self.control.recorded()
+        if recorded is None:
+            return
+        here = side.state
+        found = [at for at, (one, other) in enumerate(zip(recorded, here, strict=True)) if one != other]
+        for leaf in self.leaves(view, found, recorded, here):
+            was, again = _cut(leaf, recorded), _cut(leaf, here)
+            text = (
+                f"{leaf.name} was {format_value(leaf.type, was)} behind scan {scan} when it was recorded, and the same code "
+                f"gives {format_value(leaf.type, again)} now"
+            )
+            self.extra.append(mismatch("recorded", leaf, was, again, None, text))
+        side.memory[: len(recorded)] = recorded
+        self.monitor.take_over(side)
+
+
+def _with(row: Row, *more: Mismatch) -> Row:
+    return replace(row, differences=(*row.differences, *more)[:MAX_MISMATCHES])
+
+
+def _bytes(memory: bytes | bytearray, size: int) -> NDArray[np.uint8]:
+    return np.frombuffer(memory, np.uint8, size)
+
+
+def _cut(leaf: Leaf, memory: bytes | bytearray) -> bytes:
+    return leaf.cut(memory, 0)
+
+
+def _settle(
+    passes: list[Pass], other: list[Pass], control: bytearray, monitor: bytearray, different: list[int]
+) -> None:  # fmt: skip
+    """What is another in the end although the statements came to the same: the code that ran live came to it, or it was
+    changed right behind. It counts as the result of the last statement that wrote it, if nobody wrote it later."""
+    for at in different[:MAX_BYTES]:
+        for mine, right in zip(reversed(passes), reversed(other), strict=False):
+            last = _last(right.log, at)
+            if last is None:
+                continue
+            if last.bits != WHOLE or last.value[at - last.offset] == monitor[at]:
+                results_are(mine.log, control, range(at, at + 1))
+            break
+
+
+def _last(log: list[Access], at: int) -> Access | None:
+    """The last write of a byte."""
+    return next((each for each in reversed(log) if each.written and each.offset <= at < each.offset + each.size), None)
+
+
+def _explained(passes: list[Pass], other: list[Pass]) -> set[int]:
+    """Bytes that rows tell of already."""
+    found: set[int] = set()
+    for number in range(max(len(passes), len(other))):
+        mine = passes[number].log if number < len(passes) else []
+        right = other[number].log if number < len(other) else []
+        if mine == right:
+            continue
+        for index in range(max(len(mine), len(right))):
+            pair = mine[index : index + 1], right[index : index + 1]
+            if pair[0] != pair[1]:
+                for each in (*pair[0], *pair[1]):
+                    if each.written:
+                        found.update(range(each.offset, each.offset + each.size))
+    return found

@@ -1,0 +1,46 @@
+"""The used-variable record of one pass, use by use, with places: the scan is run again for it."""
+
+from itertools import zip_longest
+
+from scanbench.verify.both import Both
+from scanbench.verify.edits import pass_of
+from scanbench.verify.monitor import Inputs
+from scanbench.verify.sides import Side
+from scanbench.verify.uses import Access, Pass, Recorder
+from scanbench.verify.verified import Use
+
+
+def uses_of(both: Both, call: int) -> tuple[Use, ...]:
+    """Of a call in the scan that ran last. `BadEdit` when there is none."""
+    ran, number = pass_of(both, call)
+    view, control, monitor = ran.view, both.control.side, both.monitor.side
+    inputs = Inputs(ran.passes, ran.there)
+
+    def recorder(side: Side) -> Recorder:
+        return Recorder(side.resource, view.reader.namer, view.range, view.limit, detail=True)
+
+    def run_control() -> list[Pass]:
+        mine = recorder(control)
+        control.run(mine, mine.listen)
+        return mine.passes
+
+    def run_monitor() -> list[Pass]:
+        other = recorder(monitor)
+        both.monitor.run(other, inputs)
+        return other.passes
+
+    first = control.again(ran.control, run_control)[number]
+    passes = monitor.again(ran.monitor, run_monitor)
+    second = passes[number] if number < len(passes) else Pass(None, 0, 0)
+    names = view.reader.namer.names(first.around)
+    found = []
+    for index, (one, right) in enumerate(zip_longest(first.log, second.log)):
+        access: Access = one or right
+        frames = first.frames_of[index] if one is not None else second.frames_of[index]
+        place = view.reader.places.of(access.site, frames)
+        for leaf in names.of(access.offset, access.size, access.bits):
+            there = None if one is None else leaf.cut(one.value, one.offset)
+            same = right is not None and right[:6] == access[:6]
+            here = leaf.cut(right.value, right.offset) if same else None
+            found.append(Use(leaf.name, access.written, there, here, place))
+    return tuple(found)

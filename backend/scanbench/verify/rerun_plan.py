@@ -1,0 +1,218 @@
+"""What is entered when a run is run once more with one error another: where the original ends, and what comes behind."""
+
+from collections.abc import Iterator, Sequence
+from dataclasses import dataclass, replace
+
+from scanbench.faults.arm import Arm, Disarm, Missed
+from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.reference import ErrorRef, find_error
+from scanbench.faults.shapes import Start
+from scanbench.runtime.command import Command, Entry, Numbered, Refusal
+from scanbench.runtime.trap import Trapped
+from scanbench.verify.disturb_fire import Firing
+from scanbench.verify.findings import RerunChange
+from scanbench.verify.reading import NoReading, Reading
+
+_ITSELF = ("PLC", "program")
+"""Who enters what the PLC finds and the program asks for."""
+
+
+@dataclass(frozen=True, slots=True)
+class Given:
+    """A command, and in front of which scan it is entered."""
+
+    scan: int
+    command: Command
+    number: int | None = None
+    """What it was given in the original: of an armed fault or a disturbance."""
+
+
+@dataclass(frozen=True, slots=True)
+class Planned:
+    """The original ends in front of `scan`, with its first `cut` entries."""
+
+    scan: int
+    cut: int
+    given: tuple[Given, ...]
+    notes: tuple[str, ...]
+
+
+def planned(reading: Reading, change: RerunChange) -> Planned:
+    """What is to be entered. `NoReading` says why it cannot be another."""
+    _check(reading, change)
+    entries = reading.entries
+    raised = _raised(reading, change)
+    index = _changed(reading, raised)
+    entry = entries[index]
+    scan, command = entry.scan, _another(entry, entries[raised], change)
+    if command is not None:
+        scan = _moved_to(entry, entries[raised], change)
+    first = min(scan, entry.scan)
+    if first < reading.first:
+        raise NoReading(f"scan {first} is not kept: the run begins with scan {reading.first}")
+    if first > reading.end:
+        raise NoReading(f"scan {first} has not come yet: the run ends at scan {reading.end}")
+    cut = (
+        index
+        if first == entry.scan and not entry.step
+        else sum(each.scan <= first and not (each.scan == first and each.step) for each in entries)
+    )
+    begin = [] if command is None else [Given(scan, command, _number(entry))]
+    rest, notes = _rest(entries, cut, index, raised, change)
+    given = sorted((*begin, *rest), key=lambda each: each.scan)
+    return Planned(first, cut, tuple(given), tuple(notes))
+
+
+def _check(reading: Reading, change: RerunChange) -> None:
+    if change.leave_out and (change.by or change.instead):
+        raise NoReading("it cannot be left out and be another too: choose one of them")
+    if not (change.leave_out or change.by or change.instead):
+        raise NoReading("nothing would be another: say how many scans later, which error instead, or leave it out")
+    if change.instead:
+        found = find_error(reading.timeline.resource.program.layout.model, change.instead)
+        if isinstance(found, Refusal):
+            raise NoReading(found.message, found.near)
+
+
+def _raised(reading: Reading, change: RerunChange) -> int:
+    """The entry that raised the error."""
+    of = [
+        (index, each)
+        for index, each in enumerate(reading.entries)
+        if isinstance(each.command, Generate) and change.error in _ids(each.command)
+    ]
+    found = [(index, each) for index, each in of if each.scan == change.scan]
+    if not found:
+        scans = ", ".join(str(each.scan) for _, each in of[:5])
+        where = f"it was in front of scan {scans}" if of else "it was not raised in this run at all"
+        raise NoReading(f"{change.error} was not raised in front of scan {change.scan}: {where}")
+    index, entry = found[0]
+    if isinstance(entry.command, Generate) and entry.command.origin != "simulator":
+        by = "the PLC" if entry.command.origin == "plc" else "the program"
+        raise NoReading(
+            f"{by} raised {change.error} itself in scan {change.scan}: that is what it does, so change the program, or "
+            "what it is given"
+        )
+    return index
+
+
+def _changed(reading: Reading, raised: int) -> int:
+    """The entry that is another: of an armed fault the one that armed it."""
+    entries, command = reading.entries, reading.entries[raised].command
+    assert isinstance(command, Generate)
+    index = raised
+    if command.arm is not None:
+        armed = (
+            at for at, each in enumerate(entries[:raised])
+            if isinstance(each.command, Arm) and _number(each) == command.arm
+        )  # fmt: skip
+        index = next(armed, -1)
+    if index < reading.timeline.recording.checkpoints[0].entries:
+        raise NoReading(f"how fault {command.arm} was armed is not kept any more: it was before scan {reading.first}")
+    return index
+
+
+def _another(entry: Entry, raised: Entry, change: RerunChange) -> Command | None:
+    """The command as it is to be this time; None: not at all."""
+    match entry.command:
+        case Arm(wanted=wanted) as command:
+            errors = _errors(wanted.errors, change)
+            start = wanted.start
+            if change.by:
+                start = Start("scan", _began(entry, raised, change))
+            return replace(command, wanted=replace(wanted, errors=errors, start=start)) if errors else None
+        case Generate(errors=refs) as command:
+            errors = _errors(refs, change)
+            return replace(command, errors=errors) if errors else None
+    raise AssertionError(entry)
+
+
+def _errors(refs: Sequence[ErrorRef], change: RerunChange) -> tuple[ErrorRef, ...]:
+    if change.leave_out:
+        return tuple(each for each in refs if each.id != change.error)
+    if not change.instead:
+        return tuple(refs)
+    return tuple(ErrorRef(change.instead) if each.id == change.error else each for each in refs)
+
+
+def _began(entry: Entry, raised: Entry, change: RerunChange) -> int:
+    """In front of which scan an armed fault is to begin, so that this error comes so much earlier or later."""
+    command = entry.command
+    assert isinstance(command, Arm)
+    index = [each.id for each in command.wanted.errors].index(change.error)
+    began = raised.scan - index * command.wanted.gap
+    step = raised.command.step if isinstance(raised.command, Generate) else 0
+    if step and command.wanted.start.kind in ("now", "scan"):
+        began = entry.scan if command.wanted.start.kind == "now" else command.wanted.start.scan or entry.scan
+    elif step:
+        raise NoReading(
+            "it came back as an armed fault that waited for a condition or a line: move the first time that it came, or arm "
+            "it anew"
+        )
+    return began + change.by
+
+
+def _moved_to(entry: Entry, raised: Entry, change: RerunChange) -> int:
+    """In front of which scan the command is entered."""
+    if not isinstance(entry.command, Arm):
+        return entry.scan + change.by
+    return min(entry.scan, _began(entry, raised, change)) if change.by else entry.scan
+
+
+def _rest(
+    entries: Sequence[Entry], cut: int, index: int, raised: int, change: RerunChange
+) -> tuple[list[Given], list[str]]:  # fmt: skip
+    """Everything behind the cut that somebody entered, but for what is changed itself."""
+    given, notes, goes_with = [], [], True
+    for at in range(cut, len(entries)):
+        entry, command = entries[at], entries[at].command
+        if at == index or comes_by_itself(command):
+            continue
+        scan = entry.scan
+        if at > raised and isinstance(command, Generate) and change.error in _ids(command):
+            goes_with = False  # it was raised anew: what follows is about that
+        if at > raised and goes_with and isinstance(command, Recover) and change.error in (command.ids or ()):
+            moved = _recovery(command, change)
+            if moved is None:
+                continue
+            command, scan = moved, scan + change.by * (len(command.ids or ()) == 1)
+        if entry.step:
+            notes.append(
+                f"{type(command).__name__} by {command.author} was entered inside of scan {entry.scan}, and is entered in front "
+                "of it this time"
+            )
+        given.append(Given(scan, command, _number(entry)))
+    return given, notes
+
+
+def _recovery(command: Recover, change: RerunChange) -> Recover | None:
+    """The recovery of the error, of what is raised this time."""
+    ids = tuple(command.ids or ())
+    if change.leave_out:
+        ids = tuple(each for each in ids if each != change.error)
+    elif change.instead:
+        ids = tuple(change.instead if each == change.error else each for each in ids)
+    return replace(command, ids=ids) if ids or command.numbers else None
+
+
+def comes_by_itself(command: Command) -> bool:
+    """Whether nobody entered this: the PLC finds it, the program asks for it, or it is a step of what is under way."""
+    match command:
+        case Trapped() | Missed() | Firing():
+            return True
+        case Generate(arm=arm, origin=origin):
+            return arm is not None or origin != "simulator"
+        case Recover(arm=arm, author=author):
+            return arm is not None or author in _ITSELF
+        case Disarm(why=why):
+            return bool(why)
+    return False
+
+
+def _number(entry: Entry) -> int | None:
+    effect = entry.plan.effect
+    return effect.number if isinstance(effect, Numbered) else None
+
+
+def _ids(command: Generate) -> Iterator[str]:
+    return (each.id for each in command.errors)

@@ -1,0 +1,211 @@
+"""Rows of the table: what the two sides used and came to, pass by pass, and the first place where they part."""
+
+from dataclasses import dataclass, field
+
+from scanbench.verify.monitor import Inputs
+from scanbench.verify.naming import Leaf, Namer, Names
+from scanbench.verify.places import FramesAt, Places
+from scanbench.verify.sentences import Teller
+from scanbench.verify.uses import Access, Pass
+from scanbench.verify.verified import MAX_COLUMNS, Cause, Column, Input, Mismatch, Output, Row, RowKind
+
+MAX_MISMATCHES = 20
+"""Of a row."""
+
+
+class Columns:
+    """The columns so far."""
+
+    def __init__(self) -> None:
+        self.all: dict[str, Column] = {}
+        self._inputs: set[str] = set()
+        self._outputs: set[str] = set()
+        self._new: tuple[list[Column], list[str], list[str]] = [], [], []
+
+    def used(self, leaf: Leaf, written: bool) -> bool:
+        """Notes a use; false where no column can be shown for it."""
+        name = leaf.name
+        if leaf.passing:
+            return False
+        if name not in self.all:
+            if len(self.all) >= MAX_COLUMNS:
+                return False
+            self.all[name] = column = leaf.column()
+            self._new[0].append(column)
+        known, new = (self._outputs, self._new[2]) if written else (self._inputs, self._new[1])
+        if name not in known:
+            known.add(name)
+            new.append(name)
+        return True
+
+    def take(self) -> tuple[tuple[Column, ...], tuple[str, ...], tuple[str, ...]]:
+        """New columns, and names that were inputs and outputs for the first time, since this was last asked."""
+        columns, inputs, outputs = self._new
+        self._new = [], [], []
+        return tuple(columns), tuple(inputs), tuple(outputs)
+
+
+@dataclass(slots=True)
+class Reader:
+    """What is needed to make rows of one program."""
+
+    namer: Namer
+    places: Places
+    columns: Columns
+
+
+@dataclass(slots=True)
+class Disturbed:
+    """Bytes that are not what the monitor would have there: as the control device has them, and as the monitor would."""
+
+    there: dict[int, int] = field(default_factory=dict)
+    own: dict[int, int] = field(default_factory=dict)
+    told: set[int] = field(default_factory=set)
+    """Those that a row tells of."""
+
+    def own_of(self, offset: int, value: bytes, bits: int) -> bytes | None:
+        """What would have been read here; None: the same."""
+        if not self.own:
+            return None
+        made = bytearray(value)
+        for at, byte in enumerate(value, offset):
+            if at in self.own and (self.there[at] ^ byte) & bits == 0:
+                made[at - offset] = self.own[at] & bits
+                if made[at - offset] != byte:
+                    self.told.add(at)
+        return bytes(made) if made != value else None
+
+
+@dataclass(slots=True)
+class Pair:
+    """One pass of both sides."""
+
+    control: Pass | None
+    monitor: Pass | None
+    scan: int
+    call: int
+
+    @property
+    def either(self) -> Pass:
+        """The control device's, where it has it."""
+        found = self.control or self.monitor
+        assert found is not None
+        return found
+
+
+def row_of(
+    reader: Reader, pair: Pair, inputs: Inputs, number: int, disturbed: Disturbed, control_at: FramesAt,
+    monitor_at: FramesAt,
+) -> Row:  # fmt: skip
+    """The row of a pass."""
+    made = pair.either
+    names = reader.namer.names(made.around)
+    path = reader.places.path(made.pou, made.instance)
+    teller = Teller(reader.namer, reader.places, names, pair.scan, path, made.pou is not None)
+    read, differences = _inputs(reader, names, inputs, number, disturbed, teller) if pair.control else ({}, [])
+    outputs = _outputs(reader, names, pair)
+    differences += _differences(pair, names, teller, control_at, monitor_at)
+    kind: RowKind = "scan" if made.pou is None else "pass"
+    note = ""
+    if made.full:
+        note = f"record full: {len(made.log):,} of {made.used:,} uses kept"
+    place = None
+    if made.pou is not None and made.frames:
+        place = reader.places.of(made.frames[0].site, made.frames)
+    return Row(
+        kind, pair.scan, pair.call, 0, path, place, outputs, read, tuple(differences[:MAX_MISMATCHES]), (), made.used, note
+    )  # fmt: skip
+
+
+def _outputs(reader: Reader, names: Names, pair: Pair) -> dict[str, Output]:
+    control, monitor = pair.control, pair.monitor
+    mine = _written(reader, names, control.log) if control is not None else {}
+    if control is not None and monitor is not None and control.log == monitor.log:
+        return {name: Output(value, value) for name, value in mine.items()}
+    other = _written(reader, names, monitor.log) if monitor is not None else {}
+    return {name: Output(mine.get(name), other.get(name)) for name in {**mine, **other}}
+
+
+def _written(reader: Reader, names: Names, log: list[Access]) -> dict[str, bytes]:
+    """The last values, by columns, in the order of the first writes."""
+    found: dict[str, bytes] = {}
+    used = reader.columns.used
+    for _, _, offset, size, bits, written, value in log:
+        if written:
+            for leaf in names.of(offset, size, bits):
+                if leaf.name in found or used(leaf, True):
+                    found[leaf.name] = leaf.cut(value, offset)
+    return found
+
+
+def written_by(reader: Reader, made: Pass) -> dict[str, bytes]:
+    """The outputs of one side's pass."""
+    return _written(reader, reader.namer.names(made.around), made.log)
+
+
+def _inputs(
+    reader: Reader, names: Names, inputs: Inputs, number: int, disturbed: Disturbed, teller: Teller
+) -> tuple[dict[str, Input], list[Mismatch]]:  # fmt: skip
+    found: dict[str, Input] = {}
+    differences: list[Mismatch] = []
+    instead = inputs.expected[number]
+    for (site, count, offset, size, bits, _, value), _ in inputs.fresh[number]:
+        own = disturbed.own_of(offset, value, bits)
+        if instead:
+            patched = bytearray(value if own is None else own)
+            for at in range(offset, offset + size):
+                if at in instead:
+                    patched[at - offset] = instead[at] & bits
+            own = None if patched == value else bytes(patched)
+        for leaf in names.of(offset, size, bits):
+            if leaf.name in found:
+                continue
+            recorded = leaf.cut(value, offset)
+            expected = None if own is None else leaf.cut(own, offset)
+            if expected == recorded:
+                expected = None
+            if reader.columns.used(leaf, False):
+                found[leaf.name] = Input(recorded, expected)
+            if expected is not None:
+                differences.append(teller.input(leaf, recorded, expected))
+    return found, differences
+
+
+def _differences(
+    pair: Pair, names: Names, teller: Teller, control_at: FramesAt, monitor_at: FramesAt
+) -> list[Mismatch]:  # fmt: skip
+    """The first place where they part, then every result that is another in the end."""
+    control = pair.control.log if pair.control is not None else []
+    monitor = pair.monitor.log if pair.monitor is not None else []
+    if control == monitor and pair.control is not None and pair.monitor is not None:
+        return []
+    full = any(each is not None and each.full for each in (pair.control, pair.monitor))
+    made: list[Mismatch] = []
+    told: set[str] = set()
+    last: dict[str, tuple[Leaf, Access, bytes, bytes]] = {}
+    for one, other in zip(control, monitor, strict=False):
+        if one == other:
+            continue
+        if one[:6] != other[:6]:
+            made.append(teller.order(one, other, control_at(one.count), monitor_at(other.count)))
+            break
+        for leaf in names.of(one.offset, one.size, one.bits):
+            here, there = leaf.cut(one.value, one.offset), leaf.cut(other.value, one.offset)
+            if here == there:
+                last.pop(leaf.name, None)
+                continue
+            if not made or (one.written and leaf.name not in told):
+                told.add(leaf.name)
+                cause: Cause = "logic" if one.written else "input"
+                made.append(teller.differs(cause, leaf, here, there, one.site, control_at(one.count)))
+            last[leaf.name] = leaf, one, here, there
+    else:
+        if len(control) != len(monitor) and not full:
+            index = min(len(control), len(monitor))
+            longer, at = (control, control_at) if len(control) > index else (monitor, monitor_at)
+            made.append(teller.only_one(longer[index], longer is control, at(longer[index].count)))
+    ended = last.keys()
+    # what was right again in the end is told where it is the first
+    return [
+        each for index, each in enumerate(made) if index == 0 or each.cause == "order" or each.name in ended or not last
+    ]

@@ -1,0 +1,243 @@
+"""The monitor of a trace: the reference interpreter on the inputs that a real controller wrote down, scan by scan."""
+
+import zlib
+from bisect import bisect_right
+from collections.abc import Callable, Mapping, Sequence
+from dataclasses import dataclass
+
+from scanbench.check.program import Program
+from scanbench.check.types import StringType
+from scanbench.engines.debug import Listen
+from scanbench.engines.engine import Reason, Stop
+from scanbench.runtime.command import Patch
+from scanbench.runtime.header import pass_time
+from scanbench.runtime.inside import Onlooker
+from scanbench.runtime.resource import Resource
+from scanbench.verify.engines import reference
+from scanbench.verify.sides import Begin, Side
+from scanbench.verify.trace_bind import Signal, Trace
+from scanbench.verify.uses import Recorder
+
+EVERY = 200
+"""Scans from one kept state to the next; more when there are many of them."""
+MOST = 100
+
+
+@dataclass(frozen=True, slots=True)
+class Recorded:
+    """What the trace says of a scan."""
+
+    scan: int
+    row: int | None
+    """None: it has no row."""
+    taken_over: bool = False
+    """The trace begins here, or goes on behind a gap: what it says is believed."""
+    skipped: bool = False
+    """It is in a gap in which nothing runs."""
+
+
+@dataclass(frozen=True, slots=True)
+class Result:
+    """A mapped output at the end of a scan."""
+
+    signal: Signal
+    recorded: bytes | None
+    """None: the trace has no value of it."""
+    found: bytes
+
+    @property
+    def same(self) -> bool:
+        """Whether there is nothing to say against it."""
+        if self.recorded is None:
+            return True
+        return self.signal.exactness.same(self.signal.type, self.recorded, self.found)
+
+
+@dataclass(frozen=True, slots=True)
+class Ran:
+    """A scan of the monitor."""
+
+    recorded: Recorded
+    begin: Begin
+    """In front of it, inputs included."""
+    trap: int
+    """Number of the run-time error that ended it, or 0."""
+    results: tuple[Result, ...]
+
+
+class TraceMonitor:
+    """Stands in front of a scan, as it is by itself: from a cold start, and where it was told another value by that."""
+
+    def __init__(self, program: Program, trace: Trace) -> None:
+        self.trace = trace
+        self.side = Side(Resource(reference(1, program)))
+        scans = trace.scans
+        self.first, self.end = scans.first, scans.last + 1
+        self._rows: Mapping[int, int] = {scan: row for row, scan in enumerate(scans.of_rows)}
+        self._inputs = [(each, _filled(each.values)) for each in trace.inputs]
+        if self.first:
+            pass_time(self.side.memory, self.first, program.interval_ns)
+        self._program = program
+        self._kept: dict[int, bytes] = {}
+        self._every = EVERY
+
+    @property
+    def scan(self) -> int:
+        """The scan that is next."""
+        return self.side.resource.header.scan
+
+    def recorded(self, scan: int) -> Recorded:
+        """What the trace says of a scan."""
+        skips = self.trace.gaps == "skip"
+        row = self._rows.get(scan)
+        if row is None:
+            return Recorded(scan, None, skipped=skips)
+        begins = (scan == self.first and not self.trace.scans.cold) or (
+            skips and scan > self.first and scan - 1 not in self._rows
+        )
+        return Recorded(scan, row, taken_over=begins)
+
+    def goto(self, scan: int) -> None:
+        """To the seam in front of a scan of the trace."""
+        if scan < self.scan:
+            kept = max((each for each in self._kept if each <= scan), default=None)
+            assert kept is not None, "the first scan is always kept"
+            state = zlib.decompress(self._kept[kept])
+            self.side.memory[: len(state)] = state
+        while self.scan < scan:
+            self.pass_scan()
+
+    def pass_scan(self) -> None:
+        """Runs the scan that is next, and nobody looks."""
+        self.settle(self.run(None))
+
+    def run(self, recorder: Recorder | None, edits: Mapping[int, Sequence[Patch]] | None = None) -> Ran:
+        """Runs the scan that is next, on recorded inputs; with `edits` (pass -> patches) as that pass begins. The monitor stands
+        behind it then, until it is settled or gone back to where it began."""
+        memory, recorded = self.side.memory, self.recorded(self.scan)
+        self._keep()
+        patches = self.inputs(recorded.scan)
+        put(memory, patches)  # for the system program and the plant
+        begin = self.side.begin()
+        hook = recorder if recorder is not None else _Nobody()
+        if isinstance(hook, Recorder) and edits:
+            hook.on_begin = lambda number, made: put(memory, edits.get(number, ()))
+        hook.on_first = lambda: put(memory, patches)  # a plant may have said something else
+        return self._ran(recorded, begin, self.side.run(hook, hook.listen))
+
+    def run_with(self, hook: Onlooker, listen: Listen) -> Ran:
+        """The same with a hook that gives the inputs itself, and may halt."""
+        recorded = self.recorded(self.scan)
+        self._keep()
+        put(self.side.memory, self.inputs(recorded.scan))
+        begin = self.side.begin()
+        return self._ran(recorded, begin, self.side.run(hook, listen))
+
+    def _ran(self, recorded: Recorded, begin: Begin, stop: Stop) -> Ran:
+        return Ran(recorded, begin, stop.trap if stop.reason is Reason.TRAP else 0, self.results(recorded))
+
+    def results(self, recorded: Recorded) -> tuple[Result, ...]:
+        """The mapped outputs as they are now."""
+        row = recorded.row
+        return tuple(
+            Result(each, None if row is None else each.values[row], value_of(each, self.side.memory))
+            for each in self.trace.outputs
+        )
+
+    def back(self, ran: Ran) -> None:
+        """To where a scan began."""
+        self.side.stand(ran.begin)
+
+    def settle(self, ran: Ran) -> None:
+        """Goes on behind it, with what the controller had where that was another."""
+        memory = self.side.memory
+        if ran.trap:
+            pass_time(memory, 1, self._program.interval_ns)
+        for each in ran.results:
+            if each.recorded is not None and (ran.recorded.taken_over or not each.same):
+                put(memory, [patch_of(each.signal, each.recorded)])
+        self._skip()
+
+    def _skip(self) -> None:
+        """Over a gap in which nothing runs."""
+        if self.trace.gaps != "skip" or self.scan >= self.end or self.scan in self._rows:
+            return
+        rows = self.trace.scans.of_rows
+        pass_time(self.side.memory, rows[bisect_right(rows, self.scan)] - self.scan, self._program.interval_ns)
+
+    def _keep(self) -> None:
+        """This state, where it is time."""
+        scan = self.scan
+        if self._kept and scan < max(self._kept) + self._every:
+            return
+        self._kept[scan] = zlib.compress(self.side.state, 1)
+        if len(self._kept) > MOST:
+            self._every *= 2
+            self._kept = {each: self._kept[each] for each in sorted(self._kept)[::2]}
+
+    def inputs(self, scan: int) -> list[Patch]:
+        """What the monitor gets in a scan: what the trace says last."""
+        row = bisect_right(self.trace.scans.of_rows, scan) - 1
+        values = ((signal, filled[row]) for signal, filled in self._inputs)
+        return [patch_of(signal, value) for signal, value in values if value is not None]
+
+
+class _Nobody:
+    """Waits for the first statement of the scan."""
+
+    listen = Listen(count=1)
+
+    def __init__(self) -> None:
+        self.on_first: Callable[[], None] = _nothing
+
+    def statement(self, site: int, count: int, depth: int) -> bool:
+        """See `Hook`."""
+        self.on_first()
+        return False
+
+    def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
+        """See `Hook`."""
+
+    def entered(self) -> None:
+        """See `Onlooker`."""
+
+
+def _nothing() -> None:
+    pass
+
+
+def patch_of(signal: Signal, value: bytes) -> Patch:
+    """Gives a variable a value."""
+    symbol = signal.symbol
+    if symbol.bit is not None:
+        return Patch.of_bit(symbol.offset, symbol.bit, value != b"\0")
+    return Patch.whole(symbol.offset, value)
+
+
+def value_of(signal: Signal, memory: bytes | bytearray) -> bytes:
+    """What a variable is."""
+    symbol = signal.symbol
+    if symbol.bit is not None:
+        return bytes((memory[symbol.offset] >> symbol.bit & 1,))
+    value = bytes(memory[symbol.offset : symbol.offset + signal.type.size])
+    if isinstance(signal.type, StringType):  # what is behind its end means nothing
+        used = 2 + signal.type.width * min(int.from_bytes(value[:2], "little"), signal.type.capacity)
+        return value[:used].ljust(len(value), b"\0")
+    return value
+
+
+def put(memory: bytearray, patches: Sequence[Patch]) -> None:
+    """Applies them."""
+    for patch in patches:
+        for at, (mask, data) in enumerate(zip(patch.mask, patch.data, strict=True), patch.offset):
+            memory[at] = memory[at] & ~mask | data & mask
+
+
+def _filled(values: Sequence[bytes | None]) -> list[bytes | None]:
+    """An input without a value stays as it was."""
+    found: list[bytes | None] = []
+    last: bytes | None = None
+    for value in values:
+        last = last if value is None else value
+        found.append(last)
+    return found

@@ -1,0 +1,284 @@
+"""Rows of a verification against a trace: what the monitor used and came to, and what the trace says of it."""
+
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import replace
+
+from scanbench.check.values import format_value
+from scanbench.engines.debug import Frame, Listen
+from scanbench.runtime.trap import trap_info
+from scanbench.verify.naming import ANYWHERE, Leaf, Names
+from scanbench.verify.ranges import Resolved
+from scanbench.verify.rows import MAX_MISMATCHES, Reader, written_by
+from scanbench.verify.trace_bind import Signal, Trace
+from scanbench.verify.trace_monitor import Ran, Result, TraceMonitor, put
+from scanbench.verify.uses import Access, Pass
+from scanbench.verify.verified import Input, Mismatch, Output, Place, Row, RowKind, Use
+
+_HELD = "not in the trace: inputs held"
+_TAKEN_OVER = "taken over from the trace, not compared"
+
+
+class TraceRows:
+    """Makes them."""
+
+    def __init__(self, reader: Reader, trace: Trace) -> None:
+        self._reader, self._trace = reader, trace
+
+    def rows(self, passes: Sequence[Pass], ran: Ran, range: Resolved) -> tuple[Row, ...]:
+        """Those of a scan."""
+        note = _HELD if ran.recorded.row is None else _TAKEN_OVER if ran.recorded.taken_over else ""
+        if range.whole:
+            made = passes[0] if passes else Pass(None, 0, 0)
+            rows = [self._row("scan", made, 0, ran, ran.results)]
+        else:
+            rows = [
+                self._row("pass", made, call, ran, _last_used(passes, call - 1, ran.results))
+                for call, made in enumerate(passes, 1)
+            ]
+        if ran.trap:
+            rows = [*rows[:-1], self._trapped(rows[-1] if rows else Row("none", ran.recorded.scan), ran)]
+        if not rows:
+            rows = [Row("none", ran.recorded.scan, note="not run in this scan")]
+        return tuple(replace(each, note="; ".join(filter(None, (note, each.note)))) for each in rows)
+
+    def skipped(self, scan: int) -> Row:
+        """Of a gap."""
+        scans = self._trace.scans.of_rows
+        last = next(each for each in scans if each > scan) - 1
+        which = f"scan {scan} is" if last == scan else f"scans {scan} to {last} are"
+        return Row("none", scan, note=f"{which} not in the trace: skipped")
+
+    def _row(self, kind: RowKind, made: Pass, call: int, ran: Ran, results: Sequence[Result]) -> Row:
+        reader = self._reader
+        names = reader.namer.names(made.around)
+        known = {_name(names, each.signal): each for each in results}
+        written = written_by(reader, made)
+        outputs: dict[str, Output] = {}
+        for name, result in known.items():
+            column = _leaf(names, result.signal)
+            if column is not None and reader.columns.used(column, True):
+                outputs[name] = Output(_shown(result, ran), None if ran.recorded.taken_over else result.found)
+        outputs |= {name: Output(None, value) for name, value in written.items() if name not in outputs}
+        differences = () if ran.recorded.taken_over else tuple(self._differences(names, made, known, ran.recorded.scan))
+        place = reader.places.of(made.frames[0].site, made.frames) if made.frames else None
+        note = f"record full: {len(made.log):,} of {made.used:,} uses kept" if made.full else ""
+        path = reader.places.path(made.pou, made.instance)
+        inputs = {
+            name: Input(value)
+            for name, (leaf, value) in _read(reader, made).items()
+            if reader.columns.used(leaf, False)
+        }
+        return Row(
+            kind, ran.recorded.scan, call, 0, path, place, outputs, inputs, differences[:MAX_MISMATCHES], (), made.used, note
+        )  # fmt: skip
+
+    def _differences(
+        self, names: Names, made: Pass, results: Mapping[str, Result], scan: int
+    ) -> Iterator[Mismatch]:  # fmt: skip
+        """In the order in which the statements that wrote them ran; what nobody wrote is behind them."""
+        found = [
+            (name, each, _last_use(made, each.signal, written=True)) for name, each in results.items() if not each.same
+        ]
+        found.sort(key=lambda each: len(made.log) if each[2] is None else each[2])
+        for name, result, index in found:
+            place = None if index is None else place_at(self._reader, made, index)
+            yield _mismatch(name, result, place, scan)
+
+    def _trapped(self, row: Row, ran: Ran) -> Row:
+        """The monitor ended the scan by a run-time error, and the controller did not."""
+        program, scan = self._reader.places.program, ran.recorded.scan
+        info, site = trap_info(program, ran.trap, scan), program.traps[ran.trap - 1]
+        place = Place("", site.pou, site.pou, info.file, info.line, self._reader.places.line(info.file, info.line))
+        message = f"the reference ended scan {scan} by a run-time error, at {info.file}:{info.line}: {info.message}"
+        found = Mismatch("trap", "", b"", b"", place, message)
+        note = "; ".join(filter(None, (row.note, f"ended by a run-time error: {info.message}")))
+        return replace(row, differences=(found, *row.differences), note=note)
+
+    # ---- inside of a scan ---------------------------------------------------------------------------------------------
+
+    def step(self, monitor: TraceMonitor, scan: int, count: int, range: Resolved) -> Row:
+        """The monitor in front of the statement of a count; behind the last one its results are compared. It stands in front of
+        the scan before and after."""
+        hook = _Halt(count, monitor)
+        ran = monitor.run_with(hook, Listen(count=1, every=True)) if count else None
+        place = None
+        if ran is not None and hook.frames:
+            place = self._reader.places.of(hook.frames[0].site, hook.frames)
+        over = ran is not None and not hook.frames
+        results = ran.results if ran is not None and over else monitor.results(monitor.recorded(scan))
+        names = self._reader.namer.names(ANYWHERE)
+        outputs, differences = {}, []
+        for each in results:
+            leaf, name = _leaf(names, each.signal), _name(names, each.signal)
+            if leaf is not None and self._reader.columns.used(leaf, True):
+                outputs[name] = Output(each.recorded if over else None, each.found)
+            if over and ran is not None and not ran.recorded.taken_over and not each.same:
+                differences.append(_mismatch(name, each, None, scan))
+        if ran is not None:
+            monitor.back(ran)
+        note = "end of the scan" if over else "a trace has values at the ends of scans only"
+        return Row(
+            "step", scan, 0, count, "" if place is None else place.instance, place, outputs, {}, tuple(differences), note=note
+        )  # fmt: skip
+
+    def uses(self, made: Pass, ran: Ran, passes: Sequence[Pass]) -> tuple[Use, ...]:
+        """Every use of a pass. The trace has values of inputs as they were read, and of outputs as they were written last."""
+        names = self._reader.namer.names(made.around)
+        inputs = {(each.symbol.offset, each.symbol.bit) for each in self._trace.inputs}
+        written = {
+            (result.signal.symbol.offset, result.signal.symbol.bit): (
+                _last_use(made, result.signal, written=True),
+                result,
+            )
+            for result in _last_used(passes, next(at for at, each in enumerate(passes) if each is made), ran.results)
+        }
+        found = []
+        for index, access in enumerate(made.log):
+            place = place_at(self._reader, made, index)
+            for leaf in names.of(access.offset, access.size, access.bits):
+                value = leaf.cut(access.value, access.offset)
+                control: bytes | None = None
+                last, result = written.get((leaf.offset, leaf.bit), (None, None))
+                if access.written and result is not None and last == index:
+                    control = result.recorded
+                elif not access.written and (leaf.offset, leaf.bit) in inputs:
+                    control = value
+                found.append(Use(leaf.name, access.written, control, value, place))
+        return tuple(found)
+
+    # ---- set data -----------------------------------------------------------------------------------------------------
+
+    def with_set(self, row: Row, passes: Sequence[Pass], again: Ran, edits: Mapping[str, bytes]) -> Row:
+        """The row with what a run on edited inputs came to."""
+        index = max(row.call - 1, 0)
+        made = passes[index] if index < len(passes) else Pass(None, 0, 0)
+        names = self._reader.namer.names(made.around)
+        written = written_by(self._reader, made)
+        values = _used_last(made, names) | written  # what was not written this time is what it was when it was read
+        if row.kind == "scan":
+            values |= {_name(names, each.signal): each.found for each in again.results}
+        outputs = {name: replace(each, set=values.get(name)) for name, each in row.outputs.items()}
+        outputs |= {name: Output(None, None, value) for name, value in written.items() if name not in outputs}
+        inputs = {name: replace(each, set=edits.get(name)) for name, each in row.inputs.items()}
+        note = "; ".join(filter(None, (row.note, "set data: ended by a run-time error" if again.trap else "")))
+        return replace(row, outputs=outputs, inputs=inputs, note=note)
+
+
+class _Halt:
+    """Halts in front of the statement of one count."""
+
+    def __init__(self, count: int, monitor: TraceMonitor) -> None:
+        self._count, self._monitor = count, monitor
+        self.frames: tuple[Frame, ...] = ()
+        self._patches = monitor.inputs(monitor.scan)
+
+    def statement(self, site: int, count: int, depth: int) -> bool:
+        """See `Hook`."""
+        if count == 1:
+            put(self._monitor.side.memory, self._patches)
+        if count != self._count:
+            return False
+        self.frames = self._monitor.side.resource.loaded.debugged().frames()
+        return True
+
+    def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
+        """See `Hook`."""
+
+    def entered(self) -> None:
+        """See `Onlooker`."""
+
+
+def leaves_read(reader: Reader, made: Pass) -> dict[str, Leaf]:
+    """Where the inputs of a pass live."""
+    return {name: leaf for name, (leaf, _) in _read(reader, made).items()}
+
+
+def place_at(reader: Reader, made: Pass, index: int) -> Place:
+    """Where a use happened; of a pass that was recorded in detail with its instance."""
+    frames = made.frames_of[index] if index < len(made.frames_of) else ()
+    return reader.places.of(made.log[index].site, frames)
+
+
+def _read(reader: Reader, made: Pass) -> dict[str, tuple[Leaf, bytes]]:
+    names = reader.namer.names(made.around)
+    found: dict[str, tuple[Leaf, bytes]] = {}
+    for access, mask in made.fresh():
+        for leaf in names.of(access.offset, access.size, access.bits):
+            at = leaf.offset - access.offset
+            if leaf.passing or (mask is not None and not any(mask[at : at + leaf.type.size])):
+                continue
+            found.setdefault(leaf.name, (leaf, leaf.cut(access.value, access.offset)))
+    return found
+
+
+def _used_last(made: Pass, names: Names) -> dict[str, bytes]:
+    found: dict[str, bytes] = {}
+    for access in made.log:
+        for leaf in names.of(access.offset, access.size, access.bits):
+            found[leaf.name] = leaf.cut(access.value, access.offset)
+    return found
+
+
+def _leaf(names: Names, signal: Signal) -> Leaf | None:
+    """What a mapped variable is called in a pass; None where it is a part of something else there."""
+    symbol, size = signal.symbol, signal.type.size
+    for leaf in names.of(symbol.offset, size, 0xFF if symbol.bit is None else 1 << symbol.bit):
+        if (leaf.offset, leaf.bit, leaf.type.size) == (symbol.offset, symbol.bit, size):
+            return leaf
+    return Leaf(signal.path, signal.type, symbol.offset, symbol.bit)
+
+
+def _name(names: Names, signal: Signal) -> str:
+    leaf = _leaf(names, signal)
+    return signal.path if leaf is None else leaf.name
+
+
+def _shown(result: Result, ran: Ran) -> bytes | None:
+    """A number that is written with fewer digits than it has is the one that was found."""
+    if result.recorded is not None and result.same and not ran.recorded.taken_over:
+        return result.found
+    return result.recorded
+
+
+def _last_use(made: Pass, signal: Signal, written: bool) -> int | None:
+    """The index of the last use of any of it; of the last that wrote any."""
+    symbol = signal.symbol
+    end, bits = symbol.offset + signal.type.size, 0xFF if symbol.bit is None else 1 << symbol.bit
+    for index in range(len(made.log) - 1, -1, -1):
+        access = made.log[index]
+        there = access.offset < end and symbol.offset < access.offset + access.size and access.bits & bits
+        if there and (access.written or not written):
+            return index
+    return None
+
+
+def _last_used(passes: Sequence[Pass], index: int, results: Sequence[Result]) -> list[Result]:
+    """The results that this pass wrote last; and those that differ, though it is the last that read them, and nobody wrote."""
+    found = []
+    for each in results:
+        if all(_last_use(made, each.signal, written=True) is None for made in passes[index + 1 :]):
+            read = _last_use(passes[index], each.signal, written=False)
+            if _last_use(passes[index], each.signal, written=True) is not None or (
+                read is not None and not each.same and _stays(passes[index].log[read], each)
+            ):
+                found.append(each)
+    return found
+
+
+def _stays(access: Access, result: Result) -> bool:
+    """Whether it is at the end of the scan what it was when it was read."""
+    symbol = result.signal.symbol
+    at = symbol.offset - access.offset
+    if symbol.bit is not None:
+        return 0 <= at < access.size and bytes((access.value[at] >> symbol.bit & 1,)) == result.found
+    return at >= 0 and access.value[at : at + result.signal.type.size] == result.found
+
+
+def _mismatch(name: str, result: Result, place: Place | None, scan: int) -> Mismatch:
+    signal, recorded = result.signal, result.recorded or b""
+    was, right = format_value(signal.type, recorded), format_value(signal.type, result.found)
+    where = "" if place is None else f", at {place.file}:{place.line}"
+    text = f"{signal.path} is {was}, the reference gives {right}{where} in scan {scan}"
+    return Mismatch(
+        "logic", name, recorded, result.found, place, text, signal.type.name, signal.type.kind.value, signal.type.size
+    )  # fmt: skip

@@ -1,0 +1,234 @@
+"""Where two runs part."""
+
+from datetime import UTC, datetime
+from pathlib import Path
+
+import pytest
+
+from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.native.engine import NativeEngine
+from scanbench.runtime.command import Refusal
+from scanbench.runtime.programs import EngineFactory
+from scanbench.runtime.set_clock import SetClock
+from scanbench.runtime.timeline import Timeline
+from scanbench.runtime.write import Write
+from scanbench.session.codec import ENTRIES
+from scanbench.verify import divergence
+from scanbench.verify.divergence import find_divergence
+from scanbench.verify.findings import Divergence
+from scanbench.verify.reading import NoReading, Reading
+from tests.runtime.recorded import advance, begun, of_file, of_file_native, to_program
+from tests.verify.test_writer import _texts
+
+SOURCE = """
+FUNCTION_BLOCK Belt
+VAR_INPUT level : INT; END_VAR
+VAR_OUTPUT speed : INT; END_VAR
+  speed := level * 2;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR n, level, sum, unused, scratch : INT; d : INT := 1; belt : ARRAY[1..2] OF Belt; END_VAR
+  n := n + 1;
+  scratch := 0;
+  belt[2](level := level);
+  sum := sum + belt[2].speed / d;
+END_PROGRAM
+"""
+
+
+def _compared(one: Timeline, other: Timeline, engine: EngineFactory = ReferenceEngine) -> Divergence:
+    of = of_file if engine is ReferenceEngine else of_file_native
+    with (
+        Reading(one.recording.path, of, ENTRIES, _texts) as a,
+        Reading(other.recording.path, of, ENTRIES, _texts) as b,
+    ):
+        a.follow(one.live_scan)
+        b.follow(other.live_scan)
+        return find_divergence(a, b)
+
+
+def _two(folder: Path, source: str = SOURCE, engine: EngineFactory = ReferenceEngine) -> tuple[Timeline, Timeline]:
+    return begun(folder / "one", source, engine), begun(folder / "other", source, engine)
+
+
+def _write(timeline: Timeline, path: str, value: str, by: str = "Ada") -> None:
+    outcome = timeline.submit(Write(by, path, value))
+    assert not isinstance(outcome, Refusal), outcome
+
+
+@pytest.mark.parametrize("engine", [ReferenceEngine, NativeEngine])
+def test_runs_that_are_the_same(engine: EngineFactory, tmp_path: Path) -> None:
+    one, other = _two(tmp_path, SOURCE, engine)
+    for each, by in ((one, "Ada"), (other, "Bob")):
+        advance(each, 5)
+        _write(each, "Main.level", "3", by)
+        advance(each, 5)
+    advance(other, 20)
+    found = _compared(one, other, engine)
+    assert (found.scan, found.cause, found.compared, found.marks) == (None, "", 10, ())
+    assert "the same in all 10 scans" in found.text
+
+
+@pytest.mark.parametrize("engine", [ReferenceEngine, NativeEngine])
+def test_a_command_in_one_of_them(engine: EngineFactory, tmp_path: Path) -> None:
+    one, other = _two(tmp_path, SOURCE, engine)
+    advance(one, 40)
+    advance(other, 12)
+    _write(other, "Main.level", "3")
+    advance(other, 18)
+    found = _compared(one, other, engine)
+    assert (found.scan, found.cause, found.compared) == (12, "command", 30)
+    assert found.place is not None
+    assert (found.place.task, found.place.instance, found.place.pou) == ("Main", "Main", "Main")
+    assert found.place.text == "belt[2](level := level);"
+    assert found.changes is not None
+    values = {each.path: (each.before_shown, each.after_shown) for each in found.changes.changes}
+    assert next(iter(values)) == "Main.belt[2].level", "the first that was written"
+    assert values == {
+        "Main.belt[2].speed": ("0", "6"),
+        "Main.belt[2].level": ("0", "3"),
+        "Main.level": ("0", "3"),
+        "Main.sum": ("0", "6"),
+    }
+    assert found.changes.changes[0].path in found.text
+    assert found.entries == ((12, "B", "Ada", "Write: Main.level := 3"),)
+    assert "Ada entered only in B, in front of scan 12" in found.text
+    assert found.marks == ((12, 29),)
+
+
+def test_a_command_that_changes_nothing_is_no_difference(tmp_path: Path) -> None:
+    one, other = _two(tmp_path)
+    advance(one, 5)
+    _write(one, "Main.level", "0")
+    _write(one, "Main.scratch", "7")
+    advance(one, 5)
+    advance(other, 10)
+    found = _compared(one, other)
+    assert (found.scan, found.marks) == (None, ())
+    assert "2 commands are only in one of them" in found.text
+    assert [each[1] for each in found.entries] == ["A", "A"]
+
+
+def test_stretches_in_which_they_differ(tmp_path: Path) -> None:
+    one, other = _two(tmp_path)
+    for scan in range(0, 60, 20):
+        advance(one, 20)
+        _write(one, "Main.unused", "1")
+        advance(one, 3)
+        _write(one, "Main.unused", "0")
+        assert scan >= 0
+    advance(one, 10)
+    advance(other, one.live_scan)
+    found = _compared(one, other)
+    assert found.scan == 20
+    assert found.place is None, "no statement wrote it"
+    assert found.marks == ((20, 22), (43, 45), (66, 68))
+
+
+def test_many_stretches_are_joined(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(divergence, "MAX_MARKS", 2)
+    one, other = _two(tmp_path)
+    for gap in (1, 2, 30, 1):
+        _write(one, "Main.unused", "1")
+        advance(one, 1)
+        _write(one, "Main.unused", "0")
+        advance(one, gap)
+    advance(other, one.live_scan)
+    assert _compared(one, other).marks == ((0, 5), (36, 36))
+
+
+def test_another_program(tmp_path: Path) -> None:
+    one, other = _two(tmp_path)
+    changed = SOURCE.replace("level * 2", "level * 3").replace("VAR n,", "VAR more : LINT; n,")
+    other.programs.sources[2] = changed  # type: ignore[attr-defined]
+    for each in (one, other):
+        advance(each, 5)
+    assert not to_program(other, 2, changed)
+    for each in (one, other):
+        advance(each, 5)
+        _write(each, "Main.level", "1")
+        advance(each, 5)
+    found = _compared(one, other)
+    assert (found.scan, found.cause) == (10, "command"), "a change of the program is a command"
+    assert "ProgramChange" in found.text
+    assert found.changes is not None
+    assert {each.path for each in found.changes.changes} == {"Main.belt[2].speed", "Main.sum"}
+    assert "by their names" in found.changes.note
+
+
+def test_another_program_from_the_beginning(tmp_path: Path) -> None:
+    one = begun(tmp_path / "one", SOURCE)
+    other = begun(tmp_path / "other", SOURCE.replace("n := n + 1", "n := n + 1 + n / 4"))
+    advance(one, 20)
+    advance(other, 20)
+    found = _compared(one, other)
+    assert (found.scan, found.cause) == (4, "program")
+    assert found.place is not None
+    assert found.place.text.startswith("n := n + 1")
+    start = begun(tmp_path / "third", SOURCE.replace("n, level, sum", "n : INT := 7; level, sum"))
+    advance(start, 20)
+    found = _compared(one, start)
+    assert (found.scan, found.cause) == (0, "program")
+    assert "different where they begin" in found.text
+
+
+def test_a_run_time_error_in_one_of_them(tmp_path: Path) -> None:
+    one, other = _two(tmp_path)
+    advance(one, 20)
+    advance(other, 8)
+    _write(other, "Main.d", "0")
+    advance(other, 5)
+    assert other.resource.trap is not None
+    found = _compared(one, other)
+    assert (found.scan, found.cause) == (8, "command")
+    again = _compared(other, other)
+    assert again.scan is None
+
+
+def test_a_branch(tmp_path: Path) -> None:
+    one = begun(tmp_path / "one", SOURCE)
+    _write(one, "Main.level", "2")
+    advance(one, 20)
+    one.copy(tmp_path / "branch", 10, "Ada", lambda refusal: None)
+    one.recording.wait()
+    with Reading(tmp_path / "branch", of_file, ENTRIES) as b, Reading(tmp_path / "one", of_file, ENTRIES) as a:
+        a.follow(20)
+        b.follow()
+        found = find_divergence(a, b)
+        assert (found.scan, found.compared) == (None, 10)
+
+
+def test_progress_and_an_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(divergence, "_CHUNK", 10)
+    one, other = _two(tmp_path)
+    advance(one, 50)
+    advance(other, 50)
+    told: list[tuple[int, int]] = []
+    with Reading(tmp_path / "one", of_file, ENTRIES) as a, Reading(tmp_path / "other", of_file, ENTRIES) as b:
+        a.follow(50)
+        b.follow(50)
+        find_divergence(a, b, lambda done, of: told.append((done, of)))
+    assert told[-1] == (50, 50)
+    assert len(told) == 5
+
+
+def test_a_file_that_is_not_there(tmp_path: Path) -> None:
+    with Reading(tmp_path / "none", of_file, ENTRIES) as missing, pytest.raises(NoReading, match="cannot be read"):
+        missing.follow()
+
+
+def test_each_run_has_a_clock_of_its_own(tmp_path: Path) -> None:
+    """Every instance sets its clock when it begins: that alone is no difference, what a program makes of it is."""
+    source = SOURCE.replace("n := n + 1;", "n := n + 1; IF n > 5 THEN when := kind; END_IF;").replace(
+        "VAR n,", "VAR kind AT A351 : WORD; when : WORD; n,"
+    )
+    one, other = _two(tmp_path, source)
+    for each, minute in ((one, 1), (other, 2)):
+        outcome = each.submit(SetClock("server", datetime(2030, 1, 1, 0, minute, tzinfo=UTC)))
+        assert not isinstance(outcome, Refusal)
+        advance(each, 20)
+    found = _compared(one, other)
+    assert found.scan == 5
+    assert found.changes is not None
+    assert [each.path for each in found.changes.changes] == ["Main.when"]
+    assert "SetClock" in found.text

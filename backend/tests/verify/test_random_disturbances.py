@@ -1,0 +1,207 @@
+"""A thousand random disturbances: each that changes a byte is found in its scan, with its variable; and nothing else is.
+
+All of them are in one run, a scan apart at least, so that it is known of each scan what has to be found.
+"""
+
+from pathlib import Path
+from random import Random
+
+import pytest
+
+from scanbench.check.symbols import at_offset, resolve
+from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.native.engine import NativeEngine
+from scanbench.runtime.command import Command, Entry, Freed, Held, Patch
+from scanbench.runtime.header import Mode, fresh_image
+from scanbench.runtime.headless import HeadlessRun, run_headless
+from scanbench.runtime.programs import EngineFactory
+from scanbench.runtime.recording import Recording
+from scanbench.runtime.write import Write
+from scanbench.session.codec import ENTRIES
+from scanbench.verify.disturb import Disturb, told
+from scanbench.verify.disturb_fire import Corrupt, Flip
+from scanbench.verify.disturb_schedule import DisturbanceSchedule
+from scanbench.verify.disturb_wanted import Disturbance
+from scanbench.verify.engines import native, reference
+from scanbench.verify.verified import Mismatch, Range
+from scanbench.verify.verifier import Verifier
+from tests.runtime.bench import program
+
+SOURCE = """
+TYPE Pair : STRUCT a : INT; b : LREAL; c : ARRAY[0..2] OF BOOL; END_STRUCT END_TYPE
+VAR_GLOBAL switch AT CIO0.03 : BOOL; key AT CIO0.04 : BOOL; speed AT CIO2 : WORD; lamp AT CIO100.05 : BOOL; level AT D120 : INT;
+  set AT W3 : DWORD; spare : LINT; END_VAR
+FUNCTION_BLOCK Belt
+VAR_INPUT go : BOOL; v : INT; END_VAR VAR_IN_OUT total : DINT; END_VAR VAR_OUTPUT done : BOOL; END_VAR VAR pos : INT; t : TON; END_VAR
+  IF go THEN
+    pos := pos + v;
+    total := total + 1;
+  END_IF;
+  IF pos > 200 THEN
+    pos := 0;
+  END_IF;
+  done := pos > 100;
+  t(IN := done, PT := T#30ms);
+END_FUNCTION_BLOCK
+FUNCTION Mean : INT
+VAR_INPUT x, y : INT; END_VAR VAR sum : INT; END_VAR
+  sum := x + y;
+  Mean := sum / 2;
+END_FUNCTION
+PROGRAM Main
+VAR n : DINT; u : UINT; r : REAL; l : LREAL; text : STRING[12] := 'abc'; pair, other : Pair; list : ARRAY[0..7] OF INT;
+  belt : ARRAY[0..1] OF Belt; total : DINT; i : INT; m : INT; b : BOOL; left : BYTE; time1 : TIME; END_VAR
+  n := n + 1;
+  u := WORD_TO_UINT(speed);
+  r := r + 0.5;
+  l := LREAL#2.0 * l + 1.0;
+  IF l > 1000.0 THEN l := 0.0; END_IF;
+  text := CONCAT(LEFT(text, 4), 'xy');
+  pair.a := pair.a + 3;
+  pair.c[1] := switch;
+  other := pair;
+  FOR i := 0 TO 7 DO
+    list[i] := list[i] + i;
+  END_FOR;
+  belt[0](go := switch, v := 7, total := total);
+  belt[1](go := key, v := level, total := total);
+  m := Mean(list[3], 10);
+  b := belt[0].done OR key;
+  lamp := b AND NOT switch;
+  left := SHL(left, 1) OR BYTE#1;
+  set := SHR(set, 1);
+  time1 := time1 + T#10ms;
+END_PROGRAM
+"""
+MEMORY = (
+    "D120", "D777", "W3", "W100.07", "CIO0.09", "CIO100.05", "H5", "switch", "speed", "level", "set", "spare", "lamp", "Main.n", "Main.u",
+    "Main.r", "Main.l", "Main.text", "Main.pair.a", "Main.pair.b", "Main.pair.c[1]", "Main.other.b", "Main.list[5]", "Main.belt[0].pos",
+    "Main.belt[1].total", "Main.belt[1].done", "Main.belt[0].t.ET", "Main.belt[0].t.Q", "Main.m", "Main.b", "Main.left", "Main.time1",
+)  # fmt: skip
+WRITING = (
+    "pos := pos + v;", "total := total + 1;", "done := pos > 100;", "sum := x + y;", "Mean := sum / 2;", "n := n + 1;",
+    "u := WORD_TO_UINT(speed);", "r := r + 0.5;", "l := LREAL#2.0 * l + 1.0;", "text := CONCAT(LEFT(text, 4), 'xy');",
+    "pair.a := pair.a + 3;", "pair.c[1] := switch;", "other := pair;", "list[i] := list[i] + i;",
+    "belt[0](go := switch, v := 7, total := total);", "m := Mean(list[3], 10);", "lamp := b AND NOT switch;",
+    "left := SHL(left, 1) OR BYTE#1;", "set := SHR(set, 1);", "time1 := time1 + T#10ms;", "pos := 0;",
+)  # fmt: skip
+INPUTS = ("CIO0.03", "CIO0.04", "speed", "")
+TEMPORARIES = ("Mean.sum", "Mean.x", "Mean.y", "Mean.Mean", "Mean")
+LINES = {text.strip(): number for number, text in enumerate(SOURCE.splitlines(), 1)}
+
+
+def planned(random: Random, count: int) -> list[tuple[int, Command]]:
+    """Random disturbances, and people who change inputs meanwhile."""
+    commands: list[tuple[int, Command]] = []
+    scan = 3
+    for _ in range(count):
+        kind = random.choice(("flip", "flip", "flip", "result", "late", "stuck"))
+        scans = 1
+        if kind == "flip":
+            wanted = Disturbance("flip", random.choice(MEMORY), seed=random.randrange(1 << 32))
+        elif kind == "result":
+            site = f"main.st:{LINES[random.choice(WRITING)]}"
+            wanted = Disturbance("result", site=site, seed=random.randrange(1 << 32))
+        else:
+            scans = random.choice((1, 2, 3))
+            wanted = Disturbance("late" if kind == "late" else "stuck", random.choice(INPUTS), scans=scans)
+        commands.append((scan, Disturb("Ada", wanted)))
+        for at in range(scan, scan + scans):
+            commands += [(at, each) for each in written(random)]
+        scan += scans + random.choice((1, 1, 2))
+    return commands
+
+
+def written(random: Random) -> list[Command]:
+    """Inputs that change, perhaps."""
+    made: list[Command] = []
+    for path, values in (("switch", ("TRUE", "FALSE")), ("key", ("TRUE", "FALSE")), ("speed", ("1", "500", "16#8001"))):
+        if random.random() < 0.4:
+            made.append(Write("Bob", path, random.choice(values)))
+    return made
+
+
+def found_at(differences: list[Mismatch], image: bytearray) -> set[int]:
+    """The bytes of the variables that are named."""
+    found: set[int] = set()
+    for each in differences:
+        if each.name in TEMPORARIES:
+            continue
+        symbol = resolve(program(SOURCE), each.name)
+        place = symbol.locate(image)
+        assert place is not None
+        found |= set(range(place[0], place[0] + symbol.type.size))
+    return found
+
+
+class Expected:
+    """Of each scan: the bytes that have to be found."""
+
+    def __init__(self, entries: tuple[Entry, ...], image: bytes) -> None:
+        self.bytes: dict[int, set[int]] = {}
+        self._wires, self._true = bytearray(image), bytearray(image)
+        """What was entered, with the bits that turned over and without."""
+        self._held: dict[int, tuple[tuple[int, int, int], ...]] = {}
+        by_scan: dict[int, list[Entry]] = {}
+        for entry in entries:
+            by_scan.setdefault(entry.scan, []).append(entry)
+        for scan in range(max(by_scan) + 1):
+            self._true[:] = self._wires
+            for entry in by_scan.get(scan, ()):
+                self._take(entry)
+            wrong = {at for at, (one, other) in enumerate(zip(self._wires, self._true, strict=True)) if one != other}
+            for spots in self._held.values():
+                wrong |= {at for at, mask, value in spots if (self._wires[at] ^ value) & mask}
+            self._expect(scan, wrong)
+
+    def _take(self, entry: Entry) -> None:
+        match entry.plan.effect:
+            case Held(number, spots):
+                self._held[number] = spots
+            case Freed(numbers):
+                for number in numbers:
+                    del self._held[number]
+            case None if isinstance(entry.command, Corrupt):
+                self._expect(entry.scan, {each.offset for each in entry.plan.patches})
+            case None:
+                for patch in entry.plan.patches:
+                    _patch(self._wires, patch)
+                    if not isinstance(entry.command, Flip):
+                        _patch(self._true, patch)
+
+    def _expect(self, scan: int, found: set[int]) -> None:
+        if found:
+            self.bytes.setdefault(scan, set()).update(found)
+
+
+def _patch(image: bytearray, patch: Patch) -> None:
+    for at, (mask, data) in enumerate(zip(patch.mask, patch.data, strict=True), patch.offset):
+        image[at] = image[at] & ~mask | data & mask
+
+
+@pytest.mark.parametrize("engine", [NativeEngine, ReferenceEngine], ids=("native", "reference"))
+def test_every_one_is_found_and_nothing_else(tmp_path: Path, engine: EngineFactory) -> None:
+    random = Random(7 if engine is NativeEngine else 8)
+    commands, checked = planned(random, 700 if engine is NativeEngine else 300), program(SOURCE)
+    end = commands[-1][0] + 8
+    with Recording.begin(tmp_path / "run", checked, 1, SOURCE.encode(), ENTRIES, "Ada") as recording:
+        result: HeadlessRun[None] = run_headless(
+            checked, end, engine, commands, agenda=DisturbanceSchedule(), recording=recording
+        )
+    assert result.refused == ()
+    expected = Expected(result.entries, fresh_image(checked, Mode.MONITOR))
+    size = checked.layout.state_size
+    make = native() if engine is NativeEngine else reference
+    with Verifier(tmp_path / "run", ENTRIES, lambda kept: checked, make) as verifier:
+        verifier.begin(Range())
+        for scan in range(end):
+            rows = verifier.verify(scan).rows
+            differences = [each for row in rows for each in row.differences]
+            entries = [each for each in result.entries if each.scan == scan]
+            about = f"scan {scan}: {[told(each) for each in entries]}, {[each.message for each in differences]}"
+            wanted = expected.bytes.get(scan, set())
+            assert bool(differences) == bool(wanted), about
+            missing = {at for at in wanted if at < size} - found_at(differences, result.resource.memory)
+            assert not missing, f"{about}: {[at_offset(checked, at) for at in missing]}"
+            said = {text for row in rows for text in row.disturbances}
+            assert said == {told(each) for each in entries if told(each)}, about

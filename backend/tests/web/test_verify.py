@@ -1,0 +1,257 @@
+"""Verification through the whole house: REST and WebSocket, session, a job process, both engines."""
+
+from tests.web.server import Browser, Message, Server
+
+MODEL = "CJ1M-CPU63"
+PROGRAM = """\
+PROGRAM Main
+VAR
+  n : DINT; level : INT := 100; doubled : INT; one : Ramp; two : Ramp; sum : INT; kept AT D120 : INT; text : STRING[12];
+END_VAR
+  n := n + 1;
+  doubled := level * 2;
+  one(target := 600);
+  two(target := 40);
+  sum := one.speed + two.speed;
+  kept := kept;
+  IF doubled > 200 THEN text := 'high'; ELSE text := 'low'; END_IF;
+END_PROGRAM
+FUNCTION_BLOCK Ramp
+VAR_INPUT target : INT; END_VAR
+VAR_OUTPUT speed : INT; END_VAR
+  speed := LIMIT(speed - 25, target, speed + 25);
+END_FUNCTION_BLOCK
+"""
+
+
+def begin(server: Server, instance: int, **wanted: object) -> Message:
+    reply = server.http.post(f"/api/instances/{instance}/verifications", json=wanted)
+    assert reply.status_code == 201, reply.text
+    found: Message = reply.json()
+    return found
+
+
+def info(server: Server, instance: int, id: int) -> Message:
+    found: list[Message] = server.http.get(f"/api/instances/{instance}/verifications").json()
+    return next(each for each in found if each["id"] == id)
+
+
+def rows(server: Server, id: int, **query: object) -> Message:
+    reply = server.http.get(f"/api/verifications/{id}/rows", params={"count": 2000, **query})  # type: ignore[dict-item]
+    assert reply.status_code == 200, reply.text
+    found: Message = reply.json()
+    return found
+
+
+def ended(browser: Browser, server: Server, instance: int, id: int, state: str = "done") -> Message:
+    found: list[Message] = []
+
+    def over() -> bool:
+        found[:] = [info(server, instance, id)]
+        assert found[0]["state"] in (state, "failed") or found[0]["state"] in ("verifying", "waiting", "starting")
+        return bool(found[0]["state"] == state or found[0]["state"] == "failed")
+
+    browser.wait(over, 30)
+    assert found[0]["state"] == state, found[0]
+    return found[0]
+
+
+def paused(browser: Browser) -> int:
+    done = browser.ask(type="run", action="pause")
+    assert done["ok"], done
+    return int(done["scan"])
+
+
+def scans(browser: Browser, count: int) -> None:
+    for _ in range(count):
+        assert browser.ask(type="run", action="scan")["ok"]
+
+
+def number(text: str) -> int:
+    return int.from_bytes(bytes.fromhex(text), "little", signed=True)
+
+
+def disturb(server: Server, instance: int, **wanted: object) -> Message:
+    reply = server.http.post(f"/api/instances/{instance}/disturbances", json=wanted)
+    assert reply.status_code == 200, reply.text
+    done: Message = reply.json()
+    assert done["ok"], done
+    return done
+
+
+def test_live_and_nothing_differs(server: Server) -> None:
+    instance = server.instance("verified live", MODEL, main=PROGRAM)
+    with server.browser(instance) as browser:
+        browser.wait_state("running")
+        begun = begin(server, instance, range={"pou": "Ramp"})
+        assert (begun["title"], begun["source"]) == ("Ramp", "live")
+        browser.wait(lambda: info(server, instance, begun["id"])["compared"] > 50, 30)
+        paused(browser)
+        stands = info(server, instance, begun["id"])
+        assert (stands["differing"], stands["skipped"]) == (0, 0)
+        assert any(message["type"] == "verifications" for message in browser.messages)
+        page = rows(server, begun["id"])
+        first = page["rows"][0]["scan"]
+        calls = [(row["scan"], row["call"], row["instance"]) for row in page["rows"][:4]]
+        assert calls == [
+            (first, 1, "Main.one"), (first, 2, "Main.two"), (first + 1, 1, "Main.one"), (first + 1, 2, "Main.two"),
+        ]  # fmt: skip
+        speed = page["rows"][0]["outputs"]["speed"]
+        assert speed["control"] == speed["monitor"]
+        assert {column["name"] for column in page["columns"]} >= {"speed", "target"}
+        assert server.http.delete(f"/api/verifications/{begun['id']}").status_code == 204
+        assert server.http.get(f"/api/verifications/{begun['id']}/rows").status_code == 404
+
+
+def test_a_flipped_bit_is_found_and_set_data_says_that_it_was_the_input(server: Server) -> None:
+    instance = server.instance("flipped", MODEL, main=PROGRAM)
+    with server.browser(instance) as browser:
+        scan = paused(browser)
+        disturb(server, instance, kind="flip", path="Main.level", bit=6, scan=scan + 3)
+        assert server.http.get(f"/api/instances/{instance}/disturbances").json()[0]["next_scan"] == scan + 3
+        scans(browser, 6)
+        begun = begin(server, instance, range={"file": "main.st", "first": 6, "last": 6}, first=scan)
+        stands = ended(browser, server, instance, begun["id"])
+        assert (stands["compared"], stands["differing"], stands["first_scan"]) == (6, 1, scan + 3)
+        found = stands["first_difference"]
+        assert (found["cause"], found["name"]) == ("input", "Main.level")
+        assert (number(found["control"]), number(found["monitor"])) == (100 ^ 64, 100)
+        (row,) = rows(server, begun["id"], differing=True)["rows"]
+        assert "level" in row["disturbances"][0] or "Main.level" in row["disturbances"][0]
+        assert (
+            row["outputs"]["Main.doubled"]["control"] == row["outputs"]["Main.doubled"]["monitor"]
+        )  # the logic is right
+
+        cell = {"scan": scan + 3, "call": row["call"], "column": "Main.level", "value": "100"}
+        path = f"/api/verifications/{begun['id']}"
+        done = server.http.post(f"{path}/cells", json={"cells": [cell]})
+        assert done.status_code == 200, done.text
+        (row,) = rows(server, begun["id"], differing=True)["rows"]
+        assert number(row["outputs"]["Main.doubled"]["set"]) == 200
+        assert number(row["outputs"]["Main.doubled"]["control"]) == (100 ^ 64) * 2
+        refused = server.http.post(f"{path}/cells", json={"cells": [{**cell, "value": "many"}]})
+        assert refused.status_code == 422
+        assert "INT" in refused.json()["message"]
+        uses = server.http.get(f"{path}/uses", params={"scan": scan + 3, "call": row["call"]}).json()
+        assert [(use["name"], use["written"]) for use in uses] == [("Main.level", False), ("Main.doubled", True)]
+        assert server.http.patch(path, json={"memory": "set"}).json()["memory"] == "set"
+
+
+def test_scan_by_scan_the_plc_waits(server: Server) -> None:
+    instance = server.instance("by scan", MODEL, main=PROGRAM)
+    with server.browser(instance) as browser:
+        browser.wait_state("running")
+        begun = begin(server, instance, pace="scan")
+        scan = int(begun["first"])
+        browser.wait_state("paused")
+        scan = paused(browser)
+        for _ in range(3):
+            reply = server.http.patch(f"/api/verifications/{begun['id']}", json={"action": "go_on"})
+            assert reply.status_code == 200, reply.text
+        browser.wait(lambda: info(server, instance, begun["id"])["scan"] == scan + 2, 30)
+        assert paused(browser) == scan + 3
+        assert info(server, instance, begun["id"])["skipped"] == 0
+        server.http.patch(f"/api/verifications/{begun['id']}", json={"auto": True})
+        browser.wait(lambda: (info(server, instance, begun["id"])["scan"] or 0) > scan + 10, 30)
+        stopped = server.http.patch(f"/api/verifications/{begun['id']}", json={"action": "stop"}).json()
+        assert stopped["state"] == "stopped"
+
+
+def test_step_by_step_both_sides_stop(server: Server) -> None:
+    instance = server.instance("by step", MODEL, main=PROGRAM)
+    with server.browser(instance) as browser:
+        paused(browser)
+        begun = begin(server, instance, pace="step")
+        for step in range(1, 5):
+            reply = server.http.patch(f"/api/verifications/{begun['id']}", json={"action": "go_on"})
+            assert reply.status_code == 200, reply.text
+            browser.wait(lambda want=step: info(server, instance, begun["id"])["rows"] == want, 30)  # type: ignore[misc]
+        found = rows(server, begun["id"])["rows"]
+        assert [row["kind"] for row in found] == ["step"] * 4
+        assert [row["place"]["line"] for row in found] == [5, 6, 7, 16]
+        assert not any(row["differences"] for row in found)
+
+
+def test_kept_and_exported(server: Server) -> None:
+    instance = server.instance("kept verification", MODEL, main=PROGRAM)
+    with server.browser(instance) as browser:
+        scan = paused(browser)
+        scans(browser, 3)
+        begun = begin(server, instance, first=scan)
+        ended(browser, server, instance, begun["id"])
+        path = f"/api/verifications/{begun['id']}"
+        kept = server.http.post(f"{path}/keep", json={"name": "three scans"})
+        assert kept.status_code == 201, kept.text
+        record = kept.json()
+        csv = server.http.get(f"{path}/export", params={"format": "csv"})
+        assert csv.text.count("\n") >= 4
+        assert "Main.doubled" in csv.text or "doubled" in csv.text
+        assert server.http.get(f"{path}/export", params={"format": "json"}).json()
+        assert "<html" in server.http.get(f"{path}/export", params={"format": "html"}).text
+        server.http.delete(path)
+        again = server.http.get(f"/api/verification-records/{record['id']}").json()
+        assert (again["name"], again["info"]["compared"]) == ("three scans", 3)
+        assert len(server.http.get(f"/api/verification-records/{record['id']}/rows").json()["rows"]) == 3
+        assert server.http.get(f"/api/verification-records/{record['id']}/export").status_code == 200
+        project = record["project"]
+        assert [each["id"] for each in server.http.get(f"/api/projects/{project}/verification-records").json()] == [
+            record["id"]
+        ]
+        assert server.http.delete(f"/api/verification-records/{record['id']}").status_code == 204
+        assert server.http.get(f"/api/verification-records/{record['id']}").status_code == 404
+
+
+def test_what_cannot_be_verified_says_why(server: Server) -> None:
+    instance = server.instance("unverifiable", MODEL, main=PROGRAM)
+    path = f"/api/instances/{instance}/verifications"
+    with server.browser(instance) as browser:
+        scans(browser, 5 if paused(browser) < 5 else 0)
+        scan = paused(browser)
+        for wanted, words in (
+            ({"range": {"pou": "Rampp"}}, "Ramp"),
+            ({"range": {"file": "mian.st", "first": 4, "last": 6}}, "main.st"),
+            ({"first": scan + 10}, "not over yet"),
+            ({"first": 3, "last": 1}, "none"),
+        ):
+            refused = server.http.post(path, json=wanted)
+            assert refused.status_code == 422, refused.text
+            assert words in str(refused.json()), refused.json()
+        assert server.http.get(path).json() == []
+
+
+def test_a_trace_of_a_real_controller(server: Server) -> None:
+    instance = server.instance("real", MODEL, main=PROGRAM)
+    project = server.http.get(f"/api/instances/{instance}").json()["project"]["id"]
+    lines = ["Scan,Main.level,Main.doubled", *(f"{scan},{scan + 90},{2 * (scan + 90)}" for scan in range(1, 9))]
+    lines[5] = "5,95,191"
+    sent = server.http.post(f"/api/projects/{project}/traces", params={"name": "real.csv"}, content="\n".join(lines))
+    assert sent.status_code == 201, sent.text
+    trace = sent.json()
+    assert (trace["rows"], trace["problems"]) == (8, [])
+    roles = {"Main.level": "input", "Main.doubled": "output"}
+    mapping = trace["mapping"]
+    for column in mapping["columns"]:
+        column["role"] = roles.get(column["column"], "ignore")
+    checked = server.http.post(
+        f"/api/instances/{instance}/trace-check", json={"file": trace["file"], "mapping": mapping}
+    ).json()
+    assert checked["ok"], checked
+    assert (checked["first"], checked["last"], checked["missing"]) == (1, 8, 0)
+    saved = server.http.post(f"/api/projects/{project}/trace-mappings", json={"name": "line 3", "mapping": mapping})
+    assert saved.status_code == 201, saved.text
+    with server.browser(instance) as browser:
+        begun = server.http.post(
+            f"/api/instances/{instance}/trace-verifications", json={"file": trace["file"], "mapping": mapping}
+        )
+        assert begun.status_code == 201, begun.text
+        stands = ended(browser, server, instance, begun.json()["id"])
+        assert (stands["source"], stands["compared"], stands["differing"], stands["first_scan"]) == ("trace", 8, 1, 5)
+        assert number(stands["first_difference"]["control"]) == 191
+    again = server.http.post(
+        f"/api/projects/{project}/traces", params={"name": "real2.csv"}, content="\n".join(lines)
+    ).json()
+    assert again["mapping"] == mapping  # the saved one fits
+    broken = server.http.post(
+        f"/api/projects/{project}/traces", params={"name": "bad.csv"}, content="Scan,Main.level\n1,2\n1,x\n2"
+    ).json()
+    assert broken["problems"]

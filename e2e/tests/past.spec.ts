@@ -1,0 +1,192 @@
+import { expect, test } from '../fixtures/test';
+
+test('who last wrote a variable: a person, then a statement, and the way to it', async ({ openAs }) => {
+  const ann = await openAs('Ann');
+  await ann.runs();
+  await ann.watch.set('start', 'TRUE');
+  await expect.poll(() => ann.watch.number('Main.parts.total')).toBeGreaterThan(1);
+  await ann.top.press('Pause');
+  const { writer } = ann.past;
+
+  await test.step('a command says who entered it', async () => {
+    await ann.watch.fromMenu('start', 'Who last wrote this');
+    await expect(writer).toContainText('Entered through the one door');
+    await expect(writer).toContainText('Ann');
+    await expect(writer).toContainText('TRUE');
+    await writer.getByRole('button', { name: 'Close' }).first().click();
+  });
+
+  await test.step('a statement says where it stands, in which instance', async () => {
+    await ann.watch.fromMenu('Main.parts.total', 'Who last wrote this');
+    await expect(writer).toContainText('Written by the program');
+    await expect(writer).toContainText('PartCounter.st:');
+    await expect(writer).toContainText('Main.parts');
+    await expect(writer).toContainText('total := total + 1');
+  });
+
+  await test.step('before that it was written by the part before', async () => {
+    const total = await ann.watch.number('Main.parts.total');
+    await writer.getByRole('button', { name: 'Before that' }).click();
+    await expect(writer.getByRole('definition').last()).toHaveText(String(total - 1));
+  });
+
+  await test.step('it leads to the moment in front of it, with the statement in sight', async () => {
+    const before = (await ann.watch.number('Main.parts.total')) - 2;
+    await writer.getByRole('button', { name: 'Go there' }).click();
+    await expect(writer).toBeHidden();
+    await expect(ann.timeline.banner).toBeVisible();
+    await ann.watch.shows('Main.parts.total', String(before));
+    await expect(ann.page.getByRole('tab', { name: 'PartCounter.st' })).toBeVisible();
+  });
+});
+
+test('what changed in a stretch that is selected by keyboard', async ({ openAs }) => {
+  const ann = await openAs('Ann');
+  await ann.runs();
+  await ann.watch.set('start', 'TRUE');
+  await expect.poll(() => ann.watch.number('Main.parts.total')).toBeGreaterThan(0);
+  await ann.top.press('Pause');
+  await ann.timeline.mark(/Write: .*start/).click();
+  await expect(ann.timeline.banner).toBeVisible();
+  const written = await ann.timeline.position();
+
+  await ann.timeline.axis.focus();
+  await ann.page.keyboard.press('Shift+PageDown');
+  await ann.page.keyboard.press('Enter');
+  await ann.page.getByRole('menuitem', { name: /^What changed in scans / }).click();
+
+  const { changes } = ann.past;
+  await expect(ann.past.changed('motor')).toContainText('TRUE');
+  await expect(changes.getByRole('region', { name: 'Entered in between' })).toContainText('start');
+  await expect(changes.getByRole('region', { name: 'Entered in between' })).toContainText('Ann');
+  await changes.getByRole('searchbox').fill('parts.total');
+  await expect(ann.past.changed('motor')).toHaveCount(0);
+  await expect(ann.past.changed('Main.parts.total')).toBeVisible();
+
+  await changes
+    .getByRole('button', { name: /^Go to scan / })
+    .last()
+    .click();
+  await expect.poll(() => ann.timeline.position()).toBe(written + 101);
+});
+
+test('back, branch, an error there, and what that made of the run', async ({ openAs }) => {
+  const ann = await openAs('Ann');
+  await ann.runs();
+  await ann.watch.set('start', 'TRUE');
+  await expect.poll(() => ann.watch.number('Main.parts.total')).toBeGreaterThan(1);
+  await ann.timeline.mark(/Write: .*start/).click();
+  await expect(ann.timeline.banner).toBeVisible();
+  const from = (await ann.timeline.position()) + 50;
+  await ann.timeline.goTo(from);
+  await ann.watch.shows('motor', 'TRUE');
+
+  await test.step('in the branch a basic I/O unit fails', async () => {
+    await ann.timeline.branch('what-if');
+    await expect(ann.top.picker).toContainText('what-if');
+    await expect.poll(() => ann.top.scan()).toBe(from);
+    await ann.simulator.generate('Basic I/O error');
+    await ann.top.runScans(100);
+    await ann.watch.shows('motor', 'FALSE');
+    await expect(ann.top.state).toContainText('Paused');
+  });
+
+  await test.step('both runs part in the scan in front of which it was raised', async () => {
+    await ann.past.compareWith('line-1');
+    const { comparison } = ann.past;
+    await expect(comparison).toContainText('They part in scan');
+    await expect(comparison).toContainText(new RegExp(`in scan ${grouped(from)}\\b`));
+    await expect(comparison).toContainText('Something was entered in one of them only.');
+    const entered = comparison.getByRole('region', { name: 'Entered in one of them only' });
+    await expect(entered).toContainText('what-if');
+    await expect(entered).toContainText('Basic I/O error');
+    await expect(comparison.getByRole('row').filter({ hasText: 'basicIoError' }).first()).toContainText('TRUE');
+  });
+
+  await test.step('the timeline shows where they differ, and the way goes there in both', async () => {
+    await expect(ann.timeline.mark(/Differs from line-1/)).toHaveCount(1);
+    const [other] = await Promise.all([
+      ann.page.context().waitForEvent('page'),
+      ann.past.comparison.getByRole('link', { name: /^Open line-1 at scan / }).click(),
+    ]);
+    await expect(other.getByRole('button', { name: 'Project and instance' })).toContainText('line-1');
+    await expect(other.getByRole('region', { name: 'In the past' })).toContainText(grouped(from));
+  });
+});
+
+test('the run once more, with the error one scan later', async ({ openAs }) => {
+  const ann = await openAs('Ann');
+  await ann.runs();
+  await ann.watch.set('start', 'TRUE');
+  await ann.watch.shows('motor', 'TRUE');
+  await ann.simulator.generate('Basic I/O error');
+  await ann.watch.shows('motor', 'FALSE');
+  await ann.top.scansGoOn();
+  await ann.top.press('Pause');
+
+  await test.step('the mark of the error asks for it', async () => {
+    await ann.timeline.mark(/Error raised: .*Basic I\/O error/i).click({ button: 'right' });
+    await ann.page.getByRole('menuitem', { name: 'Replay with it one scan later…' }).click();
+    await ann.past.replay.getByRole('textbox', { name: 'Name of the new instance' }).fill('later');
+    await ann.past.replay.getByRole('button', { name: 'Replay', exact: true }).click();
+    await expect(ann.past.replay).toBeHidden();
+  });
+
+  await test.step('what came of it is compared with the original', async () => {
+    const banner = ann.page.getByRole('region', { name: 'later is there:' });
+    await banner.getByRole('button', { name: 'Compare with the original' }).click();
+    const bar = ann.page.getByRole('toolbar', { name: 'Compare runs' });
+    await expect(bar.getByRole('combobox')).toContainText('later');
+    await bar.getByRole('button', { name: 'Compare', exact: true }).click();
+    await expect(ann.past.comparison).toContainText('They part in scan');
+    await expect(ann.past.comparison).toContainText('They differ in');
+    await banner.getByRole('button', { name: 'Open later' }).click();
+    await expect(ann.top.picker).toContainText('later');
+  });
+});
+
+test('the address of a scan is opened by a colleague', async ({ openAs }) => {
+  const ann = await openAs('Ann');
+  await ann.runs();
+  await ann.watch.set('start', 'TRUE');
+  await ann.watch.shows('motor', 'TRUE');
+  await ann.timeline.mark(/Write: .*start/).click();
+  await expect(ann.timeline.banner).toBeVisible();
+  const scan = await ann.timeline.position();
+  await expect(ann.page).toHaveURL(new RegExp(`/i/\\d+/scan/${scan}$`));
+  const path = new URL(ann.page.url()).pathname;
+
+  await test.step('while that scan is shown, it is there at once, with the panel', async () => {
+    const bob = await openAs('Bob', `${path}?panel=history`);
+    await expect(bob.timeline.banner).toContainText('shown by Ann');
+    await expect.poll(() => bob.timeline.position()).toBe(scan);
+    await expect(bob.page.getByRole('tab', { name: 'History' })).toHaveAttribute('aria-selected', 'true');
+  });
+
+  await test.step('while the PLC runs and others look at it, it asks first', async () => {
+    await ann.timeline.returnToLive();
+    await expect(ann.page).toHaveURL(/\/i\/\d+$/);
+    await ann.runs();
+    const cid = await openAs('Cid', path);
+    await expect(cid.past.question).toContainText('everybody at this PLC sees the past');
+    await expect(cid.top.state).toContainText('Running');
+    await cid.past.question.getByRole('button', { name: /^Show scan / }).click();
+    await expect(ann.timeline.banner).toContainText('shown by Cid');
+    await expect.poll(() => ann.timeline.position()).toBe(scan);
+    await expect(cid.past.question).toBeHidden();
+    await cid.timeline.returnToLive();
+  });
+
+  await test.step('what there is not is said in words', async () => {
+    const dan = await openAs('Dan', '/i/4711/scan/3');
+    await expect(dan.page.getByRole('alert').filter({ hasText: 'There is no instance 4711' })).toBeVisible();
+    await dan.runs();
+    const eve = await openAs('Eve', path.replace(/\d+$/, '999999999'));
+    await expect(eve.page.getByRole('alert').filter({ hasText: 'cannot be shown' })).toBeVisible();
+    const fay = await openAs('Fay', '/i/here');
+    await expect(fay.page.getByRole('alert').filter({ hasText: 'names no instance' })).toBeVisible();
+  });
+});
+
+/** As the page writes it, with thin gaps. */
+const grouped = (scan: number) => String(scan).replace(/\B(?=(\d{3})+(?!\d))/g, '\u2009');

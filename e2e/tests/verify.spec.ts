@@ -1,0 +1,188 @@
+import { expect, test } from '../fixtures/test';
+import { Verify } from '../pages/verify';
+
+interface Told {
+  ok: boolean;
+  message: string;
+  scan: number;
+}
+
+test('a range is verified, and a single flipped bit is found at its scan and variable', async ({ openAs, server }) => {
+  test.setTimeout(300_000);
+  const ada = await openAs('Ada');
+  const verify = new Verify(ada.page);
+  await ada.runs();
+  await ada.watch.set('start', 'TRUE');
+
+  await test.step('lines that are selected in the editor are the range', async () => {
+    await verify.show();
+    await expect(verify.pane).toContainText('Is the result right?');
+    await ada.explorer.tree.getByRole('treeitem', { name: 'Belt', exact: true }).dblclick();
+    const editor = ada.editor('Belt.st');
+    await editor.line('position := position + STEP;').click();
+    await ada.page.keyboard.press('Home');
+    for (let line = 0; line < 4; line += 1) await ada.page.keyboard.press('Shift+ArrowDown');
+    await ada.page.keyboard.press('Control+Alt+v');
+    await expect(verify.dialog.getByRole('radio', { name: 'Lines' })).toBeChecked();
+    await expect(verify.dialog.getByLabel('File')).toHaveValue('Belt.st');
+    await expect(verify.dialog.getByLabel('From line')).toHaveValue(/\d+/);
+    await verify.dialog.getByLabel('From line').fill('14');
+    await verify.dialog.getByLabel('To line').fill('20');
+    await verify.dialog.getByRole('button', { name: 'Verify', exact: true }).click();
+    await expect(verify.dialog).toBeHidden();
+    await expect(verify.pane).toContainText('Belt, lines 14 to 20');
+  });
+
+  await test.step('without a disturbance nothing differs', async () => {
+    await expect.poll(() => verify.count('compared'), { timeout: 60_000 }).toBeGreaterThan(50);
+    expect(await verify.count('differ')).toBe(0);
+    await expect(verify.rows.first()).toBeVisible();
+    await expect(verify.pane.getByRole('button', { name: 'First difference' })).toBeDisabled();
+  });
+
+  const jo = await openAs('Jo');
+  const others = new Verify(jo.page);
+  await jo.runs();
+  await others.show();
+
+  let scan = 0;
+  await test.step('a bit is flipped: the difference stands at its scan, with its variable, bit and disturbance', async () => {
+    const told = await server.post<Told>('/instances/1/disturbances', {
+      kind: 'flip',
+      path: 'Main.belt.position',
+      bit: 9,
+    });
+    expect(told.ok).toBe(true);
+    scan = told.scan;
+    await expect.poll(() => verify.count('differ'), { timeout: 60_000 }).toBe(1);
+    await verify.maximise();
+    await verify.press('First difference');
+    await expect(verify.row(scan)).toHaveAttribute('aria-selected', 'true');
+    await expect(verify.row(scan)).toHaveAttribute('data-differs', 'true');
+    await expect(verify.row(scan)).toContainText('Memory Main.belt.position, bit 9');
+    await expect(verify.facts).toContainText('Difference 1 of 1');
+    await expect(verify.facts).toContainText('one bit differs');
+    await expect(verify.facts).toContainText('the input is wrong, not the logic');
+    await expect(verify.cell(scan, 'input:position').locator('svg')).toBeVisible();
+    await expect(verify.source).toContainText('position := position + STEP;');
+  });
+
+  await test.step('a colleague sees the same, and only the differences when wanted', async () => {
+    await expect.poll(() => others.count('differ')).toBe(1);
+    await others.press('Only differences');
+    await expect(others.rows).toHaveCount(1);
+    await expect(others.row(scan)).toBeVisible();
+    await others.press('Only differences');
+  });
+
+  await test.step('the columns are arranged by keyboard, and stay so', async () => {
+    await verify.press('Columns');
+    const columns = ada.page.getByRole('dialog', { name: 'Columns' });
+    await columns.getByRole('listitem').filter({ hasText: 'barrier' }).getByRole('checkbox').uncheck();
+    await columns.getByRole('combobox', { name: 'Format of position' }).first().selectOption('hex');
+    await columns.getByRole('button', { name: 'Close' }).last().click();
+    await expect(verify.table.getByRole('columnheader', { name: 'barrier' })).toHaveCount(0);
+    await expect(verify.cell(scan, 'input:position')).toContainText('16#');
+  });
+
+  await test.step('it is exported, stopped and kept', async () => {
+    await verify.press('Stop');
+    await expect(verify.state).toHaveAttribute('data-state', 'stopped');
+    expect(await verify.export('CSV table')).toContain(String(scan));
+    expect(await verify.export('HTML report')).toContain('Main.belt.position');
+    await verify.press('Export');
+    await ada.page.getByRole('menuitem', { name: 'Keep as a record...' }).click();
+    const dialog = ada.page.getByRole('dialog', { name: 'Keep the verification' });
+    await dialog.getByLabel('Name').fill('flipped bit');
+    await dialog.getByRole('button', { name: 'Keep' }).click();
+    await expect(dialog).toBeHidden();
+    const records = await server.get<{ name: string; by: string }[]>('/projects/1/verification-records');
+    expect(records.map(({ name, by }) => [name, by])).toEqual([['flipped bit', 'Ada']]);
+  });
+
+  await test.step('afterwards the same stretch of the past says the same', async () => {
+    await verify.press('Choose a verification');
+    await ada.page.getByRole('menuitem', { name: 'Verify this range again...' }).click();
+    await verify.dialog.getByRole('radio', { name: 'Past scans' }).click();
+    await verify.dialog.getByLabel('First scan').fill(String(scan - 20));
+    await verify.dialog.getByLabel('Last scan').fill(String(scan + 20));
+    await verify.dialog.getByRole('button', { name: 'Verify', exact: true }).click();
+    await expect(verify.state).toHaveAttribute('data-state', 'done', { timeout: 60_000 });
+    expect(await verify.count('compared')).toBe(41);
+    expect(await verify.count('skipped')).toBe(0);
+    expect(await verify.count('differ')).toBe(1);
+    await verify.press('First difference');
+    await expect(verify.row(scan)).toHaveAttribute('data-differs', 'true');
+  });
+});
+
+test('set data shows whether the input or the logic made a wrong result', async ({ openAs, server }) => {
+  test.setTimeout(300_000);
+  const ada = await openAs('Ada');
+  const verify = new Verify(ada.page);
+  await ada.runs();
+  await ada.watch.set('start', 'TRUE');
+  await verify.show();
+
+  let scan = 0;
+  await test.step('an instruction gives a wrong result', async () => {
+    await ada.explorer.tree.getByRole('treeitem', { name: 'Belt', exact: true }).click({ button: 'right' });
+    await ada.page.getByRole('menuitem', { name: 'Verify Belt...' }).click();
+    await expect(verify.dialog.getByLabel('POU')).toHaveValue('Belt');
+    await verify.dialog.getByRole('button', { name: 'Verify', exact: true }).click();
+    await expect(verify.dialog).toBeHidden();
+    await verify.maximise();
+    await expect.poll(() => verify.count('compared'), { timeout: 60_000 }).toBeGreaterThan(10);
+    const told = await server.post<Told>('/instances/1/disturbances', { kind: 'result', site: 'Belt.st:20', bit: 0 });
+    expect(told.ok, told.message).toBe(true);
+    await expect.poll(() => verify.count('differ'), { timeout: 60_000 }).toBeGreaterThan(0);
+    await verify.press('Stop');
+    await verify.press('First difference');
+    scan = Number(await verify.table.locator('[aria-selected="true"]').getAttribute('data-scan'));
+    expect(scan).toBeGreaterThanOrEqual(told.scan);
+    await expect(verify.facts).toContainText('The same inputs gave another result');
+    await expect(verify.cell(scan, 'output:barrier:A').locator('svg')).toBeVisible();
+    await expect(verify.source.locator('.diffln')).toContainText('barrier := position < 50;');
+  });
+
+  const a = await verify.cell(scan, 'output:barrier:A').innerText();
+  const monitor = await verify.cell(scan, "output:barrier:A'").innerText();
+  expect(a).not.toBe(monitor);
+
+  await test.step('what is no value is refused in its row, and stays as typed', async () => {
+    await verify.press('Try other inputs');
+    const box = verify.table.getByRole('textbox');
+    await expect(box).toBeFocused();
+    await box.press('Escape');
+    await verify.set(scan, 'input:position', 'fast');
+    await expect(verify.table.getByRole('alert')).toContainText('not INT');
+    await expect(box).toHaveValue('fast');
+    await box.press('Escape');
+    await expect(box).toBeHidden();
+  });
+
+  await test.step('with other inputs the reference gives A, too; A itself never changes', async () => {
+    await verify.set(scan, 'input:position', a.includes('TRUE') ? '10' : '300');
+    await expect(verify.cell(scan, "output:barrier:A'")).toHaveText(a);
+    await expect(verify.cell(scan, 'output:barrier:A')).toHaveText(a);
+    await expect(verify.cell(scan, 'from')).toHaveText('Set');
+    await expect(verify.facts).toContainText('the input data explains the result');
+  });
+
+  await test.step('on the recorded inputs all is as it was', async () => {
+    await verify.choose('Monitor runs on', 'Recorded');
+    await expect(verify.cell(scan, "output:barrier:A'")).toHaveText(monitor);
+    await expect(verify.cell(scan, 'output:barrier:A')).toHaveText(a);
+    await expect(verify.cell(scan, 'from')).toHaveText('Recorded');
+  });
+
+  await test.step('the record of used variables tells every read and write', async () => {
+    await verify.press('Used variables');
+    await expect(verify.facts.getByRole('row').filter({ hasText: 'barrier' })).toContainText('written');
+  });
+
+  await test.step('from there one goes to the scan', async () => {
+    await verify.press('Go to this scan');
+    await expect(ada.timeline.banner).toBeVisible();
+  });
+});

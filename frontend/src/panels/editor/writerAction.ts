@@ -1,0 +1,18 @@
+/** Who last wrote the variable at the caret: asked from the text. */
+import { t } from "../../logic/text";
+import { showWriter } from "../../store/writer";
+import type { editor } from "./monaco";
+import { nameAtCaret, pathsOf, selectedNames } from "./watchAction";
+
+export function addWriterAction(code: editor.IStandaloneCodeEditor, path: string): void {
+  code.addAction({
+    id: "scanbench.writer",
+    label: t("writer.menu.name"),
+    contextMenuGroupId: "navigation",
+    run: async () => {
+      const line = code.getPosition()?.lineNumber ?? 1;
+      const [name] = await pathsOf(path, line, selectedNames(code) ?? nameAtCaret(code));
+      if (name) showWriter(name);
+    },
+  });
+}
