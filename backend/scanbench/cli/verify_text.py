@@ -11,7 +11,7 @@ SHOWN = 10
 """Differences that are printed; `--json` and `--html` have more."""
 CAUSES = {
     "logic": "the same inputs gave another result",
-    "input": "nobody wrote the value that was used",
+    "input": "what was read is not what should have been there",
     "order": "another statement ran, or another variable was used",
     "trap": "a run-time error in one of them",
     "outside": "a variable that the range does not use",

@@ -111,6 +111,8 @@ class Search:
         self._timeline, self._breakpoints, self._wanted, self._here = timeline, breakpoints, wanted, here
         self._prober, self._raised, self._first = prober, raised, first
         self._probed: dict[Loaded, ProbedEngine | None] = {}
+        self._silent: set[Loaded] = set()
+        """Programs of which no statement can be one that is looked for."""
         self._sound, self._flaw = False, ""
         """Whether any program has a meaning for them; why one has not."""
         self._entered = {each.scan for each in timeline.live_journal if each.step}
@@ -197,15 +199,17 @@ class Search:
             while True:
                 loaded = resource.loaded
                 engine = self._engine(loaded)
-                if engine is None:
+                if engine is None and loaded not in self._silent:
                     return -1
-                engine.forget()
-                usual, loaded.engine = loaded.engine, engine
+                usual = loaded.engine
+                if engine is not None:
+                    engine.forget()
+                    loaded.engine = engine
                 try:
                     stop = timeline.go_on(scans.stop)
                 finally:
                     loaded.engine = usual
-                found += [each for each in engine.reached if each is not None]
+                found += [each for each in engine.reached if each is not None] if engine is not None else []
                 if stop.reason is not Reason.KNOCKED:
                     return max(found, default=None)
         finally:
@@ -214,8 +218,10 @@ class Search:
     def _engine(self, loaded: Loaded) -> ProbedEngine | None:
         if loaded not in self._probed:
             placing = self._breakpoints.placing(loaded)
-            probes = notes_of([placing.place(each, 0) for each in self._wanted], placing)
-            made = None
+            placed = [placing.place(each, 0) for each in self._wanted]
+            probes, made = notes_of(placed, placing), None
+            if probes == () and all(each.active for each in placed):
+                self._silent.add(loaded)
             if probes and self._prober is not None:
                 try:
                     made = self._prober(loaded.statements, loaded.memory, probes)

@@ -1,12 +1,13 @@
 """The job process: reactions, sweeps, records of earlier scans, verifications, questions about the past; so that neither the server nor a PLC has to wait for them.
 
-`python -m scanbench.session.job CACHE`; see `job_protocol.py`. Whatever goes wrong with a request is told in its answer.
+Forked from the nursery, or `python -m scanbench.session.job FD [CACHE]`; see `job_protocol.py`. Whatever goes wrong with a request is told in its answer.
 """
 
 import logging
 import os
 import select
 import signal
+import socket
 import sys
 from collections import deque
 from collections.abc import Callable, Iterator
@@ -195,32 +196,39 @@ def _unexpected(error: Exception) -> str:
     )
 
 
-def main() -> int:
-    """Serves until the input ends."""
-    end_with_parent()
+def serve(sock: socket.socket, cache: Path | None, parent: int) -> int:
+    """Answers on the socket until the process `parent` closes it, or is gone; the exit code."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the parent's business
     os.nice(_NICENESS)
-    answers = os.fdopen(os.dup(sys.stdout.fileno()), "wb")
-    os.dup2(sys.stderr.fileno(), sys.stdout.fileno())  # what anything prints is no answer
-    requests = sys.stdin.fileno()
-    splitter, waiting = Splitter(), deque[object]()
+    with sock:
+        fd = sock.fileno()
+        return _served(fd, os.fdopen(os.dup(fd), "wb"), cache, parent)
+
+
+def _served(requests: int, answers: BinaryIO, cache: Path | None, parent: int) -> int:
+    splitter, waiting, adopted = Splitter(), deque[object](), False
 
     def asked() -> bool:
         return bool(waiting) or bool(select.select([requests], [], [], 0)[0])
 
-    job = Job(Path(sys.argv[1]) if len(sys.argv) > 1 else None, answers, asked)
+    job = Job(cache, answers, asked)
     try:
         while data := os.read(requests, 1 << 16):
+            if not adopted:  # the parent has spoken, so it has adopted this process
+                adopted = True
+                end_with_parent(parent)
             waiting.extend(splitter.feed(data))
             while waiting:
                 job.on_request(waiting.popleft())
     except BadMessage as error:
         log.error("a job process was asked what it does not understand: %s", error)
         return 1
-    except BrokenPipeError:
+    except (BrokenPipeError, ConnectionResetError):
         return 0
     return 0
 
 
 if __name__ == "__main__":
-    sys.exit(main())
+    sys.exit(
+        serve(socket.socket(fileno=int(sys.argv[1])), Path(sys.argv[2]) if len(sys.argv) > 2 else None, os.getppid())
+    )

@@ -2,12 +2,12 @@
 
 import asyncio
 import logging
-import sys
+import socket
 from collections.abc import Callable
-from contextlib import suppress
 from pathlib import Path
 
 from scanbench.session.codec import LARGEST, LENGTH, BadMessage, pack, unpack
+from scanbench.session.nursery import NoProcess, Process, nursery
 
 log = logging.getLogger("scanbench")
 DIED = "the process that computes it died: try again"
@@ -19,17 +19,18 @@ class Job:
     def __init__(self, cache: Path, on_message: Callable[[object], None], on_end: "Callable[[Job], None]") -> None:
         """`cache` is the directory where programs and their code are kept. To be made in the event loop."""
         self._waiting: list[bytes] = []
-        self._process: asyncio.subprocess.Process | None = None
+        self._process: Process | None = None
+        self._writer: asyncio.StreamWriter | None = None
         self._ended = False
         self._task = asyncio.get_running_loop().create_task(self._live(cache, on_message, on_end))
 
     def ask(self, message: object) -> None:
         """A request; answers come as messages."""
         packed = pack(message)
-        if self._process is None or self._process.stdin is None:
+        if self._writer is None:
             self._waiting.append(packed)
         else:
-            self._process.stdin.write(packed)
+            self._writer.write(packed)
 
     async def end(self) -> None:
         """Ends the process, whatever it does."""
@@ -39,40 +40,38 @@ class Job:
 
     def _kill(self) -> None:
         if self._process is not None:
-            with suppress(ProcessLookupError):
-                self._process.kill()
+            self._process.kill()
 
     async def _live(
         self, cache: Path, on_message: Callable[[object], None], on_end: "Callable[[Job], None]"
     ) -> None:  # fmt: skip
+        ours, theirs = socket.socketpair()
         try:
-            process = await asyncio.create_subprocess_exec(
-                sys.executable, "-m", "scanbench.session.job", str(cache),
-                stdin=asyncio.subprocess.PIPE, stdout=asyncio.subprocess.PIPE,
-            )  # fmt: skip
-        except OSError:
+            with theirs:
+                self._process = process = await asyncio.to_thread(nursery().spawn, theirs, cache, "job")
+        except NoProcess:
+            ours.close()
             log.exception("a job process could not be started")
             on_end(self)
             return
-        self._process = process
-        assert process.stdin is not None
-        assert process.stdout is not None
+        reader, self._writer = await asyncio.open_unix_connection(sock=ours, limit=1 << 20)
         if self._ended:
             self._kill()
         for packed in self._waiting:
-            process.stdin.write(packed)
+            self._writer.write(packed)
         self._waiting.clear()
         try:
             while True:
-                (length,) = LENGTH.unpack(await process.stdout.readexactly(LENGTH.size))
+                (length,) = LENGTH.unpack(await reader.readexactly(LENGTH.size))
                 if length > LARGEST:
                     raise BadMessage(f"a message of {length} bytes")
-                on_message(unpack(await process.stdout.readexactly(length)))
+                on_message(unpack(await reader.readexactly(length)))
         except (asyncio.IncompleteReadError, ConnectionError):
             pass
         except BadMessage:
             log.exception("a job process does not speak the protocol")
         finally:
             self._kill()
-            await process.wait()
+            self._writer.close()
+            await asyncio.to_thread(process.wait)
             on_end(self)

@@ -1,4 +1,4 @@
-"""Where the processes of virtual PLCs come from: forked from one process that has everything imported, in milliseconds.
+"""Where the processes of virtual PLCs, and job processes, come from: forked from one process that has everything imported, in milliseconds.
 
 The nursery (`host/forking.py`) forks twice, and the server adopts the grandchild as its own child: so the server learns
 how it ended, the kernel ends it with the server, and it does not notice when the nursery is gone: the next one is born in a
@@ -16,9 +16,11 @@ import threading
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
+from typing import Literal
 
 import msgpack  # type: ignore[import-untyped]
 
+Kind = Literal["host", "job"]
 _PR_SET_CHILD_SUBREAPER = 36
 _LARGEST_REPLY = 4096
 _THRIFT = {
@@ -34,7 +36,7 @@ class NoProcess(Exception):
 
 
 class HostProcess:
-    """The process of one PLC, a child of this one."""
+    """The process of one PLC, or of a job, a child of this one."""
 
     def __init__(self, pid: int) -> None:
         self.pid = pid
@@ -109,11 +111,11 @@ class Nursery:
             with self._lock:
                 self._connected()
 
-    def spawn(self, sock: socket.socket, cache: Path | None) -> Process:
-        """A host that speaks on `sock`, which is the caller's to close, and keeps what it builds in `cache`."""
+    def spawn(self, sock: socket.socket, cache: Path | None, kind: Kind = "host") -> Process:
+        """A host, or a job process, that speaks on `sock`, which is the caller's to close, and keeps what it builds in `cache`."""
         if not _can_fork():
-            return _single(sock, cache)
-        request = msgpack.packb(str(cache) if cache is not None else None)
+            return _single(sock, cache, kind)
+        request = msgpack.packb((kind, str(cache) if cache is not None else None))
         with self._lock:
             reply = self._asked(request, sock) or self._asked(request, sock)  # again, in a new nursery
         if not reply:
@@ -187,9 +189,9 @@ def _adopt_orphans() -> None:
         raise NoProcess("this system does not let a process adopt its grandchildren (Linux 3.4 or newer does)")
 
 
-def _single(sock: socket.socket, cache: Path | None) -> _Single:
+def _single(sock: socket.socket, cache: Path | None, kind: Kind) -> _Single:
     fd = sock.fileno()
-    command = [sys.executable, "-m", "scanbench.session.host", str(fd), *([str(cache)] if cache is not None else [])]
+    command = [sys.executable, "-m", f"scanbench.session.{kind}", str(fd), *([str(cache)] if cache is not None else [])]
     return _Single(subprocess.Popen(command, pass_fds=(fd,), stdin=subprocess.DEVNULL))
 
 

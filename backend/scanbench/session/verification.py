@@ -106,6 +106,8 @@ class Verification:
             first, last = answer.first, answer.end - 1
         elif wanted.first is not None:
             last = live - 1 if wanted.last is None else min(wanted.last, live - 1)
+        elif self.status.source == "live":
+            first = self._live_scan  # it took a while until now
         self._next = first
         self._change(
             title=answer.title, instances=answer.instances, first=first, last=last, version=answer.version,

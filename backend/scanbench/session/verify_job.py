@@ -107,7 +107,7 @@ class VerifyJob:
 
     def _begin_trace(self, ask: BeginTrace) -> None:
         data = Path(ask.file).read_bytes()
-        verifier = open_trace(data, ask.name, ask.mapping, self._program_of(ask.sources))
+        verifier = open_trace(data, ask.name, ask.mapping, self._program_of(ask.sources), ask.sources.files)
         self._verifier = verifier
         begun = verifier.begin(ask.range, ask.limit)
         self._say(
@@ -177,5 +177,5 @@ def _text(column: Column | None, value: bytes | None) -> str | None:
 
 def _words(why: Exception) -> str:
     if isinstance(why, BadTraceFile):
-        return "; ".join(each.message for each in why.problems[:3])
+        return "; ".join(map(str, why.problems[:3]))
     return why.strerror or str(why) if isinstance(why, OSError) else str(why)

@@ -7,7 +7,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scanbench.check.layout import Layout
-from scanbench.check.values import format_value
 from scanbench.runtime.command import Entry
 from scanbench.runtime.holds import held
 from scanbench.runtime.trap import Trapped, trap_info
@@ -17,7 +16,7 @@ from scanbench.verify.monitor import Inputs, Monitor
 from scanbench.verify.naming import WHOLE, Leaf
 from scanbench.verify.ranges import Resolved
 from scanbench.verify.rows import MAX_MISMATCHES, Disturbed, Pair, Reader, row_of
-from scanbench.verify.sentences import mismatch
+from scanbench.verify.sentences import mismatch, values
 from scanbench.verify.sides import Begin, Side
 from scanbench.verify.uses import Access, Pass, Recorder, results_are
 from scanbench.verify.verified import Mismatch, Row
@@ -241,10 +240,8 @@ class Both:
         made = []
         for leaf in self.leaves(view, found, control, monitor):
             was, right = _cut(leaf, control), _cut(leaf, monitor)
-            text = (
-                f"{leaf.name} is {format_value(leaf.type, was)}, the reference gives {format_value(leaf.type, right)}, "
-                f"behind scan {scan}"
-            )
+            one, other = values(leaf, was, right)
+            text = f"{leaf.name} is {one}, the reference gives {other}, behind scan {scan}"
             made.append(mismatch("outside", leaf, was, right, None, text))
         return made
 
@@ -296,10 +293,8 @@ class Both:
         made = []
         for leaf in self.leaves(view, left, there, own):
             was, right = _cut(leaf, there), _cut(leaf, own)
-            text = (
-                f"{leaf.name} was {format_value(leaf.type, was)} in scan {scan}, and should have been "
-                f"{format_value(leaf.type, right)}: nobody wrote it"
-            )
+            one, other = values(leaf, was, right)
+            text = f"{leaf.name} was {one} in scan {scan}, and should have been {other}: nobody wrote it"
             made.append(mismatch("input", leaf, was, right, None, text))
         self.extra = [*made, *self.extra]
 
@@ -319,10 +314,8 @@ class Both:
         found = [at for at, (one, other) in enumerate(zip(recorded, here, strict=True)) if one != other]
         for leaf in self.leaves(view, found, recorded, here):
             was, again = _cut(leaf, recorded), _cut(leaf, here)
-            text = (
-                f"{leaf.name} was {format_value(leaf.type, was)} behind scan {scan} when it was recorded, and the same code "
-                f"gives {format_value(leaf.type, again)} now"
-            )
+            one, other = values(leaf, was, again)
+            text = f"{leaf.name} was {one} behind scan {scan} when it was recorded, and the same code gives {other} now"
             self.extra.append(mismatch("recorded", leaf, was, again, None, text))
         side.memory[: len(recorded)] = recorded
         self.monitor.take_over(side)

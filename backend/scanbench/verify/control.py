@@ -1,14 +1,16 @@
 """The control device: a run file run again, on the code that PLCs run on, with all that was entered."""
 
 from bisect import bisect_left, bisect_right
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Mapping, Sequence
 from operator import attrgetter
 from pathlib import Path
 
+from scanbench.check.layout import Layout
 from scanbench.check.program import Program
 from scanbench.engines.engine import Reason
 from scanbench.runtime.command import Entry
 from scanbench.runtime.contents import Codec, KeptProgram
+from scanbench.runtime.header import Halt
 from scanbench.runtime.inside import Diverged
 from scanbench.runtime.programs import Loaded, NoProgram, Programs
 from scanbench.runtime.recording import Recording, Replaced
@@ -63,8 +65,7 @@ class Source:
     def end(self) -> int:
         """Scans in front of this one are over, as far as is known. One that a run-time error ended is, though time stands."""
         end = self.recording.last_scan if self._until is None else self._until
-        last = self.entries[-1] if self.entries else None
-        return end + (last is not None and last.scan == end and isinstance(last.command, Trapped))
+        return end + _trapped(self.of_scan(end))
 
     def follow(self, until: int) -> bool:
         """Reads on; false when the file is another one now, and whoever stands in it has to begin anew."""
@@ -173,3 +174,17 @@ class Control:
         except (RunFileError, OSError) as error:
             raise Unverifiable(str(error)) from error
         return None if state == resource.state else state
+
+
+def _trapped(entries: Sequence[Entry]) -> bool:
+    """Whether a run-time error stops the program behind these entries, which are all of one scan."""
+    trapped = False
+    for entry in entries:
+        if isinstance(entry.command, Trapped) or entry.plan.starts_anew:
+            trapped = not entry.plan.starts_anew
+            continue
+        for patch in entry.plan.patches:
+            at = Layout.FATAL - patch.offset
+            if 0 <= at < len(patch.mask) and patch.mask[at] & Halt.TRAP:
+                trapped = bool(patch.data[at] & Halt.TRAP)
+    return trapped

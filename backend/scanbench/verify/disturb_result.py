@@ -3,10 +3,10 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from scanbench.check.named import temporary_at, variable_at
+from scanbench.check.named import temporary_at
 from scanbench.check.program import Program
 from scanbench.check.symbols import UnknownPath, at_offset, resolve
-from scanbench.check.types import BOOL
+from scanbench.check.types import BOOL, ArrayType, Elementary, Record, StringType, Type
 from scanbench.runtime.command import Command
 from scanbench.verify.disturb import Disturbed
 from scanbench.verify.disturb_fire import Corrupt
@@ -56,45 +56,74 @@ class Results:
 
     def _corrupt(self, wish: Wish) -> Corrupt | None:
         """Of the first value, unless chance says which; what the compiler keeps for itself is no result."""
-        values = [each for each in wish.written if _name(self._program, each[0])]
-        if not values:
-            wish.written.clear()  # the next one, perhaps
-            return None
-        wish.done = True
-        of = wish.of
-        drawn = chance(of.wanted, of.number, of.time, "bit")
-        offset, size, bits = values[0 if of.wanted.bit is not None else drawn % len(values)]
-        count = self._bits(offset, size, bits)
-        index = drawn // len(values) % count if of.wanted.bit is None else of.wanted.bit
-        name = _name(self._program, offset)
-        if index >= count:
-            wish.why = f"what it wrote to {name} has no bit {index}"
-            return None
-        at, bit = (offset, bits.bit_length() - 1) if bits != _WHOLE else (offset + index // 8, index % 8)
-        return Corrupt(of.by, of.number, of.time + 1, of.fired + 1, of.wanted.site, at, bit, index, name)
+        of, wanted = wish.of, wish.of.wanted
+        drawn, written = chance(wanted, of.number, of.time, "bit"), wish.written
+        begin = 0 if wanted.bit is not None else drawn % len(written)
+        for each in (*written[begin:], *written[:begin]):
+            spot = self._spot(each, wanted.bit, drawn // len(written))
+            if spot is not None:
+                wish.done = True
+                at, bit, name = spot
+                index = 8 * (at - each[0]) + bit if each[2] == _WHOLE else 0
+                return Corrupt(of.by, of.number, of.time + 1, of.fired + 1, wanted.site, at, bit, index, name)
+            if wanted.bit is not None and _value_at(self._program, each[0]) is not None:
+                wish.done, wish.why = True, f"what it wrote has no bit {wanted.bit}"
+                return None
+        written.clear()  # what it writes next, perhaps
+        return None
 
-    def _bits(self, offset: int, size: int, bits: int) -> int:
-        """So many bits of what was written mean anything."""
+    def _spot(self, written: tuple[int, int, int], wanted: int | None, drawn: int) -> tuple[int, int, str] | None:
+        """Byte and bit that turn over, and what that is called; no gap between the members of a structure."""
+        offset, size, bits = written
         if bits != _WHOLE:
-            return 1
-        if size > 1:
-            return 8 * size
-        symbol = variable_at(self._program, (offset, 0), BOOL)
-        if symbol is not None:
-            return 1 if symbol.bit is None else 8
-        temporary = temporary_at(self._program, offset)
-        if temporary is None or temporary[0].frame.members[temporary[1].upper()].type == BOOL:
-            return 1
-        return 8
+            name, _ = _value_at(self._program, offset) or ("", 0)
+            return (offset, bits.bit_length() - 1, name) if name and not wanted else None
+        if wanted is not None and wanted >= 8 * size:
+            return None
+        for step in range(size if wanted is None else 1):
+            at = offset + (wanted // 8 if wanted is not None else (drawn + step) % size)
+            name, mask = _value_at(self._program, at) or ("", 0)
+            choice = [bit for bit in range(8) if mask >> bit & 1 and (wanted is None or bit == wanted % 8)]
+            if choice:
+                return at, choice[drawn // size % len(choice)], name
+        return None
 
 
-def _name(program: Program, offset: int) -> str:
-    """For people; empty for what has none, and for what an in-out or reference refers to: that is no value."""
-    if offset >= program.layout.state_size:
-        temporary = temporary_at(program, offset)
-        return f"{temporary[0].name}.{temporary[1]}" if temporary is not None and temporary[1] else ""
+def _value_at(program: Program, offset: int) -> tuple[str, int] | None:
+    """The value that a byte is a part of, for people, and which of its bits mean anything. None for what is no value: a gap,
+    what an in-out or reference refers to, what the compiler keeps."""
+    found = _temporary(program, offset) if offset >= program.layout.state_size else _variable(program, offset)
+    if found is None or not isinstance(found[1], Elementary | StringType):
+        return None
+    return found[0], 1 if found[1] == BOOL else 0xFF
+
+
+def _variable(program: Program, offset: int) -> tuple[str, Type] | None:
     path = at_offset(program, offset)
     try:
-        return "" if resolve(program, path).slots else path
+        symbol = resolve(program, path)
     except UnknownPath:
-        return ""
+        return None
+    return None if symbol.slots else (path, symbol.type)
+
+
+def _temporary(program: Program, offset: int) -> tuple[str, Type] | None:
+    found = temporary_at(program, offset)
+    if found is None or not found[1]:
+        return None
+    pou, name = found
+    member = pou.frame.members[name.upper()]
+    type = None if member.bound else _part(member.type, offset - pou.frame_offset - member.offset)
+    return None if type is None else (f"{pou.name}.{name}", type)
+
+
+def _part(type: Type, offset: int) -> Type | None:
+    """What is so far behind the beginning of a value."""
+    if isinstance(type, ArrayType):
+        return _part(type.element, offset % type.element.size)
+    if not isinstance(type, Record):
+        return type
+    for member in type.members.values():
+        if member.offset <= offset < member.offset + member.storage:
+            return None if member.bound or member.hidden else _part(member.type, offset - member.offset)
+    return None

@@ -92,7 +92,9 @@ def propose(table: Table, program: Program) -> TraceMapping:
         symbol = _symbol(program, column)
         if symbol is None:
             columns.append(ColumnMap(column, "", "ignore" if _computed(program, column) else "output"))
-        elif symbol.slots or not taken.isdisjoint(bits_of(symbol)):  # two columns of one variable: the first one counts
+        elif (
+            symbol.slots or symbol.constant or not taken.isdisjoint(bits_of(symbol))
+        ):  # of two columns of one variable the first
             columns.append(ColumnMap(column))
         else:
             taken.update(bits_of(symbol))

@@ -52,16 +52,11 @@ class Leaf(NamedTuple):
         return WHOLE if self.bit is None else 1 << self.bit
 
     def cut(self, data: bytes | bytearray, start: int) -> bytes:
-        """Its value, in bytes of the image that begin at `start`. What is behind the end of a string means nothing."""
+        """Its value, in bytes of the image that begin at `start`; of a string also what is behind its end."""
         at = self.offset - start
         if self.bit is not None:
             return bytes((data[at] >> self.bit & 1,))
-        size = self.type.size
-        value = bytes(data[at : at + size])
-        if isinstance(self.type, StringType):
-            used = 2 + self.type.width * min(int.from_bytes(value[:2], "little"), self.type.capacity)
-            return value[:used].ljust(size, b"\0")
-        return value
+        return bytes(data[at : at + self.type.size])
 
     def column(self) -> Column:
         """As the table has it."""

@@ -30,13 +30,13 @@ class Teller:
     ) -> Mismatch:  # fmt: skip
         """A value is another."""
         place = self.places.of(site, frames)
-        was, right = format_value(leaf.type, control), format_value(leaf.type, monitor)
+        was, right = values(leaf, control, monitor)
         text = f"{self._subject(leaf)} is {was}, the reference gives {right}, at {_at(place)} in scan {self.scan}"
         return mismatch(cause, leaf, control, monitor, place, text)
 
     def input(self, leaf: Leaf, recorded: bytes, expected: bytes) -> Mismatch:
         """Something was read that nobody had written."""
-        was, right = format_value(leaf.type, recorded), format_value(leaf.type, expected)
+        was, right = values(leaf, recorded, expected)
         text = f"{self._subject(leaf)} was {was} when it was read, and should have been {right}, in scan {self.scan}"
         return mismatch("input", leaf, recorded, expected, None, text)
 
@@ -72,6 +72,14 @@ class Teller:
             if found:
                 return found[0].name
         return f"{self.path}.{leaf.name}" if self.inside and not leaf.passing else leaf.name
+
+
+def values(leaf: Leaf, control: bytes, monitor: bytes) -> tuple[str, str]:
+    """Both as text, so that they can be told apart: of a string the bytes where they differ behind its end."""
+    one, other = format_value(leaf.type, control), format_value(leaf.type, monitor)
+    if one != other:
+        return one, other
+    return f"{one} (bytes {control.hex(' ')})", f"{other} (bytes {monitor.hex(' ')})"
 
 
 def mismatch(cause: Cause, leaf: Leaf, control: bytes, monitor: bytes, place: Place | None, text: str) -> Mismatch:

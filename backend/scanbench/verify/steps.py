@@ -3,14 +3,13 @@
 from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field
 
-from scanbench.check.values import format_value
 from scanbench.engines.debug import READ, WRITE, Frame, Listen
 from scanbench.engines.engine import Reason, Stop
 from scanbench.runtime.holds import held
 from scanbench.runtime.resource import Resource
 from scanbench.verify.both import Both, View, ViewOf
 from scanbench.verify.naming import ANYWHERE, Leaf, Names
-from scanbench.verify.sentences import mismatch
+from scanbench.verify.sentences import mismatch, values
 from scanbench.verify.sides import Begin, Side
 from scanbench.verify.uses import Access, Pass
 from scanbench.verify.verified import Input, Mismatch, Output, Place, Row
@@ -173,11 +172,9 @@ class _Step:
         written = {at for each in logs if each.written for at in range(each.offset, each.offset + each.size)}
         for leaf, mine in self._different(written):
             was, right = (leaf.cut(each, 0) for each in (control.memory, monitor.memory))
+            one, other = values(leaf, was, right)
             where = f" at {before.file}:{before.line}" if mine and before is not None else ""
-            text = (
-                f"{leaf.name} is {format_value(leaf.type, was)}, the reference gives {format_value(leaf.type, right)},"
-                f"{where} in scan {self.scan}"
-            )
+            text = f"{leaf.name} is {one}, the reference gives {other},{where} in scan {self.scan}"
             yield mismatch("logic" if mine else "outside", leaf, was, right, before if mine else None, text)
 
     def _different(self, written: set[int]) -> Iterator[tuple[Leaf, bool]]:

@@ -4,6 +4,7 @@ import io
 import os
 import select
 import signal
+import socket
 import struct
 import subprocess
 import sys
@@ -52,13 +53,15 @@ class Job:
     """A job process."""
 
     def __init__(self, cache: Path) -> None:
-        command = [sys.executable, "-m", "scanbench.session.job", str(cache)]
-        self.process = subprocess.Popen(command, stdin=subprocess.PIPE, stdout=subprocess.PIPE)
+        self._sock, theirs = socket.socketpair()
+        with theirs:
+            fd = theirs.fileno()
+            command = [sys.executable, "-m", "scanbench.session.job", str(fd), str(cache)]
+            self.process = subprocess.Popen(command, pass_fds=(fd,))
+        self._answers = self._sock.makefile("rb")
 
     def ask(self, message: object) -> None:
-        assert self.process.stdin is not None
-        self.process.stdin.write(pack(message))
-        self.process.stdin.flush()
+        self._sock.sendall(pack(message))
 
     def answer(self) -> object:
         """The next one that tells something."""
@@ -67,16 +70,14 @@ class Job:
         return found
 
     def _message(self) -> object:
-        assert self.process.stdout is not None
-        head = self.process.stdout.read(4)
+        head = self._answers.read(4)
         assert len(head) == 4, "the process ended"
-        return unpack(self.process.stdout.read(struct.unpack("<I", head)[0]))
+        return unpack(self._answers.read(struct.unpack("<I", head)[0]))
 
     def end(self) -> int:
-        assert self.process.stdin is not None
-        assert self.process.stdout is not None
-        self.process.stdin.close()
-        self.process.stdout.close()
+        self._sock.shutdown(socket.SHUT_WR)
+        self._answers.close()
+        self._sock.close()
         return self.process.wait(30)
 
 
@@ -340,11 +341,12 @@ def test_it_ends_with_its_parent(tmp_path: Path) -> None:
     timeline, _ = raised(tmp_path / "1.run")
     timeline.close()
     code = (
-        "import os, subprocess, sys\n"
-        "process = subprocess.Popen([sys.executable, '-m', 'scanbench.session.job', sys.argv[1]], stdin=subprocess.PIPE,"
-        " stdout=subprocess.PIPE)\n"
-        "process.stdin.write(sys.stdin.buffer.read()); process.stdin.flush()\n"
-        "process.stdout.read(1)\n"
+        "import os, socket, subprocess, sys\n"
+        "ours, theirs = socket.socketpair()\n"
+        "command = [sys.executable, '-m', 'scanbench.session.job', str(theirs.fileno()), sys.argv[1]]\n"
+        "process = subprocess.Popen(command, pass_fds=(theirs.fileno(),))\n"
+        "ours.sendall(sys.stdin.buffer.read())\n"
+        "ours.recv(1)\n"
         "print(process.pid, flush=True)\n"
         "os.kill(os.getpid(), 9)\n"
     )

@@ -139,20 +139,21 @@ class Expected:
 
     def __init__(self, entries: tuple[Entry, ...], image: bytes) -> None:
         self.bytes: dict[int, set[int]] = {}
-        self._wires, self._true = bytearray(image), bytearray(image)
-        """What was entered, with the bits that turned over and without."""
+        self._wires = bytearray(image)
+        """What was written to the inputs, whatever is held there."""
+        self._wrong: dict[int, int] = {}
+        """Bits that turned over in this seam, and that nobody wrote behind that."""
         self._held: dict[int, tuple[tuple[int, int, int], ...]] = {}
         by_scan: dict[int, list[Entry]] = {}
         for entry in entries:
             by_scan.setdefault(entry.scan, []).append(entry)
         for scan in range(max(by_scan) + 1):
-            self._true[:] = self._wires
+            self._wrong.clear()
             for entry in by_scan.get(scan, ()):
                 self._take(entry)
-            wrong = {at for at, (one, other) in enumerate(zip(self._wires, self._true, strict=True)) if one != other}
+            self._expect(scan, {at for at, mask in self._wrong.items() if mask})
             for spots in self._held.values():
-                wrong |= {at for at, mask, value in spots if (self._wires[at] ^ value) & mask}
-            self._expect(scan, wrong)
+                self._expect(scan, {at for at, mask, value in spots if (self._wires[at] ^ value) & mask})
 
     def _take(self, entry: Entry) -> None:
         match entry.plan.effect:
@@ -161,22 +162,22 @@ class Expected:
             case Freed(numbers):
                 for number in numbers:
                     del self._held[number]
-            case None if isinstance(entry.command, Corrupt):
-                self._expect(entry.scan, {each.offset for each in entry.plan.patches})
             case None:
                 for patch in entry.plan.patches:
-                    _patch(self._wires, patch)
-                    if not isinstance(entry.command, Flip):
-                        _patch(self._true, patch)
+                    self._patch(entry, patch)
+
+    def _patch(self, entry: Entry, patch: Patch) -> None:
+        if isinstance(entry.command, Corrupt):
+            self._expect(entry.scan, {patch.offset})
+            return
+        for at, (mask, data) in enumerate(zip(patch.mask, patch.data, strict=True), patch.offset):
+            self._wires[at] = self._wires[at] & ~mask | data & mask
+            turned = self._wrong.get(at, 0)
+            self._wrong[at] = turned ^ mask if isinstance(entry.command, Flip) else turned & ~mask
 
     def _expect(self, scan: int, found: set[int]) -> None:
         if found:
             self.bytes.setdefault(scan, set()).update(found)
-
-
-def _patch(image: bytearray, patch: Patch) -> None:
-    for at, (mask, data) in enumerate(zip(patch.mask, patch.data, strict=True), patch.offset):
-        image[at] = image[at] & ~mask | data & mask
 
 
 @pytest.mark.parametrize("engine", [NativeEngine, ReferenceEngine], ids=("native", "reference"))

@@ -10,9 +10,11 @@ from scanbench.check.program import Program
 from scanbench.check.symbols import resolve
 from scanbench.check.values import format_value
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.engines.sample import MAX_SIGNALS
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
+from scanbench.session.samples import Sample, samples
 from scanbench.verify.control import Unverifiable
 from scanbench.verify.edits import BadEdit
 from scanbench.verify.mapping import BadMapping, Gaps, TraceMapping, propose
@@ -22,7 +24,7 @@ from scanbench.verify.trace_read import read_trace
 from scanbench.verify.trace_run import TraceVerifier, open_trace
 from scanbench.verify.verified import BadRange, Mismatch, Row
 from tests.caseformat import MODELS
-from tests.verify.trace_parts import conveyor, conveyor_csv, program_of, with_cell
+from tests.verify.trace_parts import conveyor, conveyor_csv, exported, leaves, program_of, with_cell
 
 
 def opened(text: str, program: Program, range: str = "", gaps: Gaps = "refuse", limit: int = 4096) -> TraceVerifier:
@@ -53,6 +55,17 @@ def test_our_own_export_has_no_difference(range: str) -> None:
         assert all(row.outputs["motor"].control == row.outputs["motor"].monitor for row in rows)
         assert {row.outputs["motor"].control for row in rows} == {b"\0", b"\1"}
         assert {row.inputs["start"].recorded for row in rows} == {b"\0", b"\1"}
+
+
+@pytest.mark.parametrize("sample", samples(), ids=lambda each: each.name)
+def test_no_variable_of_any_sample_differs(sample: Sample) -> None:
+    program = check_sources(sample.files, MODELS[sample.model]).program
+    assert program is not None
+    names = leaves(program)
+    assert names
+    for at in range(0, len(names), MAX_SIGNALS):
+        text = exported(program, names[at : at + MAX_SIGNALS], 0, 120, {})
+        assert found(verified(opened(text, program))) == []
 
 
 @pytest.mark.parametrize(

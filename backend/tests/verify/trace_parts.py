@@ -1,10 +1,12 @@
 """What the tests of traces share: programs, tables, and a trace of the conveyor by a native run."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from functools import cache
 
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
+from scanbench.check.symbols import members
+from scanbench.check.types import ArrayType, Elementary, Record
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.programs import Loaded
@@ -18,8 +20,8 @@ from scanbench.verify.trace_bind import Checked, check
 from scanbench.verify.trace_read import read_trace
 from tests.caseformat import MODELS
 
-Pressed = Mapping[int, tuple[tuple[str, str], ...]]
-PRESSED: Pressed = {
+Writes = Mapping[int, tuple[tuple[str, str], ...]]
+PRESSED: Writes = {
     5: (("start", "TRUE"),),
     9: (("start", "FALSE"),),
     160: (("stop", "TRUE"),),
@@ -50,13 +52,17 @@ def conveyor() -> Program:
 
 @cache
 def conveyor_csv(first: int = 0, scans: int = 300) -> str:
-    """What our own export writes of a native run: `scans` rows from scan `first` on."""
-    program = conveyor()
+    """`scans` rows from scan `first` on."""
+    return exported(conveyor(), SIGNALS, first, scans, PRESSED)
+
+
+def exported(program: Program, signals: Sequence[str], first: int, scans: int, writes: Writes) -> str:
+    """What our own export writes of a native run."""
     resource = Resource(Loaded.make(program, NativeEngine))
-    trace = Trace(1, TraceDefinition("conveyor", SIGNALS), "Ada")
+    trace = Trace(1, TraceDefinition("trace", tuple(signals)), "Ada")
     trace.define(trace.definition, program, "Ada")
     for scan in range(first + scans):
-        for path, value in PRESSED.get(scan, ()):
+        for path, value in writes.get(scan, ()):
             assert not isinstance(resource.submit(Write("Ada", path, value)), Refusal)
         if scan == first:
             trace.start(program, scan)
@@ -64,6 +70,19 @@ def conveyor_csv(first: int = 0, scans: int = 300) -> str:
         resource.run(1)
     trace.drain(first + scans)
     return "".join(to_csv(trace.buffer.pieces(0, 1 << 40), trace.signals, program.interval_ns))
+
+
+def leaves(program: Program, path: str = "") -> list[str]:
+    """Every single value of the program that can be traced."""
+    found = []
+    for symbol in members(program, path):
+        if symbol.slots:
+            continue
+        if isinstance(symbol.type, Elementary):
+            found.append(symbol.path)
+        elif isinstance(symbol.type, ArrayType | Record):
+            found += leaves(program, symbol.path)
+    return found
 
 
 def with_cell(text: str, scan: int, column: str, value: str) -> str:

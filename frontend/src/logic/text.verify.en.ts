@@ -154,6 +154,7 @@ export const verifyEnglish = {
   "verify.same.edited": "On the recorded inputs both sides came to the same; some inputs of this row are edited.",
   "verify.same": "Same",
   "verify.saved": "Saved verifications...",
+  "verify.says.expected": "as it should be",
   "verify.says.recorded": "recorded inputs",
   "verify.says.set.not": "set inputs, not run yet",
   "verify.says.set": "set inputs",

@@ -155,6 +155,7 @@ export const verifyJapanese: Record<keyof typeof verifyEnglish, string> = {
   "verify.same.edited": "記録された入力では両側の結果は同じです。この行には編集した入力があります。",
   "verify.same": "一致",
   "verify.saved": "保存した検証...",
+  "verify.says.expected": "本来の値",
   "verify.says.recorded": "記録された入力",
   "verify.says.set.not": "設定した入力（未実行）",
   "verify.says.set": "設定した入力",

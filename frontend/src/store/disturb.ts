@@ -1,4 +1,5 @@
 /** Disturbances of the PLC: which there are, the next one as it is typed, and what became of it. */
+import { useSyncExternalStore } from "react";
 import { create } from "zustand";
 import { type DisturbForm, plainDisturbance, readDisturbance } from "../logic/disturb";
 import { t } from "../logic/text";
@@ -6,7 +7,7 @@ import { disturbances as wire } from "../wire/disturb";
 import { Refused } from "../wire/rest";
 import type { CommandResult, DisturbanceInfo } from "../wire/types";
 import { useBench } from "./bench";
-import { readClock } from "./clock";
+import { bindClock, readClock } from "./clock";
 import { messageOf } from "./documents";
 import { showPanel } from "./navigate";
 
@@ -48,6 +49,14 @@ export const onDisturbances = (disturbances: readonly DisturbanceInfo[]) => set(
 
 export const setDisturbance = (change: Partial<DisturbForm>) =>
   set(({ form }) => ({ form: { ...form, ...change }, outcome: null }));
+
+/** What is wrong with the form; a scan that was still to come is over some time, without a key being pressed. */
+export function useTroubles(): ReturnType<typeof readDisturbance>["troubles"] {
+  const form = useDisturb((state) => state.form);
+  return JSON.parse(
+    useSyncExternalStore(bindClock, () => JSON.stringify(readDisturbance(form, readClock().scan).troubles)),
+  );
+}
 
 /** Shows the tab with the form about something; what else stands in the form stays. */
 export function askDisturb(about: Partial<Pick<DisturbForm, "kind" | "path" | "site">>): void {

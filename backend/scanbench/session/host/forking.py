@@ -1,6 +1,6 @@
 """The nursery: `python -m scanbench.session.host.forking FD` imports everything once, and forks a host for every request.
 
-A request on the socket FD is the directory of the cache with the host's own socket; the reply is the number of the process,
+A request on the socket FD is what is wanted (`host` or `job`) and the directory of the cache, with the new process's own socket; the reply is the number of the process,
 or why there is none. It ends when the server closes the socket, or is gone.
 
 A host is forked twice, so that the server, which adopts orphans, becomes its parent. This process has one thread, and must
@@ -14,6 +14,7 @@ import signal
 import socket
 import sys
 from contextlib import suppress
+from dataclasses import dataclass
 from pathlib import Path
 
 import msgpack  # type: ignore[import-untyped]
@@ -22,6 +23,7 @@ from scanbench.check.incremental import Checks
 from scanbench.plcmodel.load import NoModels
 from scanbench.session.host.build import Builder, all_models
 from scanbench.session.host.host import serve
+from scanbench.session.job import serve as serve_job
 from scanbench.session.known import key_of
 from scanbench.session.protocol import Sources
 
@@ -43,9 +45,10 @@ def main() -> int:
             request, fds, _, _ = socket.recv_fds(channel, _LARGEST_REQUEST, 1)
             if not request:
                 return 0
-            cache = msgpack.unpackb(request)
+            kind, cache = msgpack.unpackb(request)
+            child = Child(kind, fds[0], Path(cache) if cache is not None else None, server)
             try:
-                reply: int | str = _fork(channel, fds[0], Path(cache) if cache is not None else None, server)
+                reply: int | str = _fork(channel, child)
             except OSError as error:
                 reply = str(error)
             finally:
@@ -68,12 +71,27 @@ def _warm() -> None:
                 builder.tiers.engine(program, memory, "").run(1)
 
 
-def _fork(channel: socket.socket, fd: int, cache: Path | None, server: int) -> int:
-    """The number of a new host that speaks on `fd`."""
+@dataclass(frozen=True, slots=True)
+class Child:
+    """What is wanted: a host or a job process that speaks on `fd`."""
+
+    kind: str
+    fd: int
+    cache: Path | None
+    server: int
+
+    def serve(self) -> int:
+        """Its life; the exit code."""
+        work = serve_job if self.kind == "job" else serve
+        return work(socket.socket(fileno=self.fd), self.cache, self.server)
+
+
+def _fork(channel: socket.socket, child: Child) -> int:
+    """The number of the new process."""
     told, telling = os.pipe()
     between = os.fork()
     if between == 0:
-        _between(channel, fd, cache, server, told, telling)
+        _between(channel, child, told, telling)
     os.close(telling)
     try:
         number = os.read(told, 64)
@@ -85,7 +103,7 @@ def _fork(channel: socket.socket, fd: int, cache: Path | None, server: int) -> i
     return int(number)
 
 
-def _between(channel: socket.socket, fd: int, cache: Path | None, server: int, told: int, telling: int) -> None:
+def _between(channel: socket.socket, child: Child, told: int, telling: int) -> None:
     """The child: forks the host and is gone."""
     code = 1
     try:
@@ -94,7 +112,7 @@ def _between(channel: socket.socket, fd: int, cache: Path | None, server: int, t
             channel.close()
             os.close(told)
             os.close(telling)
-            code = serve(socket.socket(fileno=fd), cache, server)
+            code = child.serve()
         else:
             os.write(telling, str(host).encode())
             code = 0

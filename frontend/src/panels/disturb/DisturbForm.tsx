@@ -2,7 +2,7 @@ import type { FormEvent } from "react";
 import { useShallow } from "zustand/react/shallow";
 import { readDisturbance } from "../../logic/disturb";
 import { t } from "../../logic/text";
-import { disturb, mendDisturbance, useDisturb } from "../../store/disturb";
+import { disturb, mendDisturbance, useDisturb, useTroubles } from "../../store/disturb";
 import { useForbidden } from "../../store/plc";
 import { Icon } from "../../ui/Icon";
 import { KindChoice } from "./KindChoice";
@@ -14,7 +14,7 @@ export function DisturbForm() {
   const { form, tried } = useDisturb(useShallow((state) => ({ form: state.form, tried: state.tried })));
   const busy = useDisturb((state) => state.busy);
   const forbidden = useForbidden("errors");
-  const { troubles } = readDisturbance(form);
+  const troubles = useTroubles();
   const [first] = Object.values(troubles);
 
   function submit(event: FormEvent): void {

@@ -56,7 +56,7 @@ function Found({ found }: { found: LastWriter }) {
     <>
       <StateWord {...LOOK[by]} word={t(`writer.by.${by}`)} />
       {place ? <code className="stmt mono">{place.text || text}</code> : <p>{inNames(errors, text)}</p>}
-      <dl className="facts">
+      <dl className="wfacts">
         {by !== "start" && <Fact name={t("writer.scan")}>{grouped(scan)}</Fact>}
         {place && (
           <>

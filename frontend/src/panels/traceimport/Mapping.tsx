@@ -1,9 +1,7 @@
-import { useState } from "react";
 import { t } from "../../logic/text";
 import { byColumn, changeColumn, countRoles, firstValues, isProposed, ROLES } from "../../logic/traceImport";
 import { complete } from "../../store/completion";
-import { editMapping, forgetMapping, loadMapping, saveMapping, useTraceImport } from "../../store/traceImport";
-import { AskName } from "../../ui/AskName";
+import { editMapping, forgetMapping, loadMapping, useTraceImport } from "../../store/traceImport";
 import { Icon } from "../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../ui/Menu";
 import { PathField } from "../../ui/PathField";
@@ -13,11 +11,11 @@ import { placeOf } from "./Problems";
 interface Props {
   trace: UploadedTrace;
   mapping: TraceMapping;
+  onSave: () => void;
 }
 
 /** Column by column: its first values, what it is, and which variable here it means. */
-export function Mapping({ trace, mapping }: Props) {
-  const [naming, setNaming] = useState(false);
+export function Mapping({ trace, mapping, onSave }: Props) {
   const problems = useTraceImport((state) => state.checked?.problems);
   const wrong = byColumn(problems ?? []);
   return (
@@ -29,7 +27,7 @@ export function Mapping({ trace, mapping }: Props) {
           {t("import.trace.load")}
           <Icon name="chev-d" small />
         </MenuButton>
-        <button type="button" className="btn quiet sm" onClick={() => setNaming(true)}>
+        <button type="button" className="btn quiet sm" onClick={onSave}>
           {t("import.trace.save")}
         </button>
       </div>
@@ -52,7 +50,6 @@ export function Mapping({ trace, mapping }: Props) {
           />
         ))}
       </div>
-      {naming && <SaveMapping onClose={() => setNaming(false)} />}
     </section>
   );
 }
@@ -69,18 +66,6 @@ function savedItems(): MenuItem[] {
       onSelect: () => void forgetMapping(each),
     })),
   ];
-}
-
-function SaveMapping({ onClose }: { onClose: () => void }) {
-  return (
-    <AskName
-      title={t("import.trace.save")}
-      label={t("import.trace.save.name")}
-      action={t("import.trace.save.do")}
-      onName={saveMapping}
-      onClose={onClose}
-    />
-  );
 }
 
 interface AxisRowProps {

@@ -1,7 +1,9 @@
+import { useState } from "react";
 import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
-import { beginTrace, closeTraceImport, useTraceImport } from "../../store/traceImport";
+import { beginTrace, closeTraceImport, saveMapping, useTraceImport } from "../../store/traceImport";
+import { AskName } from "../../ui/AskName";
 import { Dialog } from "../../ui/Dialog";
 import { Icon } from "../../ui/Icon";
 import { Axis } from "./Axis";
@@ -21,48 +23,64 @@ export function TraceImport() {
 function ImportDialog() {
   const { trace, mapping, refused, checked, busy, trouble } = useTraceImport();
   const instance = useBench((bench) => bench.instance);
+  const [naming, setNaming] = useState(false);
   return (
-    <Dialog
-      title={t("import.trace.title")}
-      about={t("import.trace.about")}
-      width={WIDTH}
-      onClose={closeTraceImport}
-      footer={
-        <>
-          <Verdict />
-          <button type="button" className="btn quiet" onClick={closeTraceImport}>
-            {t("cancel")}
-          </button>
-          {/* Not by Enter in a field: one types on in the next line. */}
-          <button
-            type="button"
-            className="btn primary"
-            disabled={instance === null || trouble !== null || !checked?.ok || busy}
-            onClick={() => void beginTrace()}
-          >
-            {t("import.trace.start")}
-          </button>
-        </>
-      }
-    >
-      <div className="traceimport">
-        {instance === null && (
-          <p className="hint bad" role="alert">
-            <Icon name="error" small />
-            {t("import.trace.noinstance")}
-          </p>
-        )}
-        <ChooseFile />
-        {refused && <Refused />}
-        {trace && mapping && (
+    <>
+      <Dialog
+        title={t("import.trace.title")}
+        about={t("import.trace.about")}
+        width={WIDTH}
+        onClose={closeTraceImport}
+        footer={
           <>
-            <Axis trace={trace} mapping={mapping} />
-            <Mapping trace={trace} mapping={mapping} />
-            {checked && checked.problems.length > 0 && <Problems problems={checked.problems} />}
+            <Verdict />
+            <button type="button" className="btn quiet" onClick={closeTraceImport}>
+              {t("cancel")}
+            </button>
+            {/* Not by Enter in a field: one types on in the next line. */}
+            <button
+              type="button"
+              className="btn primary"
+              disabled={instance === null || trouble !== null || !checked?.ok || busy}
+              onClick={() => void beginTrace()}
+            >
+              {t("import.trace.start")}
+            </button>
           </>
-        )}
-      </div>
-    </Dialog>
+        }
+      >
+        <div className="traceimport">
+          {instance === null && (
+            <p className="hint bad" role="alert">
+              <Icon name="error" small />
+              {t("import.trace.noinstance")}
+            </p>
+          )}
+          <ChooseFile />
+          {refused && <Refused />}
+          {trace && mapping && (
+            <>
+              <Axis trace={trace} mapping={mapping} />
+              <Mapping trace={trace} mapping={mapping} onSave={() => setNaming(true)} />
+              {checked && checked.problems.length > 0 && <Problems problems={checked.problems} />}
+            </>
+          )}
+        </div>
+      </Dialog>
+      {naming && <SaveMapping onClose={() => setNaming(false)} />}
+    </>
+  );
+}
+
+function SaveMapping({ onClose }: { onClose: () => void }) {
+  return (
+    <AskName
+      title={t("import.trace.save")}
+      label={t("import.trace.save.name")}
+      action={t("import.trace.save.do")}
+      onName={saveMapping}
+      onClose={onClose}
+    />
   );
 }
 

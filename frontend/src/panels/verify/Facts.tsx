@@ -128,7 +128,7 @@ function Sides({ shown, row, difference }: SidesProps) {
         type={type}
         hex={difference.monitor}
         beside={difference.control}
-        says={t("verify.says.recorded")}
+        says={t(difference.cause === "input" ? "verify.says.expected" : "verify.says.recorded")}
       />
       {output && (
         <Side

@@ -88,7 +88,7 @@ export function Heads({ range, memory, units, tracks, drawn, onMenu }: Props) {
               style={placeOf(track, tracks)}
               title={titleOf(track, memory)}
             >
-              {wordOf(track)}
+              {track.kind === "mark" ? <span className="sr">{t("verify.differs")}</span> : wordOf(track)}
             </span>
           ),
         )}
@@ -120,7 +120,6 @@ function wordOf({ kind }: Track): string {
 }
 
 function labelOf({ kind, unit }: Track): string | undefined {
-  if (kind === "mark") return t("verify.differs");
   return unit ? `${unit.column.name} ${kind === "control" ? "A" : "A′"}` : undefined;
 }
 

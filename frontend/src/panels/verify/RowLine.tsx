@@ -35,6 +35,7 @@ export const RowLine = memo(
     return (
       <div
         className={`gr${selected ? " on" : ""}${bad ? " dr" : ""}`}
+        id={`vf-${index}`}
         role="row"
         aria-rowindex={line + 3}
         aria-selected={selected}

@@ -111,6 +111,10 @@ export function Table({ shown }: { shown: ShownVerification }) {
     if (track.unit) setMenu({ items: columnMenu(info.title, units, track.unit), at: { x: left, y: bottom } });
   }
 
+  // The row has the keys until a cell has, and while that cell is out of sight.
+  const active = drawn.some(({ key }) => key === rows.track)
+    ? `vf-${rows.selected}-${rows.track}`
+    : `vf-${rows.selected}`;
   const width = wholeWidth(tracks);
   const style = { "--cols": tracks.map((each) => `${each.width}px`).join(" "), "--whole": `${width}px` };
   return (
@@ -121,7 +125,7 @@ export function Table({ shown }: { shown: ShownVerification }) {
       aria-label={t("verify.table")}
       aria-rowcount={count + 2}
       aria-colcount={tracks.length}
-      aria-activedescendant={at >= from && at < to && at >= 0 ? `vf-${rows.selected}-${rows.track ?? ""}` : undefined}
+      aria-activedescendant={at >= from && at < to && at >= 0 ? active : undefined}
       style={style as CSSProperties}
       tabIndex={0}
       onKeyDown={onKeyDown}

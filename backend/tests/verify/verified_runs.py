@@ -1,0 +1,57 @@
+"""Runs to be verified."""
+
+from collections.abc import Sequence
+from pathlib import Path
+
+from scanbench.check.program import Program
+from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.runtime.agenda import Agenda
+from scanbench.runtime.command import Command
+from scanbench.runtime.detect import Detect
+from scanbench.runtime.headless import run_headless
+from scanbench.runtime.programs import EngineFactory, Programs
+from scanbench.runtime.recording import Recording
+from scanbench.session.codec import ENTRIES
+from scanbench.verify.engines import Make, reference
+from scanbench.verify.ranges import parse_range
+from scanbench.verify.verified import DEFAULT_LIMIT, Mismatch, Row
+from scanbench.verify.verifier import Verifier
+
+
+def record(
+    path: Path, program: Program, scans: int, commands: Sequence[tuple[int, Command]] = (), *,
+    engine: EngineFactory = ReferenceEngine, agenda: Agenda | None = None, programs: Programs | None = None,
+    more: Sequence[tuple[int, Program]] = (), detect: Detect | None = None,
+) -> Path:  # fmt: skip
+    """A run file; a run-time error ends it."""
+    with Recording.begin(path, program, 1, b"1", ENTRIES, "Ada") as recording:
+        for version, each in more:
+            from scanbench.runtime.fingerprints import program_digest
+
+            recording.program(version, str(version).encode(), program_digest(each))
+        result = run_headless(
+            program, scans, engine, commands, agenda=agenda, recording=recording, programs=programs, detect=detect
+        )  # type: ignore[var-annotated]
+        assert not result.refused, result.refused
+    return path
+
+
+def verifier(
+    path: Path, program: Program, range: str = "", *, make: Make = reference, limit: int = DEFAULT_LIMIT,
+    others: dict[int, Program] | None = None,
+) -> Verifier:  # fmt: skip
+    """Of a run of one program, or of these by version."""
+    programs = {1: program, **(others or {})}
+    made = Verifier(path, ENTRIES, lambda kept: programs[kept.version], make)
+    made.begin(parse_range(range), limit)
+    return made
+
+
+def rows(verifier: Verifier) -> list[Row]:
+    """Of all scans."""
+    return [row for scan in range(verifier.first, verifier.end) for row in verifier.verify(scan).rows]
+
+
+def differences(found: Sequence[Row]) -> list[Mismatch]:
+    """All of them."""
+    return [each for row in found for each in row.differences]

@@ -1,0 +1,104 @@
+import { expect, test } from '../fixtures/test';
+import { Disturb } from '../pages/disturb';
+
+test('inputs, memory and results are disturbed: everybody sees it, and it is taken back', async ({ openAs }) => {
+  test.setTimeout(300_000);
+  const mika = await openAs('Mika');
+  const jo = await openAs('Jo');
+  const disturb = new Disturb(mika.page);
+  const others = new Disturb(jo.page);
+  await mika.runs();
+  await jo.runs();
+  await others.show();
+  await expect(others.pane).toContainText('Nothing disturbs this PLC');
+
+  await test.step('a mistake says what is missing, and what was typed stays', async () => {
+    await disturb.show();
+    await disturb.button.click();
+    await expect(disturb.refusal).toContainText('Which variable or address?');
+    await disturb.path.fill('Main.belt.positon');
+    await disturb.button.click();
+    await expect(disturb.refusal).toContainText('positon');
+    await disturb.refusal.getByRole('button', { name: 'Main.belt.position' }).click();
+    await expect(disturb.path).toHaveValue('Main.belt.position');
+    await disturb.field('Bit').fill('64');
+    await disturb.button.click();
+    await expect(disturb.refusal).toContainText(/bit/i);
+    await expect(disturb.path).toHaveValue('Main.belt.position');
+    await disturb.field('Bit').fill('x');
+    await expect(disturb.refusal).toContainText('A bit is a number');
+  });
+
+  await test.step('the program offers its variables', async () => {
+    await disturb.path.fill('Main.belt.pos');
+    await expect(mika.page.getByRole('option', { name: 'Main.belt.position' })).toBeVisible();
+    await disturb.path.press('ArrowDown');
+    await disturb.path.press('Enter');
+    await expect(disturb.path).toHaveValue('Main.belt.position');
+  });
+
+  await test.step('a bit flips at once, and the timeline shows where', async () => {
+    await disturb.field('Bit').fill('3');
+    await disturb.button.click();
+    await expect(disturb.told).toContainText('Memory Main.belt.position, bit 3');
+    await expect(mika.page.getByRole('button', { name: /^(Disturbance: |\d+ marks)/ }).first()).toBeVisible();
+    await jo.showPanel('Events');
+    await expect(jo.page.locator('[data-pane="log"]')).toContainText('Memory Main.belt.position, bit 3');
+  });
+
+  await test.step('an input is stuck: from the watch table, until somebody else takes it back', async () => {
+    await mika.watch.fromMenu('start', 'Disturb…');
+    await expect(disturb.path).toHaveValue('start');
+    await disturb.kind('Stuck input');
+    await mika.page.getByRole('checkbox', { name: 'until taken back' }).check();
+    await disturb.button.click();
+    await expect(disturb.line('start')).toContainText('Under way');
+    await expect(others.line('start')).toContainText('by Mika');
+    await mika.watch.set('start', 'TRUE');
+    await mika.watch.shows('start', 'FALSE');
+    await others.takeBack('start');
+    await expect(disturb.pane).toContainText('Nothing disturbs this PLC');
+    await mika.watch.shows('start', 'TRUE');
+    await mika.watch.shows('motor', 'TRUE');
+  });
+
+  await test.step('what a statement writes is corrupted: from the text, by chance, reproducibly', async () => {
+    const editor = mika.editor('Main.st');
+    await editor.reveal('heartbeat := NOT heartbeat');
+    await editor.line('heartbeat := NOT heartbeat').first().click({ button: 'right' });
+    await mika.page.getByRole('menuitem', { name: 'Corrupt this result…' }).click();
+    await expect(disturb.field('Statement')).toHaveValue(/^Main\.st:\d+$/);
+    await disturb.when('By chance');
+    await disturb.field('Probability per scan').fill('120 %');
+    await disturb.button.click();
+    await expect(disturb.refusal).toContainText('A probability');
+    await disturb.field('Probability per scan').fill('1/2');
+    await disturb.button.click();
+    await expect(disturb.line('Main.st')).toContainText('by Mika');
+    await expect(disturb.line('Main.st')).toContainText(/happened/, { timeout: 60_000 });
+  });
+
+  await test.step('several are taken back at once', async () => {
+    await disturb.kind('Bit flip');
+    await disturb.path.fill('D500');
+    await disturb.field('Bit').fill('0');
+    await disturb.when('In a scan');
+    await disturb.field('Scan').fill('1');
+    await disturb.button.click();
+    await expect(disturb.refusal).toContainText('This scan is over');
+    await disturb.field('Scan').fill('900 000 000');
+    await disturb.button.click();
+    await expect(disturb.line('D500')).toContainText('Waiting');
+    await expect(disturb.list).toContainText('2 disturbances');
+    await disturb.list.getByRole('button', { name: 'Take all back' }).click();
+    await expect(disturb.pane).toContainText('Nothing disturbs this PLC');
+  });
+
+  await test.step('in the past nothing can be disturbed', async () => {
+    await mika.timeline.click(0.5);
+    await expect(mika.timeline.banner).toBeVisible();
+    await expect(disturb.button).toBeDisabled();
+    await mika.timeline.returnToLive();
+    await expect(disturb.button).toBeEnabled();
+  });
+});
