@@ -47,14 +47,17 @@ test('a range is verified, and a single flipped bit is found at its scan and var
 
   let scan = 0;
   await test.step('a bit is flipped: the difference stands at its scan, with its variable, bit and disturbance', async () => {
-    const told = await server.post<Told>('/instances/1/disturbances', {
-      kind: 'flip',
-      path: 'Main.belt.position',
-      bit: 9,
-    });
-    expect(told.ok).toBe(true);
-    scan = told.scan;
-    await expect.poll(() => verify.count('differ'), { timeout: 60_000 }).toBe(1);
+    // One that runs freely may skip scans on a loaded machine, this one, too: then it is disturbed again.
+    await expect(async () => {
+      const told = await server.post<Told>('/instances/1/disturbances', {
+        kind: 'flip',
+        path: 'Main.belt.position',
+        bit: 9,
+      });
+      expect(told.ok, told.message).toBe(true);
+      scan = told.scan;
+      await expect.poll(() => verify.count('differ'), { timeout: 15_000 }).toBe(1);
+    }).toPass({ timeout: 90_000 });
     await verify.maximise();
     await verify.press('First difference');
     await expect(verify.row(scan)).toHaveAttribute('aria-selected', 'true');
@@ -133,13 +136,21 @@ test('set data shows whether the input or the logic made a wrong result', async 
     await expect(verify.dialog).toBeHidden();
     await verify.maximise();
     await expect.poll(() => verify.count('compared'), { timeout: 60_000 }).toBeGreaterThan(10);
-    const told = await server.post<Told>('/instances/1/disturbances', { kind: 'result', site: 'Belt.st:20', bit: 0 });
-    expect(told.ok, told.message).toBe(true);
-    await expect.poll(() => verify.count('differ'), { timeout: 60_000 }).toBeGreaterThan(0);
+    let disturbed = 0;
+    await expect(async () => {
+      const told = await server.post<Told>('/instances/1/disturbances', {
+        kind: 'result',
+        site: 'Belt.st:20',
+        bit: 0,
+      });
+      expect(told.ok, told.message).toBe(true);
+      disturbed = told.scan;
+      await expect.poll(() => verify.count('differ'), { timeout: 15_000 }).toBeGreaterThan(0);
+    }).toPass({ timeout: 90_000 });
     await verify.press('Stop');
     await verify.press('First difference');
     scan = Number(await verify.table.locator('[aria-selected="true"]').getAttribute('data-scan'));
-    expect(scan).toBeGreaterThanOrEqual(told.scan);
+    expect(scan).toBeGreaterThanOrEqual(disturbed);
     await expect(verify.facts).toContainText('The same inputs gave another result');
     await expect(verify.cell(scan, 'output:barrier:A').locator('svg')).toBeVisible();
     await expect(verify.source.locator('.diffln')).toContainText('barrier := position < 50;');

@@ -48,11 +48,11 @@ class Holders:
         self._layout, self._every = program.layout, every
         self._reads = Reads(program)
         self._library = {pou.instance.name for pou in program.pous if in_library(pou.span)}
-        every = [*_SYSTEM, *roots(program)]
-        self._roots = sorted((each for each in every if not each.slots and not _in_area(each)), key=_offset)
+        tops = [*_SYSTEM, *roots(program)]
+        self._roots = sorted((each for each in tops if not each.slots and not _in_area(each)), key=_offset)
         self._starts = [each.offset for each in self._roots]
         self._located: dict[int, list[Symbol]] = {}
-        for symbol in located(every):
+        for symbol in located(tops):
             for byte in range(symbol.offset, symbol.offset + symbol.type.size):
                 self._located.setdefault(byte, []).append(symbol)
 

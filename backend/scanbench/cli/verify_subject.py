@@ -3,7 +3,7 @@
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from dataclasses import dataclass
+from dataclasses import asdict, dataclass
 from pathlib import Path
 from typing import NoReturn, Protocol
 
@@ -19,7 +19,7 @@ from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.faults.detect import Detection
 from scanbench.faults.schedule import Schedule
 from scanbench.runtime.contents import KeptProgram
-from scanbench.runtime.headless import run_headless
+from scanbench.runtime.headless import HeadlessRun, run_headless
 from scanbench.runtime.programs import NoProgram
 from scanbench.runtime.recording import Recording
 from scanbench.runtime.runfile import RunFileError, is_run_file
@@ -89,6 +89,7 @@ class Given:
 @contextmanager
 def opened(given: Given, make: Make) -> Iterator[Subject]:
     """What was asked for. Ends with exit code 2 where that cannot be."""
+    _refuse_what_says_nothing(given)
     if given.trace is not None:
         yield _trace(given, given.trace)
     elif _is_run(given.path):
@@ -102,6 +103,15 @@ def opened(given: Given, make: Make) -> Iterator[Subject]:
             with _run_file(path, make) as verifier:
                 name = given.path.resolve().name
                 yield Subject(verifier, name, "command line", program.layout.model.name, "past", note=note)
+
+
+def _refuse_what_says_nothing(given: Given) -> None:
+    """Options that a project's run has, and what ran already has not."""
+    if any(asdict(given.options).values()) and (given.trace is not None or _is_run(given.path)):
+        what = "a trace" if given.trace is not None else "a recorded run"
+        usage(f"--set, --force, --raise, --clear, --mode and --restart are for a project: {what} is taken as it is")
+    if given.model is not None and _is_run(given.path):
+        usage(f"--model is for a project: {given.path.name} was recorded on a model of its own")
 
 
 def _is_run(path: Path) -> bool:
@@ -156,7 +166,7 @@ def _ran(given: Given, path: Path) -> tuple[Program, str]:
     program, files = _program(given)
     commands = read_commands(program, given.options)
     with recorded(path, program, files, read_interval(given.interval)) as recording:
-        result = run_headless(
+        result: HeadlessRun[None] = run_headless(
             program, given.scans, NativeEngine, commands, detect=Detection(),
             agenda=Schedule(ObservedBuilds().engine), recording=recording,
         )  # fmt: skip

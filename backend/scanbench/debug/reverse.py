@@ -220,7 +220,7 @@ class Search:
             placing = self._breakpoints.placing(loaded)
             placed = [placing.place(each, 0) for each in self._wanted]
             probes, made = notes_of(placed, placing), None
-            if probes == () and all(each.active for each in placed):
+            if probes == () and all(each.active and each.symbol is not None for each in placed):
                 self._silent.add(loaded)
             if probes and self._prober is not None:
                 try:

@@ -416,9 +416,7 @@ class Resource:
             return plan
         return self._keep(command, plan, must, step)
 
-    def _keep(
-        self, command: Command, plan: Plan, must: bool, step: int, scan: int | None = None
-    ) -> Entry | Refusal:
+    def _keep(self, command: Command, plan: Plan, must: bool, step: int, scan: int | None = None) -> Entry | Refusal:
         entry = Entry(self.header.scan if scan is None else scan, wall_time(), command, plan, step)
         if self.recorder is not None:
             try:

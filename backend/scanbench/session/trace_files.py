@@ -47,6 +47,8 @@ class TraceFile:
 class Checked:
     """Whether a file can be verified with a mapping."""
 
+    ok: bool
+    """Whether it can; warnings do not stand in the way."""
     problems: tuple[TraceProblem, ...]
     first: int | None
     last: int | None
@@ -109,7 +111,7 @@ class TraceFiles:
                 raise Refused(f"the file cannot be read: {error.strerror}: choose it again") from error
             except (NoProgram, BadMapping) as error:
                 raise Refused(str(error)) from error
-            return Checked(found.problems, found.first, found.last, found.missing)
+            return Checked(found.ok, found.problems, found.first, found.last, found.missing)
 
         async with self._reading:
             return await asyncio.to_thread(work)

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
-from scanbench.engines.engine import Reason
+from scanbench.engines.engine import Reason, Stop
 from scanbench.runtime.command import Entry
 from scanbench.runtime.contents import Codec, KeptProgram
 from scanbench.runtime.header import Halt
@@ -149,19 +149,17 @@ class Control:
     def run(self, recorder: Recorder, begin: Begin) -> int:
         """One scan: its result is that of the code that ran live, what it used is told by the debug flavour. The trap's number,
         or 0."""
-        side, live = self.side, None
+        side = self.side
         try:
-            if not side.waits:
-                stop = side.run(None)
-                live = side.state
-                side.stand(begin)
-            told = side.run(recorder, recorder.listen)
+            if side.waits:  # only the debug flavour can enter anything inside of a scan
+                return _trap(side.run(recorder, recorder.listen))
+            stop, live = side.run(None), side.state
+            side.stand(begin)
+            side.run(recorder, recorder.listen)
         except Diverged as error:
             raise Unverifiable(str(error)) from error
-        if live is None:
-            return told.trap if told.reason is Reason.TRAP else 0
         side.memory[: len(live)] = live
-        return stop.trap if stop.reason is Reason.TRAP else 0
+        return _trap(stop)
 
     def recorded(self) -> bytes | None:
         """The state that the run file has of this very moment, if that is another one."""
@@ -188,3 +186,7 @@ def _trapped(entries: Sequence[Entry]) -> bool:
             if 0 <= at < len(patch.mask) and patch.mask[at] & Halt.TRAP:
                 trapped = bool(patch.data[at] & Halt.TRAP)
     return trapped
+
+
+def _trap(stop: Stop) -> int:
+    return stop.trap if stop.reason is Reason.TRAP else 0

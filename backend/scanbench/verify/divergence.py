@@ -40,6 +40,8 @@ def find_divergence(one: Reading, other: Reading, on_progress: OnProgress = lamb
 
     Both have been followed; their programs must not share memory.
     """
+    if one is other:
+        raise NoReading("that is one and the same run: choose another one to compare it with")
     first, end = max(one.first, other.first), min(_over(one), _over(other))
     if first > end:
         raise NoReading(

@@ -149,7 +149,7 @@ def _inputs(
     found: dict[str, Input] = {}
     differences: list[Mismatch] = []
     instead = inputs.expected[number]
-    for (site, count, offset, size, bits, _, value), _ in inputs.fresh[number]:
+    for (_, _, offset, size, bits, _, value), _ in inputs.fresh[number]:
         own = disturbed.own_of(offset, value, bits)
         if instead:
             patched = bytearray(value if own is None else own)
@@ -187,7 +187,7 @@ def _differences(
         if one == other:
             continue
         if one[:6] != other[:6]:
-            made.append(teller.order(one, other, control_at(one.count), monitor_at(other.count)))
+            made.append(teller.order(one, other, control_at(one.position), monitor_at(other.position)))
             break
         for leaf in names.of(one.offset, one.size, one.bits):
             here, there = leaf.cut(one.value, one.offset), leaf.cut(other.value, one.offset)
@@ -197,13 +197,13 @@ def _differences(
             if not made or (one.written and leaf.name not in told):
                 told.add(leaf.name)
                 cause: Cause = "logic" if one.written else "input"
-                made.append(teller.differs(cause, leaf, here, there, one.site, control_at(one.count)))
+                made.append(teller.differs(cause, leaf, here, there, one.site, control_at(one.position)))
             last[leaf.name] = leaf, one, here, there
     else:
         if len(control) != len(monitor) and not full:
             index = min(len(control), len(monitor))
             longer, at = (control, control_at) if len(control) > index else (monitor, monitor_at)
-            made.append(teller.only_one(longer[index], longer is control, at(longer[index].count)))
+            made.append(teller.only_one(longer[index], longer is control, at(longer[index].position)))
     ended = last.keys()
     # what was right again in the end is told where it is the first
     return [

@@ -172,9 +172,9 @@ class _Step:
         written = {at for each in logs if each.written for at in range(each.offset, each.offset + each.size)}
         for leaf, mine in self._different(written):
             was, right = (leaf.cut(each, 0) for each in (control.memory, monitor.memory))
-            one, other = values(leaf, was, right)
+            here_text, there_text = values(leaf, was, right)
             where = f" at {before.file}:{before.line}" if mine and before is not None else ""
-            text = f"{leaf.name} is {one}, the reference gives {other},{where} in scan {self.scan}"
+            text = f"{leaf.name} is {here_text}, the reference gives {there_text},{where} in scan {self.scan}"
             yield mismatch("logic" if mine else "outside", leaf, was, right, before if mine else None, text)
 
     def _different(self, written: set[int]) -> Iterator[tuple[Leaf, bool]]:

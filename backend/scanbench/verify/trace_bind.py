@@ -1,6 +1,6 @@
 """A table and its mapping, checked against a program: what the monitor is to be given in each scan, and what is compared."""
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 
@@ -196,14 +196,3 @@ def _meant(name: str, known: Sequence[str]) -> str:
 
 def _near(names: Sequence[str]) -> str:
     return f" Did you mean {' or '.join(f'`{each}`' for each in names[:3])}?" if names else ""
-
-
-def by_scan(trace: Trace) -> Mapping[int, int]:
-    """The row of each scan that has one."""
-    return {scan: row for row, scan in enumerate(trace.scans.of_rows)}
-
-
-def named(trace: Trace) -> Iterator[Signal]:
-    """All columns that are variables."""
-    yield from trace.inputs
-    yield from trace.outputs

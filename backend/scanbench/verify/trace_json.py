@@ -3,7 +3,7 @@
 import json
 from collections.abc import Sequence
 
-from scanbench.verify.trace_table import MAX_ROWS, Problems, Table, bad, check_size
+from scanbench.verify.trace_table import MAX_COLUMNS, MAX_ROWS, Problems, Table, bad, check_size
 
 UNITS = ("ns", "us", "ms", "s")
 
@@ -81,7 +81,7 @@ def _of_objects(given: list[object], name: str, note: str) -> Table:
             problems.add(index, "", "The row is no object with a value for each column.")
             continue
         names.update(dict.fromkeys(row))
-        if not len(names) <= 1000:
+        if len(names) > MAX_COLUMNS:
             break
     problems.refuse()
     check_size(len(names), len(given))

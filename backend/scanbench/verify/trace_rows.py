@@ -51,12 +51,11 @@ class TraceRows:
     def _row(self, kind: RowKind, made: Pass, call: int, ran: Ran, results: Sequence[Result]) -> Row:
         reader = self._reader
         names = reader.namer.names(made.around)
-        known = {_name(names, each.signal): each for each in results}
+        known = {_leaf(names, each.signal).name: each for each in results}
         written = written_by(reader, made)
         outputs: dict[str, Output] = {}
         for name, result in known.items():
-            column = _leaf(names, result.signal)
-            if column is not None and reader.columns.used(column, True):
+            if reader.columns.used(_leaf(names, result.signal), True):
                 outputs[name] = Output(_shown(result, ran), None if ran.recorded.taken_over else result.found)
         outputs |= {name: Output(None, value) for name, value in written.items() if name not in outputs}
         differences = () if ran.recorded.taken_over else tuple(self._differences(names, made, known, ran.recorded.scan))
@@ -109,11 +108,11 @@ class TraceRows:
         names = self._reader.namer.names(ANYWHERE)
         outputs, differences = {}, []
         for each in results:
-            leaf, name = _leaf(names, each.signal), _name(names, each.signal)
-            if leaf is not None and self._reader.columns.used(leaf, True):
-                outputs[name] = Output(each.recorded if over else None, each.found)
+            leaf = _leaf(names, each.signal)
+            if self._reader.columns.used(leaf, True):
+                outputs[leaf.name] = Output(each.recorded if over else None, each.found)
             if over and ran is not None and not ran.recorded.taken_over and not each.same:
-                differences.append(_mismatch(name, each, None, scan))
+                differences.append(_mismatch(leaf.name, each, None, scan))
         if ran is not None:
             monitor.back(ran)
         note = "end of the scan" if over else "a trace has values at the ends of scans only"
@@ -156,7 +155,7 @@ class TraceRows:
         written = written_by(self._reader, made)
         values = _used_last(made, names) | written  # what was not written this time is what it was when it was read
         if row.kind == "scan":
-            values |= {_name(names, each.signal): each.found for each in again.results}
+            values |= {_leaf(names, each.signal).name: each.found for each in again.results}
         outputs = {name: replace(each, set=values.get(name)) for name, each in row.outputs.items()}
         outputs |= {name: Output(None, None, value) for name, value in written.items() if name not in outputs}
         inputs = {name: replace(each, set=edits.get(name)) for name, each in row.inputs.items()}
@@ -219,18 +218,13 @@ def _used_last(made: Pass, names: Names) -> dict[str, bytes]:
     return found
 
 
-def _leaf(names: Names, signal: Signal) -> Leaf | None:
-    """What a mapped variable is called in a pass; None where it is a part of something else there."""
+def _leaf(names: Names, signal: Signal) -> Leaf:
+    """What a mapped variable is called in a pass."""
     symbol, size = signal.symbol, signal.type.size
     for leaf in names.of(symbol.offset, size, 0xFF if symbol.bit is None else 1 << symbol.bit):
         if (leaf.offset, leaf.bit, leaf.type.size) == (symbol.offset, symbol.bit, size):
             return leaf
     return Leaf(signal.path, signal.type, symbol.offset, symbol.bit)
-
-
-def _name(names: Names, signal: Signal) -> str:
-    leaf = _leaf(names, signal)
-    return signal.path if leaf is None else leaf.name
 
 
 def _shown(result: Result, ran: Ran) -> bytes | None:

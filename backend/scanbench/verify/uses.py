@@ -19,7 +19,8 @@ class Access(NamedTuple):
     """A use. `value`: the bytes as they are behind it; of a bit nothing else of its byte."""
 
     site: int
-    count: int
+    position: int
+    """The count of the statement that had begun last."""
     offset: int
     size: int
     bits: int

@@ -15,7 +15,7 @@ from scanbench.debug.placed import bytes_of
 from scanbench.debug.probing import Prober
 from scanbench.debug.reverse import Noted, Search, in_front
 from scanbench.runtime.carry_over import changes
-from scanbench.runtime.command import Entry, Patch, Refusal, Restarted, Swapped
+from scanbench.runtime.command import Entry, Held, Patch, Refusal, Restarted, Swapped
 from scanbench.runtime.forces import read_table
 from scanbench.runtime.restart import retained
 from scanbench.runtime.target import Meant, meant, not_called
@@ -39,6 +39,10 @@ class _Bytes:
         """Whether a patch changes any bit of it."""
         first, end = max(self.offset, patch.offset), min(self.offset + self.size, patch.offset + len(patch.mask))
         return any(patch.mask[at - patch.offset] & self.mask for at in range(first, end))
+
+    def held_by(self, effect: Held) -> bool:
+        """Whether a disturbance holds any bit of it."""
+        return any(self.touched(Patch(at, bytes((mask,)), bytes(1))) for at, mask, _ in effect.spots)
 
     def of(self, memory: bytes | bytearray) -> bytes:
         """The value in an image."""
@@ -118,6 +122,8 @@ class _Commands:
             entry, effect = entries[index], entries[index].plan.effect
             place = self._place(versions[index + 1])
             if place is not None and any(map(place.touched, entry.plan.patches)):
+                return entry
+            if place is not None and isinstance(effect, Held) and place.held_by(effect):
                 return entry
             if isinstance(effect, Swapped) and self._begins_anew(versions[index], effect):
                 return entry

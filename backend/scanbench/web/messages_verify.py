@@ -268,6 +268,7 @@ class TraceProblem(Wire):
     row: int | None = Field(description="line of a CSV file, index in a JSON file; null: the file as a whole")
     column: str
     message: str
+    warning: bool = Field(description="it does not stand in the way")
 
 
 class UploadedTrace(Wire):

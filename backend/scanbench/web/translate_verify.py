@@ -12,6 +12,7 @@ from scanbench.verify import verified
 from scanbench.verify.disturb import Disturb, DisturbanceInfo
 from scanbench.verify.disturb_wanted import Disturbance
 from scanbench.verify.mapping import ColumnMap, TraceMapping
+from scanbench.verify.trace_table import TraceProblem
 from scanbench.web import messages_verify as wire
 
 
@@ -168,15 +169,19 @@ def uploaded(of: TraceFile) -> wire.UploadedTrace:
     return wire.UploadedTrace(
         file=of.handle, name=of.name, columns=list(of.columns), rows=of.rows,
         sample=[list(row) for row in of.sample], mapping=_mapping(of.proposal),
-        problems=[wire.TraceProblem(row=each.row, column=each.column, message=each.message) for each in of.problems],
+        problems=list(map(_problem, of.problems)),
     )  # fmt: skip
+
+
+def _problem(of: TraceProblem) -> wire.TraceProblem:
+    return wire.TraceProblem(row=of.row, column=of.column, message=of.message, warning=of.warning)
 
 
 def checked(of: Checked) -> wire.TraceMappingChecked:
     """Whether a mapping fits."""
     return wire.TraceMappingChecked(
-        ok=not of.problems, first=of.first, last=of.last, missing=of.missing,
-        problems=[wire.TraceProblem(row=each.row, column=each.column, message=each.message) for each in of.problems],
+        ok=of.ok, first=of.first, last=of.last, missing=of.missing,
+        problems=list(map(_problem, of.problems)),
     )  # fmt: skip
 
 

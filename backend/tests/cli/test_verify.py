@@ -92,9 +92,7 @@ def test_a_run_file_and_a_stretch_of_it(run: str) -> None:
     assert scanbench("verify", run, "--engine", "reference", "--scans", "..9").returncode == 0
 
 
-def test_a_difference_names_all_there_is_to_know(
-    run: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
-) -> None:
+def test_a_difference_names_all_there_is_to_know(run: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     faulty(monkeypatch)
     page = tmp_path / "page.html"
     result = scanbench("verify", run, "--range", "Main:14", "--html", str(page))
@@ -194,6 +192,8 @@ def test_a_trace_that_cannot_be_used_is_refused_with_row_and_column(project: Pat
         (("--scans", "60..61"), "has scans 0 to 59: scan 60 is none of them"),
         (("--scans", "0..60"), "scan 60 is none of them"),
         (("--map", "x.json"), "name the trace with --trace"),
+        (("--set", "Main.n=1"), "a recorded run is taken as it is"),
+        (("--model", "GENERIC-IEC"), "a.scanrun was recorded on a model of its own"),
         (("--html", "/nowhere/x.html"), "cannot be written"),
     ],
 )

@@ -451,7 +451,7 @@ def test_while_the_program_is_stopped_its_memory_is_disturbed_and_no_result() ->
 def test_the_monitor_leaves_all_of_it_out() -> None:
     result = run(
         ReferenceEngine, 9, (0, disturb(Disturbance("late", scan=2))), (0, disturb(Disturbance("flip", "D1", scan=2))),
-        (0, disturb(Disturbance("result", site=site("n := n + 1;"), scan=2))), (1, Write("Bob", "spare", "3")), (5, Calm("Ada", None)),
+        (0, disturb(Disturbance("result", bit=4, site=site("n := n + 1;"), scan=2))), (1, Write("Bob", "spare", "3")), (5, Calm("Ada", None)),
     )  # fmt: skip
     assert [type(each.command) for each in result.entries if not is_disturbance(each.command)] == [Write]
     assert {Hold, Unhold, Flip, Corrupt, Disturb, Calm} == {type(each.command) for each in result.entries} - {Write}

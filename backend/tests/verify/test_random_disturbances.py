@@ -190,7 +190,7 @@ def test_every_one_is_found_and_nothing_else(tmp_path: Path, engine: EngineFacto
             checked, end, engine, commands, agenda=DisturbanceSchedule(), recording=recording
         )
     assert result.refused == ()
-    expected = Expected(result.entries, fresh_image(checked, Mode.MONITOR))
+    expected = Expected(result.entries, bytes(fresh_image(checked, Mode.MONITOR)))
     size = checked.layout.state_size
     make = native() if engine is NativeEngine else reference
     with Verifier(tmp_path / "run", ENTRIES, lambda kept: checked, make) as verifier:

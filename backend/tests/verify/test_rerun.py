@@ -233,7 +233,8 @@ def test_somebody_ends_it(tmp_path: Path) -> None:
         raise Enough
 
     path = tmp_path / "again"
-    with Reading(timeline.recording.path, of_file, ENTRIES) as reading, pytest.raises(Enough):
+    with Reading(timeline.recording.path, of_file, ENTRIES) as reading:
         reading.follow(30)
-        rerun(reading, path, RerunChange(10, BATTERY, 1), "Bob", of_file, ENTRIES, None, on_progress)
+        with pytest.raises(Enough):
+            rerun(reading, path, RerunChange(10, BATTERY, 1), "Bob", of_file, ENTRIES, None, on_progress)
     assert not path.exists()

@@ -57,7 +57,7 @@ def test_our_own_export_has_no_difference(range: str) -> None:
         assert {row.inputs["start"].recorded for row in rows} == {b"\0", b"\1"}
 
 
-@pytest.mark.parametrize("sample", samples(), ids=lambda each: each.name)
+@pytest.mark.parametrize("sample", list(samples()), ids=lambda each: each.name)
 def test_no_variable_of_any_sample_differs(sample: Sample) -> None:
     program = check_sources(sample.files, MODELS[sample.model]).program
     assert program is not None

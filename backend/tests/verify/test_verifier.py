@@ -275,7 +275,6 @@ def test_bad_edits_are_refused_and_nothing_is_kept(tmp_path: Path) -> None:
 
 def test_any_order_gives_the_same_rows(tmp_path: Path) -> None:
     path = disturbed(tmp_path, Disturbance("flip", "Main.n", 3, scan=7))
-    forward = [verifier(path, program(BELTS), "Main").verify(scan).rows for scan in range(0)]
     one = verifier(path, program(BELTS), "Main")
     forward = [one.verify(scan).rows for scan in range(12)]
     for scan in (9, 3, 7, 6, 7, 11, 0):
@@ -301,8 +300,7 @@ def test_a_run_time_error_in_the_range(tmp_path: Path) -> None:
     source = "PROGRAM Main\nVAR n, m : INT; END_VAR\n  n := n + 1;\n  m := 10 / (5 - n);\n  m := m + 1;\nEND_PROGRAM"
     path = record(tmp_path / "run", program(source), 10)
     verified = verifier(path, program(source), "Main")
-    assert verified.end == 4
-    verified.follow(5)  # the scan that ended it is over
+    assert verified.end == 5  # the scan that ended it is over
     found = rows(verified)
     assert differences(found) == []
     assert "ended by a run-time error: main.st:4" in found[-1].note

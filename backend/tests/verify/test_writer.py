@@ -8,6 +8,7 @@ from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.probed import ProbedBuilds
 from scanbench.runtime import checkpoints
+from scanbench.runtime.command import Refusal
 from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.forces import Force
 from scanbench.runtime.programs import EngineFactory
@@ -15,10 +16,12 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.timeline import Timeline
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
+from scanbench.verify.disturb import Disturb
+from scanbench.verify.disturb_schedule import DisturbanceSchedule
 from scanbench.verify.findings import Writer
 from scanbench.verify.reading import NoReading, Reading
 from scanbench.verify.writer import find_writer
-from tests.runtime.recorded import advance, begun, of_file, of_file_native, to_program
+from tests.runtime.recorded import SourcePrograms, advance, begun, of_file, of_file_native, to_program
 
 LINE = """
 TYPE Pair : STRUCT a, b : INT; END_STRUCT END_TYPE
@@ -199,3 +202,17 @@ def test_a_reading_follows_its_file(tmp_path: Path) -> None:
         reading.path.unlink()
         with pytest.raises(NoReading, match="cannot be read"):
             reading.follow(22)
+
+
+def test_an_input_that_is_stuck(tmp_path: Path) -> None:
+    programs = SourcePrograms({1: LINE}, ReferenceEngine)
+    timeline = Timeline.begin(
+        tmp_path / "run", programs, 1, LINE.encode(), ENTRIES, "Ada", agenda=DisturbanceSchedule()
+    )  # fmt: skip
+    advance(timeline, 3)
+    outcome = timeline.submit(Disturb("Bob", Disturbance("stuck", "CIO 0.03", scan=5, scans=6)))
+    assert not isinstance(outcome, Refusal), outcome
+    advance(timeline, 20)
+    found = _last(timeline, "CIO 0.03", 8)
+    assert (found.by, found.author, found.scan) == ("command", "Bob", 5)
+    assert "holds since scan 5" in found.text

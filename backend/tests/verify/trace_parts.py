@@ -4,6 +4,7 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 
 from scanbench.check.build import check_sources
+from scanbench.check.condition import BadCondition, compile_signal
 from scanbench.check.program import Program
 from scanbench.check.symbols import members
 from scanbench.check.types import ArrayType, Elementary, Record
@@ -79,7 +80,7 @@ def leaves(program: Program, path: str = "") -> list[str]:
         if symbol.slots:
             continue
         if isinstance(symbol.type, Elementary):
-            found.append(symbol.path)
+            found += [] if isinstance(compile_signal(program, symbol.path), BadCondition) else [symbol.path]
         elif isinstance(symbol.type, ArrayType | Record):
             found += leaves(program, symbol.path)
     return found

@@ -8,7 +8,8 @@ from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.command import Command
 from scanbench.runtime.detect import Detect
-from scanbench.runtime.headless import run_headless
+from scanbench.runtime.fingerprints import program_digest
+from scanbench.runtime.headless import HeadlessRun, run_headless
 from scanbench.runtime.programs import EngineFactory, Programs
 from scanbench.runtime.recording import Recording
 from scanbench.session.codec import ENTRIES
@@ -26,12 +27,10 @@ def record(
     """A run file; a run-time error ends it."""
     with Recording.begin(path, program, 1, b"1", ENTRIES, "Ada") as recording:
         for version, each in more:
-            from scanbench.runtime.fingerprints import program_digest
-
             recording.program(version, str(version).encode(), program_digest(each))
-        result = run_headless(
+        result: HeadlessRun[None] = run_headless(
             program, scans, engine, commands, agenda=agenda, recording=recording, programs=programs, detect=detect
-        )  # type: ignore[var-annotated]
+        )
         assert not result.refused, result.refused
     return path
 

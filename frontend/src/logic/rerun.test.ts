@@ -2,7 +2,8 @@ import { describe, expect, it } from "vitest";
 import { type RerunForm, readRerun } from "./rerun";
 
 const FORM: RerunForm = { name: " again ", how: "same", instead: "", way: "earlier", by: "1", behind: "0" };
-const OF = { scan: 100, error: "battery-error" };
+// More than what is asked for: the server refuses what it does not know.
+const OF = { scan: 100, error: "battery-error", how: "same" };
 const read = (part: Partial<RerunForm>, first = 0) => readRerun({ ...FORM, ...part }, OF, first);
 
 describe("a replay with a change", () => {

@@ -29,7 +29,8 @@ export function readRerun(form: RerunForm, of: { scan: number; error: string }, 
   if (of.scan + shift < first) return { trouble: "rerun.toosoon" };
   return {
     wanted: {
-      ...of,
+      scan: of.scan,
+      error: of.error,
       name,
       by: shift === 0 ? 0 : shift,
       instead: form.how === "instead" ? form.instead : "",

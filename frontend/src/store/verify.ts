@@ -98,7 +98,8 @@ export function showVerification(id: number): void {
 
 /** One that a request answered; it is shown. */
 export function addVerification(info: VerificationInfo): void {
-  put(info);
+  // What the socket told of it meanwhile is newer than the answer.
+  if (!get().verifications.some(({ id }) => id === info.id)) put(info);
   showVerification(info.id);
 }
 

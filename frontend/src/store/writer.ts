@@ -41,6 +41,12 @@ async function ask(path: string, scan: number | null): Promise<void> {
   }
 }
 
+/** There was nothing to ask about: the dialog says why. */
+export function refuseWriter(why: string): void {
+  turn += 1;
+  set({ path: "…", found: null, refused: why });
+}
+
 export function closeWriter(): void {
   turn += 1;
   set(nothing);

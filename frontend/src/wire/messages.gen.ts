@@ -5126,6 +5126,11 @@ export interface components {
              * @description line of a CSV file, index in a JSON file; null: the file as a whole
              */
             row: number | null;
+            /**
+             * Warning
+             * @description it does not stand in the way
+             */
+            warning: boolean;
         };
         /**
          * TraceRecordInfo

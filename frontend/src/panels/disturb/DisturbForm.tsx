@@ -1,6 +1,5 @@
 import type { FormEvent } from "react";
 import { useShallow } from "zustand/react/shallow";
-import { readDisturbance } from "../../logic/disturb";
 import { t } from "../../logic/text";
 import { disturb, mendDisturbance, useDisturb, useTroubles } from "../../store/disturb";
 import { useForbidden } from "../../store/plc";

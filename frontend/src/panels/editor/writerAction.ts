@@ -1,6 +1,6 @@
 /** Who last wrote the variable at the caret: asked from the text. */
 import { t } from "../../logic/text";
-import { showWriter } from "../../store/writer";
+import { refuseWriter, showWriter } from "../../store/writer";
 import type { editor } from "./monaco";
 import { nameAtCaret, pathsOf, selectedNames } from "./watchAction";
 
@@ -13,6 +13,7 @@ export function addWriterAction(code: editor.IStandaloneCodeEditor, path: string
       const line = code.getPosition()?.lineNumber ?? 1;
       const [name] = await pathsOf(path, line, selectedNames(code) ?? nameAtCaret(code));
       if (name) showWriter(name);
+      else refuseWriter(t("writer.noname"));
     },
   });
 }

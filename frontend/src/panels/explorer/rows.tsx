@@ -82,7 +82,13 @@ export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) =>
       const menu: MenuItem[] = [
         { label: t("open"), onSelect: () => openFile(node.file, line) },
         ...(VERIFIED.some((kind) => kind === group.kind)
-          ? [{ label: t("verify.pou", { pou: node.name }), icon: "differs" as const, onSelect: () => verifyPou(node.name) }]
+          ? [
+              {
+                label: t("verify.pou", { pou: node.name }),
+                icon: "differs" as const,
+                onSelect: () => verifyPou(node.name),
+              },
+            ]
           : []),
         { label: t("file.delete.menu", { path: node.file }), separated: true, onSelect: () => askDelete(node.file) },
       ];

@@ -1,6 +1,8 @@
+import { inNames } from "../../logic/catalogue";
 import { linkPath } from "../../logic/links";
 import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
+import { useCatalogue } from "../../store/catalogue";
 import { openFile } from "../../store/navigate";
 import { useForbidden } from "../../store/plc";
 import { travel } from "../../store/timeline";
@@ -22,11 +24,13 @@ interface Props {
 /** What came of a comparison: the first scan in which the runs part, the statement, why; then what is another there. */
 export function Divergence({ result, b, names }: Props) {
   const { scan, compared, first, last, text, changes, entries } = result;
+  const { errors } = useCatalogue();
   const range = { count: grouped(compared), first: grouped(first), last: grouped(last) };
   return (
     <>
       <p className="verdict">
-        {scan === null ? t("compare.same.about") : text} <span className="faint">{t("compare.compared", range)}</span>
+        {scan === null ? t("compare.same.about") : inNames(errors, text)}{" "}
+        <span className="faint">{t("compare.compared", range)}</span>
       </p>
       {scan !== null && <Why result={result} scan={scan} b={b} nameB={names.B} />}
       {result.marks.length > 0 && <Stretches marks={result.marks} />}

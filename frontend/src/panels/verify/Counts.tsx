@@ -112,11 +112,13 @@ function Skipped({ info }: { info: VerificationInfo }) {
 
 function State({ info }: { info: VerificationInfo }) {
   const [tone, icon] = STATES[info.state];
-  const about = info.message || (info.scan === null ? spanOf(info) : t("verify.upto", { scan: grouped(info.scan) }));
+  const about =
+    (info.state === "failed" ? "" : info.message) ||
+    (info.scan === null ? spanOf(info) : t("verify.upto", { scan: grouped(info.scan) }));
   return (
     <span className="vfstate" role="status" data-state={info.state}>
       <StateWord tone={tone} icon={icon} word={t(`verify.state.${info.state}`)} title={info.message} />
-      <span className={`cut ${info.message && info.state === "failed" ? "bad" : "faint"}`} title={about}>
+      <span className="cut faint" title={about}>
         {about}
       </span>
     </span>

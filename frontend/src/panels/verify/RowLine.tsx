@@ -20,6 +20,7 @@ interface Props {
   drawn: readonly Track[];
   tracks: readonly Track[];
   memory: VerificationInfo["memory"];
+  source: VerificationInfo["source"];
   formats: Readonly<Record<string, Format>>;
   selected: boolean;
   /** The column with the keys. */
@@ -77,7 +78,7 @@ interface Cell {
   title?: string | undefined;
 }
 
-type How = Pick<Props, "memory" | "formats" | "editing">;
+type How = Pick<Props, "memory" | "source" | "formats" | "editing">;
 
 function cellOf(row: VerifyRow, track: Track, how: How): Cell {
   switch (track.kind) {
@@ -132,13 +133,15 @@ function cellOf(row: VerifyRow, track: Track, how: How): Cell {
   }
 }
 
-function outputCell(row: VerifyRow, unit: Unit, kind: "control" | "monitor", { memory, formats }: How): Cell {
+function outputCell(row: VerifyRow, unit: Unit, kind: "control" | "monitor", { memory, source, formats }: How): Cell {
   const output = row.outputs[unit.column.name];
   const edge = kind === "control" ? " vfpair" : "";
   if (!output) return { look: `num faint${edge}`, shown: "" };
-  const differs = differsIn(row, unit, memory);
+  // a trace does not have all outputs, and of a row that was taken over from it there is no A'
+  const compared = source !== "trace" || (output.control !== null && output.monitor !== null);
+  const differs = compared && differsIn(row, unit, memory);
   const hex = kind === "control" ? output.control : resultOf(output, memory);
-  const missing = hex === null ? t("verify.notwritten") : undefined;
+  const missing = hex === null && compared ? t("verify.notwritten") : undefined;
   return {
     look: `num${edge} ${differs ? `dcell ${kind === "control" ? "a" : "m"}` : kind === "monitor" ? "same" : ""}`,
     title: differs ? differenceOf(row, unit.column.name) : missing,

@@ -152,6 +152,7 @@ export function Table({ shown }: { shown: ShownVerification }) {
               drawn={drawn}
               tracks={tracks}
               memory={info.memory}
+              source={info.source}
               formats={arrangement.formats}
               selected={index === rows.selected}
               track={index === rows.selected ? rows.track : null}

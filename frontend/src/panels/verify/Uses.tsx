@@ -1,4 +1,4 @@
-import { useEffect, useState } from "react";
+import { useEffect, useRef, useState } from "react";
 import { t } from "../../logic/text";
 import { messageOf } from "../../store/documents";
 import { openFile } from "../../store/navigate";
@@ -11,6 +11,7 @@ const SHOWN = 500;
 /** The used-variable record of a row: every read and write, in the order of use. */
 export function Uses({ row }: { row: VerifyRow }) {
   const [uses, setUses] = useState<readonly VerifyUse[] | null>(null);
+  const table = useRef<HTMLTableElement>(null);
   const [refused, setRefused] = useState<string | null>(null);
   useEffect(() => {
     let current = true;
@@ -24,6 +25,10 @@ export function Uses({ row }: { row: VerifyRow }) {
       current = false;
     };
   }, [row]);
+  // The list stands below what was there before, perhaps out of sight.
+  useEffect(() => {
+    if (uses) table.current?.scrollIntoView({ block: "nearest" });
+  }, [uses]);
   if (refused)
     return (
       <p className="bad" role="alert">
@@ -33,7 +38,7 @@ export function Uses({ row }: { row: VerifyRow }) {
   if (!uses) return <p className="faint">{t("verify.uses.asked")}</p>;
   if (uses.length === 0) return <p className="faint">{t("verify.uses.none")}</p>;
   return (
-    <table className="vfuses">
+    <table ref={table} className="vfuses">
       <caption className="sr">{t("verify.uses")}</caption>
       <thead>
         <tr>

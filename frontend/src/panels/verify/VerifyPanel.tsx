@@ -37,6 +37,12 @@ export function VerifyPanel({ api }: Props) {
       {shown ? (
         <>
           <Counts shown={shown} />
+          {shown.info.state === "failed" && shown.info.message && (
+            <p className="trouble st fatal" role="alert">
+              <Icon name="error" small />
+              <span>{shown.info.message}</span>
+            </p>
+          )}
           <div className="vfbody">
             <Table shown={shown} key={`${shown.source.kind} ${shown.source.id}`} />
             <Detail shown={shown} />
