@@ -74,6 +74,8 @@ class Verification:
         self._stepping = 0
         """The statement of the step that is under way; -1: it is the seam; 0: whole scans are."""
         self._halt = 0
+        self._held = False
+        """Whether the PLC ran when this verification had it wait."""
         self._owed = 0
         """Scans that somebody may still go on by, with pace `scan`."""
         self._tasks: set[asyncio.Task[None]] = set()
@@ -142,8 +144,8 @@ class Verification:
             self._change(auto=auto)
         if pace is not None and pace != status.pace:
             self._change(pace=pace)
-            if pace != "free" and status.source == "live":
-                await self._hold()
+            if status.source == "live":
+                await (self._let_go(author) if pace == "free" else self._hold())
         if action == "stop":
             self._owed = 0
             self._change(state="stopped", message="")
@@ -264,6 +266,16 @@ class Verification:
             ack = await session.drive("pause", None, author)
             if not ack.ok:
                 raise Refused(ack.message)
+            self._held = True
+
+    async def _let_go(self, author: str) -> None:
+        """A PLC that waits because of this verification goes on; where it cannot, it says so itself."""
+        if self._held and self.session.state.state in ("paused", "halted"):
+            if self.session.state.halt is not None:
+                await self.session.debug(lambda ref: debug_protocol.Step(ref, "continue", author))
+            else:
+                await self.session.drive("continue", None, author)
+        self._held = False
 
     async def _go_on(self, author: str) -> None:
         """One scan or statement further."""

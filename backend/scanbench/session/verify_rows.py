@@ -9,7 +9,7 @@ from scanbench.session.verify_protocol import PackedRow, ScansVerified
 from scanbench.verify.verified import Column, Row
 
 MOST_ROWS = 20_000
-MOST_BYTES = 96 << 20
+MOST_BYTES = 48 << 20
 """Of one verification."""
 MOST_DIFFERING = 10_000
 """Indices of rows that differ, which are told."""

@@ -18,6 +18,7 @@ from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from scanbench.verify.disturb import Disturb
 from scanbench.verify.disturb_schedule import DisturbanceSchedule
+from scanbench.verify.disturb_wanted import Disturbance
 from scanbench.verify.findings import Writer
 from scanbench.verify.reading import NoReading, Reading
 from scanbench.verify.writer import find_writer

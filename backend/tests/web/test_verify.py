@@ -153,6 +153,9 @@ def test_scan_by_scan_the_plc_waits(server: Server) -> None:
         assert info(server, instance, begun["id"])["skipped"] == 0
         server.http.patch(f"/api/verifications/{begun['id']}", json={"auto": True})
         browser.wait(lambda: (info(server, instance, begun["id"])["scan"] or 0) > scan + 10, 30)
+        free = server.http.patch(f"/api/verifications/{begun['id']}", json={"pace": "free"}).json()
+        browser.wait_state("running")  # it had only waited for the verification
+        browser.wait(lambda: info(server, instance, begun["id"])["compared"] > free["compared"] + 50, 30)
         stopped = server.http.patch(f"/api/verifications/{begun['id']}", json={"action": "stop"}).json()
         assert stopped["state"] == "stopped"
 

@@ -106,7 +106,7 @@ it("the first values of a column say where there is none", () => {
 });
 
 it("problems are told by column; those of the file as a whole belong to none", () => {
-  const problem = (row: number | null, column: string) => ({ row, column, message: "?" });
+  const problem = (row: number | null, column: string) => ({ row, column, message: "?", warning: false });
   const found = byColumn([problem(2, "speed"), problem(null, ""), problem(9, "speed")]);
   expect([...found.keys()]).toEqual(["speed"]);
   expect(found.get("speed")?.map(({ row }) => row)).toEqual([2, 9]);

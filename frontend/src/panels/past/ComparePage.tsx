@@ -54,10 +54,10 @@ export function ComparePage() {
 /** With which other run; its branches come first. */
 function Choose() {
   const instance = useBench((bench) => bench.instance);
-  const all = useBench((bench) => bench.app?.instances ?? []);
+  const all = useBench((bench) => bench.app?.instances);
   const { other } = useComparisons();
   if (!instance) return null;
-  const offered = compareWith(instance, all);
+  const offered = compareWith(instance, all ?? []);
   const chosen = offered.find(({ id }) => id === other) ?? offered[0];
   return (
     <div className="sub cmpbar" role="toolbar" aria-label={t("compare.tab")}>

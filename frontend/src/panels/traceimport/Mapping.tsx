@@ -136,16 +136,17 @@ function ColumnRow({ row, trace, wrong, onChange }: ColumnRowProps) {
 }
 
 /** About the column as such, not about a cell of it: it is told at the head of the file. */
-const isOfColumn = ({ row }: TraceProblem) => row === null || row <= 1;
+const isOfColumn = ({ row, warning }: TraceProblem) => !warning && (row === null || row <= 1);
 
 /** The column as the file names it; marked when something is wrong with it. */
 function Name({ column, wrong }: { column: string; wrong: readonly TraceProblem[] | undefined }) {
+  const refusing = wrong?.some(({ warning }) => !warning) ?? false;
   const why = wrong?.map((problem) => [placeOf(problem), problem.message].filter(Boolean).join(": ")).join("\n");
   return (
     <span role="rowheader" className="mono" title={[column, why].filter(Boolean).join("\n")}>
       {wrong && (
-        <span className="st fatal">
-          <Icon name="error" small />
+        <span className={`st ${refusing ? "fatal" : "warning"}`}>
+          <Icon name={refusing ? "error" : "warning"} small />
           <span className="sr">{wrong[0]?.message}</span>
         </span>
       )}

@@ -18,7 +18,7 @@ export function Problems({ problems }: { problems: readonly TraceProblem[] }) {
         // biome-ignore lint/suspicious/noArrayIndexKey: they come whole, and the same one may be there twice
         <li key={index}>
           <span className="faint mono">{placeOf(problem)}</span>
-          <span>{problem.message}</span>
+          <span className={problem.warning ? "muted" : ""}>{problem.message}</span>
         </li>
       ))}
     </ul>

@@ -119,14 +119,15 @@ function Verdict() {
       </span>
     );
   }
+  const wrong = checked?.problems.filter(({ warning }) => !warning).length ?? 0;
   return (
     <span className="tiverdict grow" role="status">
       {trace && !checked && <span className="faint">{t("import.trace.check.busy")}</span>}
       {checked && !checked.ok && (
         <span className="st fatal">
           <Icon name="error" small />
-          {t(checked.problems.length === 1 ? "import.trace.check.bad.one" : "import.trace.check.bad", {
-            count: checked.problems.length,
+          {t(wrong === 1 ? "import.trace.check.bad.one" : "import.trace.check.bad", {
+            count: wrong,
           })}
         </span>
       )}
