@@ -6,13 +6,20 @@ from pathlib import Path
 import pytest
 
 from scanbench.check.build import check_sources
+from scanbench.engines.debug import Listen
+from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.runtime.command import Entry
+from scanbench.runtime.inside import HaltAt
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import Loaded, Shelf
+from scanbench.runtime.recording import Recording
+from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
+from scanbench.session.codec import ENTRIES
 from scanbench.session.samples import Sample, samples
 from scanbench.verify.disturb import Disturb
 from scanbench.verify.disturb_schedule import DisturbanceSchedule
@@ -358,3 +365,63 @@ def test_a_step_shows_the_difference_where_it_comes_about(tmp_path: Path) -> Non
     assert verified.step(7, 1).rows[0].differences == ()
     (difference,) = verified.step(7, 2).rows[0].differences
     assert (difference.name, difference.cause) == ("Main.n", "logic")
+
+
+# ---- files that grow, and code that was not the same --------------------------------------------------------------
+
+
+def test_a_file_is_followed_while_it_grows(tmp_path: Path) -> None:
+    made = program(BELTS)
+    with Recording.begin(tmp_path / "run", made, 1, b"1", ENTRIES, "Ada") as recording:
+        resource = Resource(Loaded.make(made, ReferenceEngine), recorder=recording)
+        verified = verifier(tmp_path / "run", made, "Main")
+        with pytest.raises(Unverifiable):
+            verified.verify(0)
+        resource.run(3)
+        verified.follow(3)
+        assert differences(rows(verified)) == []
+        resource.submit(Write("Ada", "level", "7"))
+        resource.run(2)
+        verified.follow(5)
+        assert value(verified.verify(3).rows[0].outputs["Main.n"].control) == 7
+        assert value(verified.verify(4).rows[0].outputs["Main.n"].monitor) == 14
+        assert verified.end == 5
+
+
+class Forgetful(ReferenceEngine):
+    """Live it came to something else than ever after."""
+
+    def run(self, scans: int, pace: Pace | None = None) -> Stop:
+        stop = super().run(scans, pace)
+        self.memory[self.program.layout.areas["D"] + 2 * 777] = 5
+        return stop
+
+
+def test_code_that_came_to_something_else_when_it_ran_live_is_told(tmp_path: Path) -> None:
+    path = record(tmp_path / "run", program(BELTS), 6, engine=Forgetful)
+    found = rows(verifier(path, program(BELTS), "Main"))
+    (difference,) = differences(found)
+    assert [row.scan for row in found if row.differs] == [5]  # where the run file has a state again
+    assert (difference.cause, difference.name) == ("recorded", "D777")
+    assert "when it was recorded" in difference.message
+
+
+def test_a_debuggers_write_inside_of_a_scan_is_no_difference(tmp_path: Path) -> None:
+    made = program(BELTS)
+    with Recording.begin(tmp_path / "run", made, 1, b"1", ENTRIES, "Ada") as recording:
+        resource = Resource(Loaded.make(made, ReferenceEngine), recorder=recording)
+        resource.run(2)
+        resource.hook = HaltAt(2)
+        resource.listen(Listen(count=2))
+        assert resource.run(1).reason is Reason.HALTED
+        entry = resource.submit(Write("Ada", "Main.n", "50"))
+        assert isinstance(entry, Entry)
+        assert entry.step == 2
+        resource.finish()
+        resource.hook = None
+        resource.run(2)
+        verified = verifier(tmp_path / "run", made, "Main")
+        verified.follow(resource.header.scan)
+        found = rows(verified)
+    assert differences(found) == []
+    assert value(found[2].outputs["Main.n"].control) == 50

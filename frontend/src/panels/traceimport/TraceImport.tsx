@@ -24,6 +24,8 @@ function ImportDialog() {
   const { trace, mapping, refused, checked, busy, trouble } = useTraceImport();
   const instance = useBench((bench) => bench.instance);
   const [naming, setNaming] = useState(false);
+  // How the file was read, and what is said of the mapping.
+  const told = [...(trace?.problems ?? []), ...(checked?.problems ?? [])];
   return (
     <>
       <Dialog
@@ -62,7 +64,7 @@ function ImportDialog() {
             <>
               <Axis trace={trace} mapping={mapping} />
               <Mapping trace={trace} mapping={mapping} onSave={() => setNaming(true)} />
-              {checked && checked.problems.length > 0 && <Problems problems={checked.problems} />}
+              {told.length > 0 && <Problems problems={told} />}
             </>
           )}
         </div>
