@@ -54,6 +54,7 @@ class _Search:
         mixed = any(isinstance(each.type, Record) and each.type.overlaps for each in self._instances)
         self._typed = symbol.address is None and symbol.bit is None and not mixed
         self._passed: bool | None = None
+        self._bodies: dict[int, tuple[Place | None, ...]] = {}
 
     def found(self) -> dict[int, Expr | None]:
         """All of them."""
@@ -99,6 +100,12 @@ class _Search:
     def has_sites(self, pou: Pou) -> bool:
         """Whether its own statements tell what it writes."""
         return pou in self._sites.bodies and not any(each.copied for each in pou.instance.members.values())
+
+    def of_body(self, pou: Pou) -> tuple[Place | None, ...]:
+        """What the body of a block of the library writes, in the scope of that; None: who knows what."""
+        if id(pou) not in self._bodies:
+            self._bodies[id(pou)] = tuple(place for stmt in pou.body for place in _written(stmt, self))
+        return self._bodies[id(pou)]
 
     def _may_be(self, pou: Pou, place: Place | None) -> bool:
         """Whether a place of a body may be, or hold, a part of the variable."""
@@ -224,7 +231,7 @@ def _written(stmt: Stmt, search: _Search) -> Iterator[Place | None]:
 def _of_call(call: CallBlock, search: _Search) -> Iterator[Place | None]:
     yield from (target for _, target in call.outputs)
     if not search.has_sites(call.pou):  # of a library, or with copies that are made around its body
-        yield call.instance
+        yield from _of_library(call, search)
         yield from (actual for _, actual in call.in_outs)
         if any(each.copied for each in call.pou.instance.members.values()):
             yield None
@@ -232,10 +239,31 @@ def _of_call(call: CallBlock, search: _Search) -> Iterator[Place | None]:
         if call.instance.slot is not None or call.instance.reference is not None:
             yield None
         else:
-            yield Place(
-                place.type, call.instance.base, call.instance.offset + place.offset,
-                (*call.instance.indices, *place.indices), variable=place.variable,
-            )  # fmt: skip
+            yield _in_caller(call, place)
+
+
+def _of_library(call: CallBlock, search: _Search) -> Iterator[Place]:
+    """What of its instance the body writes: all of it, unless that can be told. An input mostly stays as it was passed."""
+    places = search.of_body(call.pou) if in_library(call.pou.span) and call.pou.body else (None,)
+    own = [each for each in places if each is not None and each.base is Base.SELF and not (each.slot or each.reference)]
+    elsewhere = [each for each in places if each is not None and each.base is not Base.SELF]
+    if (
+        call.instance.slot is not None
+        or call.instance.reference is not None
+        or len(own) + len(elsewhere) < len(places)
+        or any(each.base is not Base.FRAME or each.slot or each.reference for each in elsewhere)
+    ):
+        yield call.instance
+    else:
+        yield from (_in_caller(call, each) for each in own)
+
+
+def _in_caller(call: CallBlock, place: Place) -> Place:
+    """A place of the instance, in the scope of whoever calls it."""
+    return Place(
+        place.type, call.instance.base, call.instance.offset + place.offset, (*call.instance.indices, *place.indices),
+        variable=place.variable,
+    )  # fmt: skip
 
 
 def _passed(body: tuple[Stmt, ...]) -> Iterator[Place]:

@@ -65,6 +65,8 @@ class Verification:
         self._job = Job(cache, self._on_message, self._on_end)
         self._answers: dict[int, asyncio.Future[object]] = {}
         self._next_ref = 1
+        self._gone = False
+        """Its process has ended."""
         self._busy: int | None = None
         """Ref of the request for scans that is under way."""
         self._next = 0
@@ -120,6 +122,11 @@ class Verification:
             await self._hold()
         self._poke()
 
+    async def leave(self, author: str) -> None:
+        """Ends it; a PLC that waits because of it goes on."""
+        await self._let_go(author)
+        await self.end()
+
     async def end(self) -> None:
         """Ends its process."""
         self.session.ignore(self._on_event)
@@ -146,9 +153,10 @@ class Verification:
             self._change(pace=pace)
             if status.source == "live":
                 await (self._let_go(author) if pace == "free" else self._hold())
-        if action == "stop":
+        if action == "stop" and status.state not in ("done", "failed"):
             self._owed = 0
             self._change(state="stopped", message="")
+            await self._let_go(author)
             return
         if action == "resume" and self.status.state == "stopped":
             self._change(state="waiting", message="")
@@ -201,7 +209,9 @@ class Verification:
         status, live = self.status, self._live_scan
         if self._busy is not None or status.state in ("starting", "stopped", "done", "failed"):
             return
-        if status.source != "live":
+        if status.source == "live" and live < self._next:
+            self._change(state="failed", message="a new run began: begin another verification")
+        elif status.source != "live":
             self._poke_past(live)
         elif status.pace == "step":
             self._poke_halt(live)
@@ -285,6 +295,8 @@ class Verification:
         if status.source != "live":
             self._owed += 1
             return
+        if session.state.past_by:
+            raise Refused("the past is shown: return to live first")
         if status.pace == "scan":
             ack = await session.drive("scan", None, author)
         else:
@@ -315,6 +327,8 @@ class Verification:
         return ref
 
     async def _ask(self, make: Callable[[int], object]) -> object:
+        if self._gone:
+            raise Refused("its process has ended: begin another verification")
         future: asyncio.Future[object] = asyncio.get_running_loop().create_future()
         self._answers[self._send(make)] = future
         return await future
@@ -359,6 +373,7 @@ class Verification:
 
     def _on_end(self, _job: Job) -> None:
         """It died, or was ended."""
+        self._gone = True
         self._give_up(DIED)
         if self.status.state not in ("failed", "done"):
             self._busy = None

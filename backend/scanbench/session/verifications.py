@@ -25,7 +25,7 @@ from scanbench.verify.report_json import to_json
 from scanbench.verify.table_csv import to_csv
 from scanbench.verify.verified import Memory, Range, Row
 
-MOST = 6
+MOST = 10
 """Verifications at a time: each is a process."""
 SUFFIX = ".rows"
 _TELL_NS = 200_000_000
@@ -105,10 +105,8 @@ class Verifications:
         self, session: Session, wanted: VerifyWish, trace: TraceSource | None, author: str
     ) -> VerificationStatus:  # fmt: skip
         if len(self._all) >= MOST:
-            over = [id for id, each in self._all.items() if each.status.state in ("done", "failed", "stopped")]
-            if not over:
-                raise Refused(f"{MOST} verifications go on already: end one of them first")
-            await self._drop(over[0])
+            told = ", ".join(f"{each.status.title} at {each.session.name}" for each in self._all.values())
+            raise Refused(f"{MOST} verifications are open, and there can be no more: close one of them first ({told})")
         id, self._next = self._next, self._next + 1
         made = self._all[id] = Verification(id, session, wanted, trace, author, self._cache, self._on_change)
         try:
@@ -127,9 +125,10 @@ class Verifications:
         await verification.drive(pace, auto, memory, action, author)
         return verification.status
 
-    async def delete(self, id: int) -> None:
+    async def delete(self, id: int, author: str) -> None:
         """Ends one, and forgets its rows."""
-        self._one(id)
+        verification = self._one(id)
+        await verification.leave(author)
         await self._drop(id)
 
     async def set_cells(self, id: int, edits: tuple[tuple[int, int, str, str], ...], author: str) -> VerificationStatus:
@@ -162,7 +161,9 @@ class Verifications:
         return verification
 
     async def _drop(self, id: int) -> None:
-        verification = self._all.pop(id)
+        verification = self._all.pop(id, None)
+        if verification is None:  # two at once
+            return
         await verification.end()
         self._told.pop(id, None)
         self._tell(verification.session)
@@ -173,12 +174,7 @@ class Verifications:
         """At once when something begins or ends, a few times a second while it goes on."""
         id, status, now = verification.status.id, verification.status, monotonic_ns()
         at, before = self._told.get(id, (0, None))
-        slow = before is not None and (status.state, status.pace, status.auto, status.memory, status.generation) == (
-            before.state, before.pace, before.auto, before.memory, before.generation,
-        ) and now - at < _TELL_NS  # fmt: skip
-        if slow or (
-            before is not None and {status.state, before.state} == {"waiting", "verifying"} and now - at < _TELL_NS
-        ):
+        if before is not None and _phase(status) == _phase(before) and now - at < _TELL_NS:
             self._untold.add(id)
             if self._later is None:
                 self._later = asyncio.get_running_loop().call_later(_TELL_NS / 1e9, self._catch_up)
@@ -269,6 +265,12 @@ class Verifications:
 
     def _path(self, id: int) -> Path:
         return self._directory / f"{id}{SUFFIX}"
+
+
+def _phase(status: VerificationStatus) -> tuple[object, ...]:
+    """What is told at once when it is another; a live verification waits and goes on many times a second."""
+    going = status.state in ("verifying", "waiting") and (status.pace == "free" or status.auto)
+    return "going" if going else status.state, status.pace, status.auto, status.memory, status.generation
 
 
 def _head(status: VerificationStatus, project: str, instance: str, model: str, when: str) -> ReportHead:

@@ -69,7 +69,7 @@ class VerifyJob:
             case VerifyStep():
                 verifier = self._begun()
                 verifier.follow(request.until)
-                self._tell(request.ref, [verifier.step(request.scan, request.count)], done=True)
+                self._tell(request.ref, [verifier.step(request.scan, request.count)], done=True, scans=0)
             case SetInputs():
                 rows = self._begun().set_inputs(request.edits)
                 packed = tuple(map(_packed, rows))
@@ -135,11 +135,13 @@ class VerifyJob:
                 batch, told = [], monotonic_ns()
         self._tell(ask.ref, batch, done=True)
 
-    def _tell(self, ref: int, batch: Sequence[ScanVerified], *, done: bool, failed: str = "") -> None:
+    def _tell(
+        self, ref: int, batch: Sequence[ScanVerified], *, done: bool, failed: str = "", scans: int | None = None
+    ) -> None:  # fmt: skip
         rows = tuple(_packed(row) for each in batch for row in each.rows)
         self._say(
             ScansVerified(
-                ref, batch[-1].scan if batch else -1, len(batch), rows, _columns(batch),
+                ref, batch[-1].scan if batch else -1, len(batch) if scans is None else scans, rows, _columns(batch),
                 tuple(dict.fromkeys(name for each in batch for name in each.inputs)),
                 tuple(dict.fromkeys(name for each in batch for name in each.outputs)),
                 max((each.used for each in batch), default=0), done, failed, bool(failed),

@@ -11,7 +11,7 @@ from scanbench.runtime.command import Entry
 from scanbench.runtime.holds import held
 from scanbench.runtime.trap import Trapped, trap_info
 from scanbench.verify.control import Control, Source, Unverifiable
-from scanbench.verify.disturb import is_disturbance, told
+from scanbench.verify.disturb import DISTURBED, is_disturbance, told, told_held
 from scanbench.verify.monitor import Inputs, Monitor
 from scanbench.verify.naming import WHOLE, Leaf
 from scanbench.verify.ranges import Resolved
@@ -135,6 +135,7 @@ class Both:
                 self._disturbed.own[at] = monitor.side.memory[at]
         if entered:
             monitor.take_over(control.side)
+        self.told += told_held(control.side.resource.journal.derived(DISTURBED))
         steps = []
         while (entry := self._next(scan)) is not None and entry.step:
             control.side.wait_for([entry])

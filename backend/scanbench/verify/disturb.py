@@ -4,7 +4,7 @@
 (`disturb_fire.py`), so a replay has all of it and asks nobody. The monitor leaves all of these commands out.
 """
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import Literal
 
@@ -126,8 +126,17 @@ def told(entry: Entry) -> str:
         case Corrupt():
             return f"{what_of('result', '', command.site)}, bit {command.index}"
         case Hold():
-            return f"{what_of('late' if command.late else 'stuck', command.path, '')} {'late' if command.late else 'stuck'}"
+            return _told_held("late" if command.late else "stuck", command.path)
     return ""
+
+
+def told_held(state: Disturbeds) -> Iterator[str]:
+    """What is done to the control device as long as it is held: `Input start stuck`; `state` is that of `DISTURBED`."""
+    return (_told_held(each.wanted.kind, each.wanted.path) for each in state.values() if each.holding)
+
+
+def _told_held(kind: DisturbanceKind, path: str) -> str:
+    return f"{what_of(kind, path, '')} {kind}"
 
 
 # ---- what the journal says -----------------------------------------------------------------------------------------

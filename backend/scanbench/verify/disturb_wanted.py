@@ -92,8 +92,8 @@ def next_firing(wanted: Disturbance, number: int, time: int, first: int) -> int 
     if wanted.probability >= 1:
         return first
     drawn = (chance(wanted, number, time, "scan") + 1) / (1 << 64)
-    found = first + int(math.log(drawn) / math.log1p(-wanted.probability))
-    return found if found < _NEVER else None
+    scans = math.log(drawn) / math.log1p(-wanted.probability)  # infinite for the least of probabilities
+    return first + int(scans) if first + scans < _NEVER else None
 
 
 def bits_of(symbol: Symbol) -> int:

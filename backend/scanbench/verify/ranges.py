@@ -1,7 +1,7 @@
 """Monitor ranges: which statements a stretch of the program is."""
 
 import re
-from collections.abc import Iterable
+from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 
@@ -72,13 +72,24 @@ def _line(text: str | None, whole: str) -> int:
     return int(text)
 
 
-def resolve_range(program: Program, sites: Sites, wanted: Range) -> Resolved:
+LinesOf = Callable[[str], int]
+"""How many lines a source file has; 0: that is not known."""
+
+
+def resolve_range(program: Program, sites: Sites, wanted: Range, lines_of: LinesOf = lambda file: 0) -> Resolved:
     """The statements that are meant; `BadRange` says what there is instead."""
     if not wanted.pou and not wanted.file:
         if wanted.instance:
             raise BadRange("the whole scan has no instance: name a POU")
+        if wanted.first or wanted.last:
+            raise BadRange(f"{_asked(wanted)} of what? Name a POU or a file, as in POU:10-20 or File.st:10-20")
+        if wanted.first or wanted.last:
+            raise BadRange("lines of what? Name a POU or a file with them")
         return Resolved("the whole scan")
+    if 0 < wanted.last < wanted.first:
+        raise BadRange(f"lines {wanted.first} to {wanted.last} are none: the first line comes first")
     pous = _named(sites, wanted) if wanted.pou else _in_file(sites, wanted)
+    _reaches(sites, pous[0].span.file, wanted, lines_of)
     mine = frozenset(site for pou in pous for site in sites.bodies[pou])
     inside, lines, note = _within(sites, mine, wanted, pous[0].name)
     instances = _instances(program, pous[0])
@@ -125,6 +136,22 @@ def _in_file(sites: Sites, wanted: Range) -> list[Pou]:
     return hit
 
 
+def _reaches(sites: Sites, file: str, wanted: Range, lines_of: LinesOf) -> None:
+    """Whether the file has these lines."""
+    first, lines = wanted.first, lines_of(file)
+    if lines and first > lines:
+        are = "is" if first == wanted.last else "are"
+        raise BadRange(f"{file} has {lines} lines: there {are} no {_asked(wanted)}")
+    end = max(_end(sites, pou) for pou in sites.bodies if pou.span.file == file)
+    if not lines and first > end + 1:  # behind END_PROGRAM at best
+        raise BadRange(f"{_asked(wanted)}: the last statement of {file} ends in line {end}")
+
+
+def _asked(wanted: Range) -> str:
+    first, last = wanted.first or 1, wanted.last
+    return f"line {first}" if first == last else f"lines {first} to {last or 'the end'}"
+
+
 def _is_file(file: str, asked: str) -> bool:
     one, other = file.upper(), asked.strip().upper()
     return one == other or one.endswith(f"/{other}")
@@ -166,9 +193,8 @@ def _within(sites: Sites, mine: frozenset[int], wanted: Range, name: str) -> tup
             else max(mine, key=lambda site: _span(sites, site).line)
         )
     line = _span(sites, chosen).line
-    asked = f"line {first}" if first == last else f"lines {first} to {last}"
     inside = frozenset(site for site in mine if _span(sites, site).line == line)
-    return inside, _lines(line, line), f"no statement begins in {asked} of {name}: line {line} was taken"
+    return inside, _lines(line, line), f"no statement begins in {_asked(wanted)} of {name}: line {line} was taken"
 
 
 def _lines(first: int, last: int) -> str:

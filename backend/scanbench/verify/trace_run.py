@@ -83,7 +83,7 @@ class TraceVerifier:
 
     def begin(self, range: Range, limit: int = DEFAULT_LIMIT, scan: int | None = None) -> Begun:
         """From now on this range; `BadRange`."""
-        self._range = resolve_range(self.program, self._sites, range)
+        self._range = resolve_range(self.program, self._sites, range, lambda file: len(self._texts.get(file, ())))
         self._limit = limit
         self._reader.columns = Columns()
         self._edits = {}

@@ -109,7 +109,7 @@ class Verifier:
             sites = both.control.loaded(version).debugged().sites
         except (NoProgram, RunFileError) as error:
             raise Unverifiable(str(error)) from error
-        resolved = resolve_range(program, sites, range)
+        resolved = resolve_range(program, sites, range, lambda file: len(self._lines(version, file)))
         self._range, self._limit = range, limit
         self._views, self._columns, self._edits = {}, Columns(), Edits()
         both.ran = []
@@ -237,11 +237,15 @@ class Verifier:
 
     def _line(self, version: int, file: str, line: int) -> str:
         """A line of a source file, trimmed."""
+        lines = self._lines(version, file)
+        return lines[line - 1].strip() if 0 < line <= len(lines) else ""
+
+    def _lines(self, version: int, file: str) -> list[str]:
+        """All lines of a source file; none where they are not known."""
         if self._texts_of is None:
-            return ""
+            return []
         if version not in self._texts:
             kept = self._source.kept(version)
             texts = {} if kept is None else self._texts_of(kept)
             self._texts[version] = {name: text.splitlines() for name, text in texts.items()}
-        lines = self._texts[version].get(file, [])
-        return lines[line - 1].strip() if 0 < line <= len(lines) else ""
+        return self._texts[version].get(file, [])

@@ -67,9 +67,9 @@ async def on_drive(
 
 
 @router.delete("/verifications/{verification}", status_code=204)
-async def on_delete(bench: Bench, verification: Id) -> None:
+async def on_delete(bench: Bench, request: Request, verification: Id) -> None:
     """Ends a verification, and forgets its rows."""
-    await bench.verifications.delete(verification)
+    await bench.verifications.delete(verification, user_of(request).name)
 
 
 @router.get("/verifications/{verification}/rows")

@@ -455,3 +455,10 @@ def test_the_monitor_leaves_all_of_it_out() -> None:
     )  # fmt: skip
     assert [type(each.command) for each in result.entries if not is_disturbance(each.command)] == [Write]
     assert {Hold, Unhold, Flip, Corrupt, Disturb, Calm} == {type(each.command) for each in result.entries} - {Write}
+
+
+def test_the_least_of_chances_never_comes() -> None:
+    resource = plc(SOURCE)
+    assert not isinstance(resource.submit(disturb(Disturbance("flip", "D1", 0, probability=5e-324))), Refusal)
+    resource.run(3)
+    assert resource.journal.derived(DISTURBED) == {}

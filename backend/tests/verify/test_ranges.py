@@ -101,6 +101,8 @@ def test_lines_without_a_statement_are_moved_and_that_is_said(text: str, line: i
         ("main.st:3-12", "a range is in one POU, and these lines are in 2: Belt, Main", ("Belt", "Main")),
         ("mian.st:3", "no statement of `mian.st` runs in this program. Did you mean main.st", ("main.st",)),
         ("Belt@Main.belt[3]", "outside of 1..2", ()),
+        ("main.st:400-401", "lines 400 to 401: the last statement of main.st ends in line 13", ()),
+        ("Belt:15", "line 15: the last statement of main.st ends in line 13", ()),
         ("Belt@Main", "Main is no instance of Belt", ()),
         ("Belt@Main.blet", "has no member `blet`", ("Main.belt",)),
     ],
@@ -110,3 +112,18 @@ def test_what_there_is_instead(text: str, message: str, near: tuple[str, ...]) -
         resolved(text)
     assert message in str(refused.value)
     assert set(near) <= set(refused.value.near)
+
+
+def test_lines_that_the_file_does_not_have() -> None:
+    made = program(SOURCE)
+
+    def asked(range: Range) -> Resolved:
+        return resolve_range(made, sites_of(made), range, lambda file: 20)
+
+    assert "line 13 was taken" in asked(Range(file="main.st", first=20, last=30)).note
+    with pytest.raises(BadRange, match="main.st has 20 lines: there are no lines 21 to 30"):
+        asked(Range(file="main.st", first=21, last=30))
+    with pytest.raises(BadRange, match="main.st has 20 lines: there is no line 21"):
+        asked(Range(pou="Belt", first=21, last=21))
+    with pytest.raises(BadRange, match="lines 3 to 4 of what"):
+        asked(Range(first=3, last=4))

@@ -225,6 +225,10 @@ def test_a_stuck_input_is_an_input_difference_while_it_is_another(tmp_path: Path
         assert row.inputs["start"].recorded == b"\0"
         assert row.inputs["start"].expected == b"\1"
         assert [each.cause for each in row.differences] == ["input"]
+    assert {row.scan: row.disturbances for row in found if row.disturbances} == {
+        scan: ("Input start stuck",) for scan in range(5, 10)
+    }
+    assert verifier(path, program(BELTS), "Main").step(8, 2).rows[0].disturbances == ("Input start stuck",)
     # the same when one goes there at once
     assert verifier(path, program(BELTS), "Main").verify(8).rows == (wrong[1],)
 

@@ -19,4 +19,7 @@ def _switched_off(request: pytest.FixtureRequest) -> Iterator[None]:
     if "server" in request.fixturenames:
         server = request.getfixturevalue("server")
         while server.made:
-            server.http.patch(f"/api/instances/{server.made.pop()}", json={"power": False})
+            instance = server.made.pop()
+            for each in server.http.get(f"/api/instances/{instance}/verifications").json():
+                server.http.delete(f"/api/verifications/{each['id']}")
+            server.http.patch(f"/api/instances/{instance}", json={"power": False})

@@ -213,6 +213,7 @@ def test_what_cannot_be_verified_says_why(server: Server) -> None:
         for wanted, words in (
             ({"range": {"pou": "Rampp"}}, "Ramp"),
             ({"range": {"file": "mian.st", "first": 4, "last": 6}}, "main.st"),
+            ({"range": {"file": "main.st", "first": 6, "last": 5}}, "none"),
             ({"first": scan + 10}, "not over yet"),
             ({"first": 3, "last": 1}, "none"),
         ):
@@ -258,3 +259,44 @@ def test_a_trace_of_a_real_controller(server: Server) -> None:
         f"/api/projects/{project}/traces", params={"name": "bad.csv"}, content="Scan,Main.level\n1,2\n1,x\n2"
     ).json()
     assert broken["problems"]
+
+
+def test_what_a_fast_plc_has_skipped_is_counted(server: Server) -> None:
+    instance = server.instance("too fast", MODEL, main=PROGRAM)
+    with server.browser(instance) as browser:
+        paused(browser)
+        begun = begin(server, instance)
+        first = begun["first"]
+        assert browser.ask(type="run", action="continue", speed=0)["ok"]
+        browser.wait(lambda: info(server, instance, begun["id"])["skipped"] > 1000, 60)
+        last = paused(browser)
+        browser.wait(lambda: info(server, instance, begun["id"])["scan"] == last - 1, 60)
+        stands = info(server, instance, begun["id"])
+        assert stands["compared"] + stands["skipped"] == last - first
+        assert stands["differing"] == 0
+        verified = {row["scan"] for row in rows(server, begun["id"])["rows"]}
+        for low, high in stands["stretches"]:
+            assert not verified & set(range(low, min(high, low + 10_000) + 1))
+
+
+def test_it_ends_with_its_run_and_lets_the_plc_go(server: Server) -> None:
+    instance = server.instance("run over", MODEL, main=PROGRAM)
+    with server.browser(instance) as browser:
+        browser.wait_state("running")
+        begun = begin(server, instance, pace="scan")
+        browser.wait_state("paused")
+        assert server.http.delete(f"/api/verifications/{begun['id']}").status_code == 204
+        browser.wait_state("running")  # it had only waited for the verification
+        begun = begin(server, instance)
+        browser.wait(lambda: info(server, instance, begun["id"])["compared"] > 5, 30)
+        assert browser.ask(type="new_run")["ok"]
+        stands = ended(browser, server, instance, begun["id"], "failed")
+        assert "new run" in stands["message"]
+        assert server.http.get(f"/api/verifications/{begun['id']}/rows").status_code == 200
+        begun = begin(server, instance, pace="scan")
+        paused(browser)
+        scans(browser, 2)
+        assert browser.ask(type="travel", scan=1)["ok"]
+        refused = server.http.patch(f"/api/verifications/{begun['id']}", json={"action": "go_on"})
+        assert refused.status_code == 422
+        assert "past" in refused.json()["message"]

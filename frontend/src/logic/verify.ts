@@ -20,6 +20,16 @@ export function differsIn(row: VerifyRow, { side, column }: Unit, memory: Verifi
   return input?.expected != null && input.expected !== input.recorded;
 }
 
+/** Where to look in a row that differs. */
+export const firstDifferingUnit = (
+  row: VerifyRow,
+  units: readonly Unit[],
+  memory: VerificationInfo["memory"],
+): Unit | undefined =>
+  units.find(({ side, column }) =>
+    row.differences.some(({ name, cause }) => name === column.name && (cause === "input") === (side === "input")),
+  ) ?? units.find((unit) => differsIn(row, unit, memory));
+
 /** The next row that differs, from a row on (null: from the front or the end); null when there is none. */
 export function nextDifferent(differing: readonly number[], from: number | null, by: 1 | -1): number | null {
   if (from === null) return (by === 1 ? differing[0] : differing.at(-1)) ?? null;

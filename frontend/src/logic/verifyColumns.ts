@@ -89,7 +89,7 @@ export interface Track {
   unit: Unit | null;
 }
 
-const FIXED = { mark: 26, scan: 82, call: 46, instance: 150, place: 190, from: 84, disturbance: 210, note: 320 };
+const FIXED = { mark: 26, scan: 82, call: 46, instance: 150, place: 190, from: 84, disturbance: 264, note: 320 };
 
 /** Of the kind of value, and of the name above it. */
 function widthOf({ column, side }: Unit): number {

@@ -56,20 +56,29 @@ export function resetVerify(): void {
   set(nothing);
 }
 
+/** How often the socket has told: what it told since a request was sent is newer than the answer. */
+let told = 0;
+
 /** On the first look and after a lost connection. */
 export async function refreshVerifications(): Promise<void> {
   const instance = instanceId();
   if (instance === null) return;
+  const before = told;
   try {
     const verifications = await wire.all(instance);
-    if (instanceId() === instance) onVerifications(verifications);
+    if (instanceId() === instance && told === before) take(verifications);
   } catch (error) {
     fail(error);
   }
 }
 
-/** The first one that there is, is shown; later ones only when somebody here began them. */
 export function onVerifications(verifications: readonly VerificationInfo[]): void {
+  told += 1;
+  take(verifications);
+}
+
+/** The first one that there is, is shown; later ones only when somebody here began them. */
+function take(verifications: readonly VerificationInfo[]): void {
   set(({ id }) => ({
     verifications,
     id: verifications.some((known) => known.id === id) ? id : (verifications.at(-1)?.id ?? null),
@@ -82,6 +91,13 @@ function put(info: VerificationInfo): void {
       ? verifications.map((known) => (known.id === info.id ? info : known))
       : [...verifications, info],
   }));
+}
+
+/** Sends what changes one; its answer counts as long as the socket has told nothing since. */
+async function changed(request: Promise<VerificationInfo>): Promise<void> {
+  const before = told;
+  const info = await request;
+  if (told === before && get().verifications.some(({ id }) => id === info.id)) put(info);
 }
 
 // ---- looking ------------------------------------------------------------------------------------------------------
@@ -171,7 +187,7 @@ export async function drive(how: Partial<DriveVerification>): Promise<boolean> {
   const shown = shownNow();
   if (shown?.source.kind !== "verification") return false;
   try {
-    put(await wire.drive(shown.source.id, { pace: null, auto: null, memory: null, action: null, ...how }));
+    await changed(wire.drive(shown.source.id, { pace: null, auto: null, memory: null, action: null, ...how }));
     set({ trouble: null });
     return true;
   } catch (error) {
@@ -185,7 +201,7 @@ export async function setCell(scan: number, call: number, column: string, value:
   const shown = shownNow();
   if (shown?.source.kind !== "verification") return null;
   try {
-    put(await wire.setCells(shown.source.id, [{ scan, call, column, value }]));
+    await changed(wire.setCells(shown.source.id, [{ scan, call, column, value }]));
     if (shown.info.memory !== "set") await drive({ memory: "set" });
     return null;
   } catch (error) {
@@ -199,7 +215,7 @@ export async function deleteVerification(): Promise<void> {
   const { id } = shown.source;
   try {
     await wire.delete(id);
-    onVerifications(get().verifications.filter((known) => known.id !== id));
+    take(get().verifications.filter((known) => known.id !== id));
   } catch (error) {
     fail(error);
   }

@@ -21,6 +21,8 @@ interface Rows {
   selected: number | null;
   /** Of the column of cells that has the keys. */
   track: string | null;
+  /** The row that was jumped to, until the table shows what differs in it. */
+  sought: number | null;
   /** The cell that shall be edited, until the table does it. */
   wanted: { index: number; track: string } | null;
 }
@@ -35,6 +37,7 @@ const nothing: Omit<Rows, "onlyDiffering"> = {
   differing: [],
   selected: null,
   track: null,
+  sought: null,
   wanted: null,
 };
 
@@ -101,6 +104,9 @@ function wantsNews(): { first: number; count: number } | null {
   if (!shown || !isStale()) return null;
   const rows = get();
   const other = rows.of !== keyOf(shown.source) || rows.generation !== shown.info.generation;
+  // At the end of the table the new rows come along with the news that there are some.
+  if (!other && !rows.onlyDiffering && sight.to >= lineCount(rows) && shown.info.rows > rows.count)
+    return { first: Math.max(rows.count, shown.info.rows - PAGE / 2), count: PAGE };
   return { first: firstInSight(), count: other ? PAGE : 0 };
 }
 
@@ -199,6 +205,8 @@ export function editInput(row: VerifyRow, name: string): void {
   set({ selected: row.index, track: `input:${name}`, wanted: { index: row.index, track: `input:${name}` } });
 }
 
+export const soughtFound = () => set({ sought: null });
+
 export const editBegun = () => set({ wanted: null });
 
 /** To the first, next or previous row that differs, from the one that is looked at. Null: there is none. */
@@ -206,7 +214,7 @@ export function goToDifference(which: "first" | "next" | "previous"): number | n
   const { differing, selected } = get();
   const from = which === "first" ? null : selected;
   const found = nextDifferent(differing, from, which === "previous" ? -1 : 1);
-  if (found !== null) set({ selected: found });
+  if (found !== null) set({ selected: found, sought: found });
   return found;
 }
 

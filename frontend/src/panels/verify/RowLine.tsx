@@ -203,7 +203,7 @@ function EditCell({ editing, track }: { editing: Editing; track: Track }) {
         value={editing.draft}
         spellCheck={false}
         autoComplete="off"
-        onFocus={(event) => event.target.select()}
+        onFocus={(event) => editing.fresh && event.target.select()}
         onChange={(event) => editing.type(event.target.value)}
         onKeyDown={(event) => {
           if (event.key === "Enter") editing.enter();

@@ -1,4 +1,4 @@
-import { useVirtualizer } from "@tanstack/react-virtual";
+import { defaultRangeExtractor, type Range, useVirtualizer } from "@tanstack/react-virtual";
 import {
   type CSSProperties,
   type KeyboardEvent,
@@ -10,11 +10,11 @@ import {
   useState,
 } from "react";
 import { t } from "../../logic/text";
-import { isGoing } from "../../logic/verify";
+import { firstDifferingUnit, isGoing } from "../../logic/verify";
 import { arranged, type Track, tracksInSight, tracksOf, unitsOf, wholeWidth } from "../../logic/verifyColumns";
 import type { ShownVerification } from "../../store/verify";
 import { useArrangement } from "../../store/verifyColumns";
-import { editBegun, indexAt, lineCount, lineOfRow, seeLines, selectRow, useVerifyRows } from "../../store/verifyRows";
+import { editBegun, indexAt, lineCount, lineOfRow, seeLines, selectRow, soughtFound, useVerifyRows } from "../../store/verifyRows";
 import { Menu, type MenuItem } from "../../ui/Menu";
 import { useKeptScroll } from "../../ui/useKeptScroll";
 import { columnMenu } from "./columnMenu";
@@ -43,6 +43,7 @@ export function Table({ shown }: { shown: ShownVerification }) {
   const across = useAcross(grid);
   const drawn = useMemo(() => tracksInSight(tracks, across.left, across.width), [tracks, across]);
   const count = lineCount(rows);
+  const follow = useFollowing(grid, isGoing(info) && info.source === "live" && info.pace === "free", rows.selected);
   const virtual = useVirtualizer({
     count,
     getScrollElement: () => grid.current,
@@ -51,16 +52,31 @@ export function Table({ shown }: { shown: ShownVerification }) {
     scrollMargin: HEAD,
     scrollPaddingStart: HEAD,
     getItemKey: (line) => indexAt(rows, line),
+    rangeExtractor: (range) => defaultRangeExtractor(follow.isOn() ? endOf(range) : range),
   });
   const items = virtual.getVirtualItems();
   const from = items[0]?.index ?? 0;
   const to = (items.at(-1)?.index ?? -1) + 1;
   useEffect(() => seeLines(from, Math.max(to, from + 40)), [from, to]);
   useHeldPlace(grid, rows.first, rows.onlyDiffering);
-  useFollowing(grid, count, isGoing(info) && info.source === "live" && info.pace === "free", rows.selected);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: more rows are the reason
+  useLayoutEffect(() => {
+    if (follow.isOn() && grid.current) grid.current.scrollTop = grid.current.scrollHeight;
+  }, [count, rows.selected]);
   const at = rows.selected === null ? -1 : lineOfRow(rows, rows.selected);
   useReveal(at, (line) => virtual.scrollToIndex(line, { align: "auto" }));
   const editing = useEditing(shown, grid);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: a jump leads to the cell that differs, once
+  useEffect(() => {
+    const row = rows.sought === null ? undefined : rows.byIndex.get(rows.sought);
+    if (!row) return;
+    soughtFound();
+    const unit = firstDifferingUnit(row, units, info.memory);
+    const track = tracks.find((each) => each.unit === unit);
+    if (!unit || !track) return;
+    selectRow(row.index, track.key);
+    reveal(grid.current, tracks, track);
+  }, [rows.sought, rows.byIndex, tracks]);
   // biome-ignore lint/correctness/useExhaustiveDependencies: the wish is the reason, once
   useEffect(() => {
     const track = tracks.find(({ key }) => key === rows.wanted?.track);
@@ -213,13 +229,19 @@ function useHeldPlace(grid: { current: HTMLDivElement | null }, first: number, o
   }, [first, onlyDiffering, grid]);
 }
 
+/** As many lines at the end: they are drawn at once, not when the browser has told that it scrolled there. */
+const endOf = (range: Range): Range => ({
+  ...range,
+  startIndex: Math.max(0, range.count - 1 - (range.endIndex - range.startIndex)),
+  endIndex: range.count - 1,
+});
+
 /** At the end of one that runs freely the newest rows come into sight by themselves, until somebody looks at another one. */
 function useFollowing(
   grid: { current: HTMLDivElement | null },
-  count: number,
   live: boolean,
   selected: number | null,
-): void {
+): { isOn: () => boolean } {
   const follows = useRef(live);
   useEffect(() => {
     const element = grid.current;
@@ -238,11 +260,7 @@ function useFollowing(
       element.removeEventListener("wheel", stop);
     };
   }, [grid]);
-  // biome-ignore lint/correctness/useExhaustiveDependencies: more rows are the reason
-  useLayoutEffect(() => {
-    if (live && follows.current && selected === null && grid.current)
-      grid.current.scrollTop = grid.current.scrollHeight;
-  }, [count, live, selected, grid]);
+  return { isOn: () => live && follows.current && selected === null };
 }
 
 /** Where a jump leads comes into sight; what goes on meanwhile moves nothing. */

@@ -10,6 +10,8 @@ import type { VerifyRow } from "../../wire/types";
 export interface Editing {
   at: { index: number; track: string } | null;
   draft: string;
+  /** Nothing was typed yet: the first key replaces what stands there. */
+  fresh: boolean;
   refused: string | null;
   begin: (row: VerifyRow, track: Track) => void;
   type: (text: string) => void;
@@ -21,6 +23,7 @@ export interface Editing {
 export function useEditing(shown: ShownVerification, grid: RefObject<HTMLElement | null>): Editing {
   const [at, setAt] = useState<{ index: number; track: string; row: VerifyRow; of: Track } | null>(null);
   const [draft, setDraft] = useState("");
+  const [fresh, setFresh] = useState(true);
   const [refused, setRefused] = useState<string | null>(null);
   const range = shown.info.title;
   const formatOf = (name: string) =>
@@ -33,6 +36,7 @@ export function useEditing(shown: ShownVerification, grid: RefObject<HTMLElement
     if (!input) return;
     setAt({ index: row.index, track: track.key, row, of: track });
     setDraft(shownValue(column, input.set ?? input.recorded, formatOf(column.name)).text);
+    setFresh(true);
     setRefused(null);
     selectRow(row.index, track.key);
   }
@@ -41,6 +45,11 @@ export function useEditing(shown: ShownVerification, grid: RefObject<HTMLElement
     setAt(null);
     setRefused(null);
     grid.current?.focus();
+  }
+
+  function type(text: string): void {
+    setDraft(text);
+    setFresh(false);
   }
 
   async function enter(): Promise<void> {
@@ -53,5 +62,5 @@ export function useEditing(shown: ShownVerification, grid: RefObject<HTMLElement
     else setRefused(why);
   }
 
-  return { at, draft, refused, begin, type: setDraft, enter: () => void enter(), leave };
+  return { at, draft, fresh, refused, begin, type, enter: () => void enter(), leave };
 }
