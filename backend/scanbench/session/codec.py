@@ -79,7 +79,7 @@ _CLASSES: dict[str, type] = {
         Column, Input, Mismatch, Output, Place, Range, Row, Change, Changes, Divergence, RerunChange, Writer, DisturbanceInfo,
         verify_protocol.BeginVerify, verify_protocol.BeginTrace, verify_protocol.VerifyScans, verify_protocol.VerifyStep,
         verify_protocol.SetInputs, verify_protocol.UsesOf, verify_protocol.VerifyBegun, verify_protocol.VerifyRefused,
-        verify_protocol.PackedRow, verify_protocol.ScansVerified, verify_protocol.UseRow, verify_protocol.UsesAre,
+        verify_protocol.PackedRow, verify_protocol.KeptRows, verify_protocol.ScansVerified, verify_protocol.UseRow, verify_protocol.UsesAre,
         verify_protocol.FindWriter, verify_protocol.WriterFound, verify_protocol.FindChanges, verify_protocol.ChangesFound,
         verify_protocol.CompareRuns, verify_protocol.PastAt, verify_protocol.RunsCompared, verify_protocol.RerunRun,
         verify_protocol.RerunDone, events.VerificationStatus, events.VerifyWish,

@@ -87,6 +87,8 @@ class Instance:
         self._answers: dict[int, asyncio.Future[object]] = {}
         self._next_ref = 1
         self._deaths = 0
+        self.runs = 0
+        """New runs that began since the server started."""
         self._stopping = False
 
     @property
@@ -300,6 +302,7 @@ class Instance:
 
     def _begin(self, sources: protocol.Sources | None) -> None:
         memory = self._memory
+        self.runs += 1
         memory.sources = sources or memory.sources
         memory.scan = self._deaths = 0
         memory.end = memory.condition = None

@@ -76,6 +76,16 @@ class Pasts:
         await asyncio.gather(*(job.end() for job in jobs if job is not None))
         await asyncio.gather(*self._tasks, return_exceptions=True)
 
+    async def forget_instance(self, instance: int) -> None:
+        """Ends what was asked of an instance that goes."""
+        for id, each in list(self._comparisons.items()):
+            if instance in (each.changed.a, each.changed.b):
+                await self.forget(id)
+        for id, rerun in list(self._reruns.items()):
+            if rerun.session.id == instance:
+                rerun.ended = True
+                await self._over(id)
+
     # ---- questions ------------------------------------------------------------------------------------------------
 
     async def last_writer(self, session: Session, path: str, scan: int | None) -> Writer:

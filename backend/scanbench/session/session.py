@@ -120,6 +120,11 @@ class Session:
         return self._instance.on
 
     @property
+    def runs(self) -> int:
+        """New runs that began since the server started."""
+        return self._instance.runs
+
+    @property
     def run_file(self) -> Path:
         """Where the run is recorded."""
         return self._instance.run_file

@@ -35,6 +35,8 @@ BEHIND = 256
 """Scans that a verification of a PLC that runs may be behind; then it goes on with the newest ones."""
 CAUGHT_UP = 64
 """So many of the newest it goes on with then."""
+AT_ONCE = 200
+"""Scans that are asked for at once: so soon it can be stopped, or take another pace."""
 STRETCHES = 100
 _RUNS = ("running",)
 
@@ -65,6 +67,7 @@ class Verification:
         self._job = Job(cache, self._on_message, self._on_end)
         self._answers: dict[int, asyncio.Future[object]] = {}
         self._next_ref = 1
+        self._run = session.runs
         self._gone = False
         """Its process has ended."""
         self._busy: int | None = None
@@ -207,10 +210,12 @@ class Verification:
     def _poke(self) -> None:
         """Asks for what is to be verified now, unless something is."""
         status, live = self.status, self._live_scan
-        if self._busy is not None or status.state in ("starting", "stopped", "done", "failed"):
+        if status.state in ("starting", "stopped", "done", "failed"):
             return
-        if status.source == "live" and live < self._next:
+        if status.source != "trace" and self.session.runs != self._run:
             self._change(state="failed", message="a new run began: begin another verification")
+        elif self._busy is not None:
+            return
         elif status.source != "live":
             self._poke_past(live)
         elif status.pace == "step":
@@ -256,6 +261,7 @@ class Verification:
 
     def _scans(self, first: int, last: int, until: int) -> None:
         self._stepping = 0
+        last = min(last, first + AT_ONCE - 1)
         self._busy = self._send(lambda ref: VerifyScans(ref, first, last, until))
         if self.status.state != "verifying":
             self._change(state="verifying", message="")
@@ -347,6 +353,8 @@ class Verification:
 
     def _verified(self, came: ScansVerified) -> None:
         status = self.status
+        if status.state == "failed":  # what comes behind it may be of another run
+            return
         self.rows.add(came)
         over = not self._stepping or (self._stepping > 0 and bool(came.rows) and came.rows[-1].count == 0)
         if over:

@@ -1,7 +1,6 @@
 """The verifications of a server: those that go on, and those that somebody kept."""
 
 import asyncio
-from collections.abc import Iterable
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Literal
@@ -14,7 +13,7 @@ from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.session.trace_files import TraceFile
 from scanbench.session.verification import TraceSource, Verification
-from scanbench.session.verify_protocol import ScansVerified, UseRow
+from scanbench.session.verify_protocol import KeptRows, UseRow
 from scanbench.session.verify_rows import Rows, RowsPage
 from scanbench.store.records import Json, KeptRow, NotFound
 from scanbench.store.store import Store
@@ -23,7 +22,7 @@ from scanbench.verify.report import Report, ReportHead
 from scanbench.verify.report_html import to_html
 from scanbench.verify.report_json import to_json
 from scanbench.verify.table_csv import to_csv
-from scanbench.verify.verified import Memory, Range, Row
+from scanbench.verify.verified import Memory, Range
 
 MOST = 10
 """Verifications at a time: each is a process."""
@@ -63,6 +62,7 @@ class Verifications:
         """Of each when it was told last, and what."""
         self._later: asyncio.TimerHandle | None = None
         self._untold: set[int] = set()
+        self._read_last: dict[int, Rows] = {}
 
     def tidy(self) -> None:
         """Removes files that belong to nothing any more. Waits for the disk."""
@@ -141,18 +141,18 @@ class Verifications:
         """The used-variable record of one row."""
         return await self._one(id).uses(scan, call)
 
-    def rows(self, id: int, first: int, count: int, differing: bool) -> RowsPage:
+    async def rows(self, id: int, first: int, count: int, differing: bool) -> RowsPage:
         """Rows from index `first` on."""
-        return self._one(id).rows.page(first, count, differing)
+        return await asyncio.to_thread(self._one(id).rows.as_now().page, first, count, differing)
 
     async def export(self, id: int, format: Format) -> Exported:
         """All rows that are kept, as a file."""
         verification = self._one(id)
         session, status = verification.session, verification.status
-        when, rows = iso(wall_time()), list(verification.rows.all())
+        when, rows = iso(wall_time()), verification.rows.as_now()
         project = (await asyncio.to_thread(self._store.project, session.project_id)).name
         head = _head(status, project, session.name, session.sources.model, when)
-        return await asyncio.to_thread(_exported, head, verification.rows, rows, format)
+        return await asyncio.to_thread(_exported, head, rows, format)
 
     def _one(self, id: int) -> Verification:
         verification = self._all.get(id)
@@ -211,22 +211,17 @@ class Verifications:
     async def keep(self, id: int, name: str, author: str) -> Kept:
         """Keeps one in the project, as it is now."""
         verification = self._one(id)
-        session, status, rows = verification.session, verification.status, verification.rows
+        session, status, rows = verification.session, verification.status, verification.rows.as_now()
         if not rows.kept:
             raise Refused("nothing was verified yet: let it run first")
         content: Json = {"status": pack_body(status).hex(), "model": session.sources.model}
-        packed = pack(
-            ScansVerified(
-                0, 0, rows.first, tuple(rows.kept), tuple(rows.columns), tuple(rows.inputs), tuple(rows.outputs), 0
-            )
-        )
         row = await asyncio.to_thread(
             lambda: self._store.keep(
                 "verification", session.project_id, name=name, instance=session.name, content=content, by=author
             )
         )
         try:
-            await asyncio.to_thread(self._path(row.id).write_bytes, packed)
+            await asyncio.to_thread(lambda: self._path(row.id).write_bytes(pack(rows.packed())))
         except OSError as error:
             await asyncio.to_thread(self._store.forget, "verification", row.id)
             raise Refused(f"the record cannot be kept: {error.strerror}") from error
@@ -240,27 +235,26 @@ class Verifications:
     async def record_rows(self, id: int, first: int, count: int, differing: bool) -> RowsPage:
         """Its rows, as those of a verification."""
         await self.record(id)
-        rows = await asyncio.to_thread(self._read, id)
-        return await asyncio.to_thread(rows.page, first, count, differing)
+        return await asyncio.to_thread(lambda: self._read(id).page(first, count, differing))
 
     async def export_record(self, id: int, format: Format) -> Exported:
         """Its rows as a file."""
         kept = await self.record(id)
         project = (await asyncio.to_thread(self._store.project, kept.row.project)).name
-        rows = await asyncio.to_thread(self._read, id)
         head = _head(kept.status, project, kept.row.instance, str(kept.row.content["model"]), iso(kept.row.at))
-        return await asyncio.to_thread(lambda: _exported(head, rows, list(rows.all()), format))
+        return await asyncio.to_thread(lambda: _exported(head, self._read(id), format))
 
     def _read(self, id: int) -> Rows:
-        try:
-            data = self._path(id).read_bytes()
-            (came,) = Splitter().feed(data)
-        except (OSError, ValueError, BadMessage) as error:
-            raise Refused(f"the rows of this record cannot be read: {error}") from error
-        assert isinstance(came, ScansVerified)
-        rows = Rows(list(came.columns), dict.fromkeys(came.inputs), dict.fromkeys(came.outputs), first=came.compared)
-        rows.kept = list(came.rows)
-        rows.differing = [rows.first + at for at, row in enumerate(rows.kept) if row.first is not None]
+        """Those that were read last stay in memory: whoever looks at them turns pages."""
+        rows = self._read_last.get(id)
+        if rows is None:
+            try:
+                (came,) = Splitter().feed(self._path(id).read_bytes())
+            except (OSError, ValueError, BadMessage) as error:
+                raise Refused(f"the rows of this record cannot be read: {error}") from error
+            assert isinstance(came, KeptRows)
+            rows = Rows.of(came)
+            self._read_last = {id: rows}
         return rows
 
     def _path(self, id: int) -> Path:
@@ -282,8 +276,8 @@ def _head(status: VerificationStatus, project: str, instance: str, model: str, w
     )  # fmt: skip
 
 
-def _exported(head: ReportHead, rows: Rows, kept: Iterable[Row], format: Format) -> Exported:
-    report = Report(head, tuple(rows.columns), tuple(kept), tuple(rows.inputs), tuple(rows.outputs))
+def _exported(head: ReportHead, rows: Rows, format: Format) -> Exported:
+    report = Report(head, tuple(rows.columns), tuple(rows.all()), tuple(rows.inputs), tuple(rows.outputs))
     if format == "csv":
         text = "".join(to_csv(report))
     elif format == "json":

@@ -178,6 +178,8 @@ def _text(column: Column | None, value: bytes | None) -> str | None:
 
 
 def _words(why: Exception) -> str:
+    if isinstance(why, FileNotFoundError):
+        return "the run has not begun yet: try again when the PLC has started"
     if isinstance(why, BadTraceFile):
         return "; ".join(map(str, why.problems[:3]))
     return why.strerror or str(why) if isinstance(why, OSError) else str(why)

@@ -1,7 +1,7 @@
 """What the parent and a job process say to each other about verification and about the past of a run.
 
-One process belongs to one verification: it re-runs the run file natively (the control device), runs the monitor beside it,
-and keeps the rows. All requests are answered in order, each with `Done`-like answers of its own; rows come as they are made.
+One process belongs to one verification: it re-runs the run file natively (the control device), and the monitor beside it. Requests are
+answered in order; rows come as they are made, and the parent keeps them. Another process answers the questions about the past.
 """
 
 from dataclasses import dataclass
@@ -60,9 +60,7 @@ class VerifyScans:
 @dataclass(frozen=True, slots=True)
 class VerifyStep:
     """Both sides at the statement of this count of a scan (0: the end of the scan in front of it), compared there. Answered
-    with `ScansVerified`, one row of kind `step`.
-
-    `entries` of the scan that is halted are in the run file already."""
+    with `ScansVerified`, one row of kind `step`."""
 
     ref: int
     scan: int
@@ -149,6 +147,18 @@ class ScansVerified:
 
 
 @dataclass(frozen=True, slots=True)
+class KeptRows:
+    """The rows of a verification that was kept, in a file of its own."""
+
+    first: int
+    """Index of the first."""
+    rows: tuple[PackedRow, ...]
+    columns: tuple[Column, ...]
+    inputs: tuple[str, ...]
+    outputs: tuple[str, ...]
+
+
+@dataclass(frozen=True, slots=True)
 class UseRow:
     """See `verified.Use`."""
 
@@ -170,7 +180,7 @@ class UsesAre:
     uses: tuple[UseRow, ...]
 
 
-# ---- the past: one job process of an instance answers all of these -------------------------------------------------
+# ---- the past: one process for the questions of all, one for each comparison and replay ----------------------------
 
 
 @dataclass(frozen=True, slots=True)

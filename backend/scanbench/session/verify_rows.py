@@ -2,10 +2,10 @@
 
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 
 from scanbench.session.codec import unpack
-from scanbench.session.verify_protocol import PackedRow, ScansVerified
+from scanbench.session.verify_protocol import KeptRows, PackedRow, ScansVerified
 from scanbench.verify.verified import Column, Row
 
 MOST_ROWS = 20_000
@@ -83,6 +83,26 @@ class Rows:
         """Every row that is kept."""
         return map(row_of, self.kept)
 
+    def as_now(self) -> "Rows":
+        """For another thread: it unpacks, while rows come in here."""
+        return replace(
+            self, columns=[*self.columns], inputs={**self.inputs}, outputs={**self.outputs}, kept=[*self.kept],
+            differing=[*self.differing],
+        )  # fmt: skip
+
+    def packed(self) -> KeptRows:
+        """To be kept."""
+        return KeptRows(self.first, tuple(self.kept), tuple(self.columns), tuple(self.inputs), tuple(self.outputs))
+
+    @staticmethod
+    def of(kept: KeptRows) -> "Rows":
+        """As they were kept."""
+        differing = [kept.first + at for at, row in enumerate(kept.rows) if row.first is not None]
+        return Rows(
+            list(kept.columns), dict.fromkeys(kept.inputs), dict.fromkeys(kept.outputs), list(kept.rows), kept.first,
+            differing, sum(len(row.data) for row in kept.rows),
+        )  # fmt: skip
+
     def _learn(self, came: ScansVerified) -> None:
         known = {each.name for each in self.columns}
         self.columns += [each for each in came.columns if each.name not in known]
@@ -90,14 +110,14 @@ class Rows:
         self.outputs.update(dict.fromkeys(came.outputs))
 
     def _forget(self) -> None:
-        gone = max(0, len(self.kept) - MOST_ROWS)
-        while self.bytes > MOST_BYTES and gone < len(self.kept):
-            self.bytes -= len(self.kept[gone].data)
+        gone, freed = 0, 0
+        while len(self.kept) - gone > MOST_ROWS or self.bytes - freed > MOST_BYTES:
+            freed += len(self.kept[gone].data)
             gone += 1
         if gone:
             del self.kept[:gone]
             self.first += gone
-            self.bytes = sum(len(row.data) for row in self.kept)
+            self.bytes -= freed
             del self.differing[: bisect_left(self.differing, self.first)]
 
 

@@ -246,6 +246,7 @@ class Workbench:
         if session is None:
             raise NotFound(f"there is no instance {id}")
         await self.verifications.forget_instance(id)
+        await self.pasts.forget_instance(id)
         await session.stop()
         await self._keeper.flush()
         await asyncio.to_thread(self._store.delete_instance, id)

@@ -49,7 +49,8 @@ class Begin:
     loaded: Loaded
     memory: bytes
     journal: Journal
-    """With what is entered inside of the scan."""
+    entries: int
+    """Of the journal, with those that are entered inside of the scan: it may have grown since."""
 
 
 @dataclass(slots=True)
@@ -74,11 +75,12 @@ class Side:
         """In front of a scan, with all that is entered in it."""
         self._frames = {}
         journal = self.resource.journal
-        return Begin(self.resource.loaded, bytes(self.memory), journal.prefix(len(journal)))
+        return Begin(self.resource.loaded, bytes(self.memory), journal, len(journal))
 
     def stand(self, begin: Begin) -> None:
-        """Back to where a scan began. The journal is a copy."""
-        self.resource.restore(begin.loaded, begin.memory, begin.journal.prefix(len(begin.journal)))
+        """Back to where a scan began. A run that is run again enters nothing, so the journal need not be a copy."""
+        journal = begin.journal if len(begin.journal) == begin.entries else begin.journal.prefix(begin.entries)
+        self.resource.restore(begin.loaded, begin.memory, journal)
 
     def run(self, hook: Onlooker | None, listen: Listen | None = None) -> Stop:
         """One scan, in the debug flavour where somebody listens."""

@@ -19,7 +19,7 @@ from scanbench.web.reach import Bench, file_body
 from scanbench.web.translate_errors import command_result
 
 router = APIRouter(prefix="/api", tags=["verification"])
-Count = Annotated[int, Query(ge=0, le=2000)]
+Count = Annotated[int, Query(ge=0, le=500)]
 Format = Literal["csv", "json", "html"]
 
 
@@ -77,7 +77,7 @@ async def on_rows(
     bench: Bench, verification: Id, first: Scan = 0, count: Count = 200, differing: bool = False
 ) -> wire.VerifyRows:
     """Rows from index `first` on; with `differing` only those that differ count."""
-    return translate_verify.rows(bench.verifications.rows(verification, first, count, differing))
+    return translate_verify.rows(await bench.verifications.rows(verification, first, count, differing))
 
 
 @router.post("/verifications/{verification}/cells")

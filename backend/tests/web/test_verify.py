@@ -37,7 +37,7 @@ def info(server: Server, instance: int, id: int) -> Message:
 
 
 def rows(server: Server, id: int, **query: object) -> Message:
-    reply = server.http.get(f"/api/verifications/{id}/rows", params={"count": 2000, **query})  # type: ignore[dict-item]
+    reply = server.http.get(f"/api/verifications/{id}/rows", params={"count": 500, **query})  # type: ignore[dict-item]
     assert reply.status_code == 200, reply.text
     found: Message = reply.json()
     return found
@@ -293,6 +293,7 @@ def test_it_ends_with_its_run_and_lets_the_plc_go(server: Server) -> None:
         stands = ended(browser, server, instance, begun["id"], "failed")
         assert "new run" in stands["message"]
         assert server.http.get(f"/api/verifications/{begun['id']}/rows").status_code == 200
+        browser.wait(lambda: server.state(instance)["state"] == "running", 30)
         begun = begin(server, instance, pace="scan")
         paused(browser)
         scans(browser, 2)

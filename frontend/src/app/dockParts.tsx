@@ -143,5 +143,5 @@ function ClosableTab({ panel, name, onClose, children }: ClosableProps) {
 
 /** At the end of the tabs: what belongs to the error simulator as a whole, or the room that a page takes. */
 export function HeaderEnd(props: IDockviewHeaderActionsProps) {
-  return props.panels.some((panel) => panel.id === "errors") ? <PanelEnd /> : <PageEnd {...props} />;
+  return props.activePanel?.id === "errors" ? <PanelEnd /> : <PageEnd {...props} />;
 }

@@ -30,6 +30,8 @@ export const disturbEnglish = {
   "disturb.count": "{count} disturbances",
   "disturb.count.one": "1 disturbance",
   "disturb.menu": "Disturb…",
+  "disturb.near": "Did you mean",
+  "disturb.taken": "{message}, entered before scan {scan}",
   "disturb.next": "next in scan {scan}",
   "disturb.noinstance": "No virtual PLC is chosen. Choose one at the top left to disturb it.",
   "disturb.none": "Nothing disturbs this PLC",

@@ -32,6 +32,8 @@ export const disturbJapanese: Record<keyof typeof disturbEnglish, string> = {
   "disturb.count": "外乱 {count} 件",
   "disturb.count.one": "外乱 1 件",
   "disturb.menu": "外乱を与える…",
+  "disturb.near": "もしかして:",
+  "disturb.taken": "{message}、スキャン {scan} の前に入力",
   "disturb.next": "次はスキャン {scan}",
   "disturb.noinstance": "仮想 PLC が選ばれていません。左上で選ぶと外乱を与えられます。",
   "disturb.none": "この PLC に外乱はありません",

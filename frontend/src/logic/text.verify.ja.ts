@@ -69,6 +69,9 @@ export const verifyJapanese: Record<keyof typeof verifyEnglish, string> = {
   "verify.head.note": "備考",
   "verify.head.place": "文",
   "verify.head.scan": "スキャン",
+  "verify.hint.differs.one": "1 行に相違があります。「最初の相違」で移動します。",
+  "verify.hint.forgotten":
+    "{count} 行に相違がありましたが、古いため保持されていません。そのスキャンをもう一度検証してください。",
   "verify.hint.differs": "{count} 行に相違があります。「最初の相違」で移動します。",
   "verify.hint.keys": "矢印キーで表を移動、Enter または F2 で入力を編集、Alt+矢印で列を移動します。",
   "verify.hint.none": "比較したスキャンはまだありません。",
@@ -86,7 +89,7 @@ export const verifyJapanese: Record<keyof typeof verifyEnglish, string> = {
   "verify.memory": "モニタの入力",
   "verify.menu": "検証",
   "verify.near": "もしかして: {near}",
-  "verify.new.about": "リファレンスのインタープリタが PLC と並行して実行します。PLC が遅くなることはありません。",
+  "verify.new.about": "リファレンスのインタープリタがプログラムをもう一度実行し、結果を比較します。",
   "verify.new.file": "ファイル",
   "verify.new.first": "開始行",
   "verify.new.instance.all": "すべてのインスタンス",
@@ -199,5 +202,7 @@ export const verifyJapanese: Record<keyof typeof verifyEnglish, string> = {
   "verify.uses.read": "読み",
   "verify.uses.written": "書き",
   "verify.uses": "使用した変数",
+  "verify.kept": "{name} として保存しました",
+  "verify.writer.none": "行の変数を選んでください",
   "verify.whole": "プログラム全体を検証",
 };

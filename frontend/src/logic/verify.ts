@@ -1,5 +1,5 @@
 /** Rows of a verification: what differs in them, and the way from difference to difference. */
-import type { VerificationInfo, VerifyOutput, VerifyRow } from "../wire/types";
+import type { VerificationInfo, VerifyDifference, VerifyOutput, VerifyRow } from "../wire/types";
 import { grouped } from "./numbers";
 import type { Unit } from "./verifyColumns";
 
@@ -19,6 +19,27 @@ export function differsIn(row: VerifyRow, { side, column }: Unit, memory: Verifi
   const input = row.inputs[column.name];
   return input?.expected != null && input.expected !== input.recorded;
 }
+
+/** A column that stands for a variable; null: what is told there is none, as `next statement`. */
+export function variableOf(difference: VerifyDifference | null, track: string | null): string | null {
+  const name = difference?.name ?? /^(?:input|output):(.*?)(?::A'?)?$/.exec(track ?? "")?.[1] ?? "";
+  const plain = name.replace(/ \((?:part|global)\)$/, "");
+  return plain === "" || plain.includes(" ") || difference?.cause === "trap" ? null : plain;
+}
+
+/** The path of a column: what the block of the row has inside, else the name is a path or an address already. */
+export function memberOf(instance: string, inside: readonly { path: string }[], column: string): string {
+  const path = `${instance}.${column}`.toUpperCase();
+  const isBelow = inside.some((member) => {
+    const head = member.path.toUpperCase();
+    return path.startsWith(head) && !/\w/.test(path[head.length] ?? "");
+  });
+  return isBelow ? `${instance}.${column}` : column;
+}
+
+/** An input was written before the scan; what came out of the scan is there when the next one begins. */
+export const writtenBefore = (row: VerifyRow, difference: VerifyDifference | null) =>
+  difference?.cause === "input" ? row.scan : row.scan + 1;
 
 /** Where to look in a row that differs. */
 export const firstDifferingUnit = (

@@ -2,6 +2,7 @@
 import { useSyncExternalStore } from "react";
 import { create } from "zustand";
 import { type DisturbForm, plainDisturbance, readDisturbance } from "../logic/disturb";
+import { grouped } from "../logic/numbers";
 import { t } from "../logic/text";
 import { disturbances as wire } from "../wire/disturb";
 import { Refused } from "../wire/rest";
@@ -75,7 +76,8 @@ export async function disturb(): Promise<void> {
   const { wanted, troubles } = readDisturbance(get().form, readClock().scan);
   set({ tried: true, outcome: null });
   if (Object.keys(troubles).length > 0) return;
-  if (await ordered((instance) => wire.define(instance, wanted))) set({ tried: false });
+  if (!(await ordered((instance) => wire.define(instance, wanted)))) return;
+  set({ tried: false });
 }
 
 /** Takes one back; null is all of them. */
@@ -83,12 +85,18 @@ export async function calm(id: number | null): Promise<void> {
   await ordered((instance) => wire.takeBack(instance, id));
 }
 
+const capital = (text: string) => text.charAt(0).toUpperCase() + text.slice(1);
+
 async function ordered(order: (instance: number) => Promise<CommandResult>): Promise<boolean> {
   const instance = useBench.getState().instance;
   if (!instance || get().busy) return false;
   set({ busy: true, outcome: null });
   const outcome = await order(instance.id).then(
-    ({ ok, message, near }): Outcome => ({ ok, message, near: near ?? [] }),
+    ({ ok, message, near, scan }): Outcome => ({
+      ok,
+      message: ok ? t("disturb.taken", { message: capital(message), scan: grouped(scan) }) : message,
+      near: near ?? [],
+    }),
     (error: unknown): Outcome => ({
       ok: false,
       message: messageOf(error) || t("notsent"),

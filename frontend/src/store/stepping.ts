@@ -1,15 +1,20 @@
 /** Steps of the debugger: what the buttons and keys send, and whom the view follows. */
 import { create } from "zustand";
 import { permits } from "../logic/stepping";
+import { isGoing } from "../logic/verify";
 import { ask } from "./debug";
 import { caretPlace } from "./debugKeys";
 import { openFile } from "./navigate";
 import { usePlc } from "./plc";
+import { useVerify } from "./verify";
 
 export type StepCommand = "continue" | "pause" | "next" | "stepIn" | "stepOut" | "stepBack" | "reverseContinue";
 
 /** Whether a way back is searched for so long that people wonder: from then on it is said, and the buttons are off. */
 export const useStepping = create<{ searching: boolean }>(() => ({ searching: false }));
+
+const isStepwise = () =>
+  useVerify.getState().verifications.some((info) => info.pace === "step" && info.source === "live" && isGoing(info));
 
 /** Most searches are over before one could read of them. */
 const NOTICED_MS = 250;
@@ -62,5 +67,6 @@ usePlc.subscribe(({ state: now, you, users }, { state: before }) => {
   const halt = now?.halt;
   if (!halt || halt.file === "" || halt.number === before?.halt?.number) return;
   const alone = new Set(users.map(({ name }) => name)).size < 2;
-  if (alone || halt.by === you?.name) openFile(halt.file);
+  // Step by step the Verification panel shows the statement: the editor does not come in front of it.
+  if ((alone || halt.by === you?.name) && !isStepwise()) openFile(halt.file);
 });

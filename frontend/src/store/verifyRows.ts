@@ -155,7 +155,10 @@ function take(of: string, generation: number, answer: Answer, asked: number): bo
   for (const index of byIndex.keys()) if (index < answer.first) byIndex.delete(index);
   if (byIndex.size > KEPT)
     for (const index of [...byIndex.keys()]) if (Math.abs(index - asked) > KEPT / 2) byIndex.delete(index);
-  const selected = anew ? null : before.selected;
+  // Who stands at the newest row of one that is driven scan by scan goes along.
+  const paced = shownNow()?.info.pace !== "free" && answer.count > before.count;
+  const goesAlong = paced && before.selected !== null && before.selected === before.count - 1;
+  const selected = anew ? null : goesAlong ? answer.count - 1 : before.selected;
   set({
     of,
     generation,
@@ -198,6 +201,12 @@ export function showOnlyDiffering(onlyDiffering: boolean): void {
 
 export function selectRow(index: number | null, track?: string | null): void {
   set({ selected: index, ...(track === undefined ? {} : { track }) });
+}
+
+/** The next one is selected as it comes. */
+export function selectNewest(): void {
+  const { count } = get();
+  if (count > 0) set({ selected: count - 1 });
 }
 
 /** Lets somebody type into an input of a row. */

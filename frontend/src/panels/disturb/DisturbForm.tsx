@@ -58,7 +58,8 @@ function Outcome() {
       <p className="trouble st fatal" role="alert">
         <Icon name="error" small />
         <span>
-          {outcome.message}{" "}
+          {outcome.message}
+          {outcome.near.length > 0 && ` ${t("disturb.near")} `}
           {outcome.near.map((name) => (
             <button key={name} type="button" className="link mono" onClick={() => mendDisturbance(name)}>
               {name}

@@ -3,7 +3,9 @@ import { grouped, percent } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { stretchLines } from "../../logic/verify";
 import { unitsOf } from "../../logic/verifyColumns";
+import { usePlc } from "../../store/plc";
 import { exportVerification, keepVerification, type ShownVerification, verifyStretch } from "../../store/verify";
+import { openVerifyRecords } from "../../store/verifyRecords";
 import { goToDifference, showOnlyDiffering, useVerifyRows } from "../../store/verifyRows";
 import { AskName } from "../../ui/AskName";
 import { Icon, type IconName } from "../../ui/Icon";
@@ -26,6 +28,7 @@ const STATES: Record<VerificationInfo["state"], [tone: string, icon: IconName]> 
 export function Counts({ shown }: { shown: ShownVerification }) {
   const { info } = shown;
   const [asked, ask] = useState<"keep" | "columns" | null>(null);
+  const [kept, sayKept] = useState<string | null>(null);
   const onlyDiffering = useVerifyRows((rows) => rows.onlyDiffering);
   const none = useVerifyRows((rows) => rows.differing.length === 0);
   return (
@@ -35,6 +38,14 @@ export function Counts({ shown }: { shown: ShownVerification }) {
       <Stat value={info.differing} word={t("verify.differ")} id="differ" bad={info.differing > 0} />
       <State info={info} />
       <RecordUse info={info} />
+      {kept !== null && (
+        <button type="button" className="btn quiet sm vfkept" onClick={openVerifyRecords}>
+          <Icon name="check" small />
+          <span className="cut" role="status">
+            {t("verify.kept", { name: kept })}
+          </span>
+        </button>
+      )}
       <span className="grow" />
       <button
         type="button"
@@ -62,7 +73,10 @@ export function Counts({ shown }: { shown: ShownVerification }) {
           label={t("verify.keep.label")}
           action={t("verify.keep.do")}
           initial={info.title}
-          onName={keepVerification}
+          onName={async (name) => {
+            await keepVerification(name);
+            sayKept(name);
+          }}
           onClose={() => ask(null)}
         />
       )}
@@ -111,13 +125,15 @@ function Skipped({ info }: { info: VerificationInfo }) {
 }
 
 function State({ info }: { info: VerificationInfo }) {
-  const [tone, icon] = STATES[info.state];
-  const about =
-    (info.state === "failed" ? "" : info.message) ||
-    (info.scan === null ? spanOf(info) : t("verify.upto", { scan: grouped(info.scan) }));
+  const runs = usePlc(({ state }) => state?.state === "running");
+  // One that keeps up with a running PLC waits for each next scan: that is how it goes on.
+  const keepsUp = info.state === "waiting" && info.source === "live" && info.pace === "free" && runs;
+  const state = keepsUp ? "verifying" : info.state;
+  const [tone, icon] = STATES[state];
+  const about = info.scan === null ? spanOf(info) : t("verify.upto", { scan: grouped(info.scan) });
   return (
     <span className="vfstate" role="status" data-state={info.state}>
-      <StateWord tone={tone} icon={icon} word={t(`verify.state.${info.state}`)} title={info.message} />
+      <StateWord tone={tone} icon={icon} word={t(`verify.state.${state}`)} title={info.message} />
       <span className="cut faint" title={about}>
         {about}
       </span>

@@ -13,7 +13,7 @@ export function Detail({ shown }: { shown: ShownVerification }) {
   const at = row && chosen.row === row.index ? chosen.at : 0;
   const difference = row?.differences[at] ?? null;
   return (
-    <section className="vfdetail" aria-label={t("verify.details")}>
+    <section className={`vfdetail${row ? "" : " idle"}`} aria-label={t("verify.details")}>
       <Source info={shown.info} row={row} difference={difference} />
       <Facts
         shown={shown}

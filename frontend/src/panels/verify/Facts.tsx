@@ -1,13 +1,16 @@
 import { useState } from "react";
 import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
-import { isEdited, resultOf } from "../../logic/verify";
+import { isEdited, resultOf, variableOf } from "../../logic/verify";
 import { bitsBeside, differingBits, shownValue, type ValueType } from "../../logic/verifyValues";
 import { useBench } from "../../store/bench";
+import { scanLink } from "../../store/links";
 import { useForbidden } from "../../store/plc";
 import { travel } from "../../store/timeline";
 import { drive, type ShownVerification } from "../../store/verify";
 import { editInput, useVerifyRows } from "../../store/verifyRows";
+import { showWriterOf } from "../../store/verifyWriter";
+import { CopyButton } from "../../ui/CopyButton";
 import { Icon } from "../../ui/Icon";
 import type { VerifyDifference, VerifyRow } from "../../wire/types";
 import type { Looked } from "./Detail";
@@ -69,7 +72,7 @@ export function Facts({ shown, row, difference, at, onChoose }: Props) {
         </p>
       )}
       {row.note && <p className="st halted">{row.note}</p>}
-      <Deeds shown={shown} row={row} uses={uses} onUses={() => showUses(!uses)} />
+      <Deeds shown={shown} row={row} difference={difference} uses={uses} onUses={() => showUses(!uses)} />
       {uses && <Uses row={row} />}
     </div>
   );
@@ -91,15 +94,18 @@ const sayOf = (row: VerifyRow) =>
 function Hint({ shown, count }: { shown: ShownVerification; count: number }) {
   return (
     <div className="vffact">
-      <p className="muted">
-        {count > 0
-          ? t("verify.hint.differs", { count: grouped(count) })
-          : t(shown.info.compared > 0 ? "verify.hint.same" : "verify.hint.none")}
-      </p>
+      <p className="muted">{sayOfAll(shown.info, count)}</p>
       {shown.info.first_difference && <p className="muted">{shown.info.first_difference.message}</p>}
       <p className="faint">{t("verify.hint.keys")}</p>
     </div>
   );
+}
+
+function sayOfAll({ compared, differing }: ShownVerification["info"], kept: number): string {
+  if (kept === 1) return t("verify.hint.differs.one");
+  if (kept > 1) return t("verify.hint.differs", { count: grouped(kept) });
+  if (differing > 0) return t("verify.hint.forgotten", { count: grouped(differing) });
+  return t(compared > 0 ? "verify.hint.same" : "verify.hint.none");
 }
 
 interface SidesProps {
@@ -188,14 +194,18 @@ function Side({ who, type, hex, beside, says }: SideProps) {
 interface DeedsProps {
   shown: ShownVerification;
   row: VerifyRow;
+  difference: VerifyDifference | null;
   uses: boolean;
   onUses: () => void;
 }
 
-function Deeds({ shown, row, uses, onUses }: DeedsProps) {
+function Deeds({ shown, row, difference, uses, onUses }: DeedsProps) {
   const forbidden = useForbidden("travel");
   const isTrace = shown.info.source === "trace";
-  const [first] = Object.keys(row.inputs);
+  const track = useVerifyRows((rows) => rows.track);
+  const variable = variableOf(difference, track);
+  // The input that differs is the one to try another value for.
+  const first = difference && difference.name in row.inputs ? difference.name : Object.keys(row.inputs)[0];
   if (shown.record) return null;
 
   async function tryOthers(): Promise<void> {
@@ -215,16 +225,35 @@ function Deeds({ shown, row, uses, onUses }: DeedsProps) {
         {t("verify.try")}
       </button>
       {!isTrace && (
-        <button
-          type="button"
-          className="btn quiet sm"
-          disabled={forbidden !== null}
-          title={forbidden ?? t("verify.goto.about")}
-          onClick={() => void travel(row.scan)}
-        >
-          <Icon name="past" small />
-          {t("verify.goto")}
-        </button>
+        <>
+          <button
+            type="button"
+            className="btn quiet sm"
+            disabled={forbidden !== null}
+            title={forbidden ?? t("verify.goto.about")}
+            onClick={() => void travel(row.scan)}
+          >
+            <Icon name="past" small />
+            {t("verify.goto")}
+          </button>
+          <button
+            type="button"
+            className="btn quiet sm"
+            disabled={variable === null}
+            title={variable === null ? t("verify.writer.none") : t("writer.title", { path: variable })}
+            onClick={() => variable !== null && void showWriterOf(row, difference, variable)}
+          >
+            <Icon name="cmd" small />
+            {t("writer.menu")}
+          </button>
+          <CopyButton
+            label={t("link.copy")}
+            done={t("link.copied")}
+            title={t("link.copy.hint")}
+            className="btn quiet sm"
+            text={() => scanLink(row.scan, "verification")}
+          />
+        </>
       )}
       <button type="button" className="btn quiet sm" aria-expanded={uses} onClick={onUses}>
         <Icon name={uses ? "chev-d" : "chev-r"} small />

@@ -16,6 +16,7 @@ import {
   useVerify,
 } from "../../store/verify";
 import { openVerifyRecords } from "../../store/verifyRecords";
+import { selectNewest } from "../../store/verifyRows";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import { MenuButton, type MenuItem } from "../../ui/Menu";
@@ -105,7 +106,7 @@ function What({ shown }: { shown: ShownVerification | null }) {
     <MenuButton label={t("verify.choose")} className="btn quiet vfwhat" items={items}>
       <span className="two">
         <span className="cut">
-          <span className="muted">{t(shown?.record ? "verify.record" : "verify.range")}</span>{" "}
+          {info && <span className="muted">{t(shown?.record ? "verify.record" : "verify.range")} </span>}
           <b>{info ? (shown?.record?.name ?? info.title) : t("verify.none")}</b>
         </span>
         <span className="cut">
@@ -183,7 +184,10 @@ function Controls({ info }: { info: ShownVerification["info"] }) {
             className="btn sm"
             disabled={!going || info.auto}
             title={t(info.pace === "scan" ? "verify.go.scan" : "verify.go.step")}
-            onClick={() => void drive({ action: "go_on" })}
+            onClick={() => {
+              selectNewest();
+              void drive({ action: "go_on" });
+            }}
           >
             <Icon name={info.pace === "scan" ? "scan" : "step-over"} small />
             {t("verify.go")}

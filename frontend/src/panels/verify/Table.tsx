@@ -14,7 +14,16 @@ import { firstDifferingUnit, isGoing } from "../../logic/verify";
 import { arranged, type Track, tracksInSight, tracksOf, unitsOf, wholeWidth } from "../../logic/verifyColumns";
 import type { ShownVerification } from "../../store/verify";
 import { useArrangement } from "../../store/verifyColumns";
-import { editBegun, indexAt, lineCount, lineOfRow, seeLines, selectRow, soughtFound, useVerifyRows } from "../../store/verifyRows";
+import {
+  editBegun,
+  indexAt,
+  lineCount,
+  lineOfRow,
+  seeLines,
+  selectRow,
+  soughtFound,
+  useVerifyRows,
+} from "../../store/verifyRows";
 import { Menu, type MenuItem } from "../../ui/Menu";
 import { useKeptScroll } from "../../ui/useKeptScroll";
 import { columnMenu } from "./columnMenu";

@@ -43,6 +43,14 @@ export function VerifyPanel({ api }: Props) {
               <span>{shown.info.message}</span>
             </p>
           )}
+          {shown.info.state !== "failed" && shown.info.message && (
+            <p className="vfnote faint" role="note">
+              <Icon name="info" small />
+              <span className="cut" title={shown.info.message}>
+                {shown.info.message}
+              </span>
+            </p>
+          )}
           <div className="vfbody">
             <Table shown={shown} key={`${shown.source.kind} ${shown.source.id}`} />
             <Detail shown={shown} />
