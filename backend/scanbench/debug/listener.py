@@ -135,7 +135,10 @@ class Listener:
 
     def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
         """See `Hook`."""
-        for placed, text in self._watching.touched(offset, size, written, lambda placed: self._copies(placed, site)):
+        bits = self._resource.loaded.debugged().bits
+        for placed, text in self._watching.touched(
+            offset, size, bits, written, lambda placed: self._copies(placed, site)
+        ):
             if (self._resource.header.scan, count) < self.passed.begin or not self._acts(placed, None):
                 continue
             if self._hit(placed, site, None):

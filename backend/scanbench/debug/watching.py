@@ -56,14 +56,14 @@ class Watching:
                 place.last = self._value(place.offset, place.size, place.mask)
 
     def touched(
-        self, offset: int, size: int, written: bool, copying: Callable[[Placed], bool]
+        self, offset: int, size: int, bits: int, written: bool, copying: Callable[[Placed], bool]
     ) -> list[tuple[Placed, str]]:
-        """Whose access this is, and what to say of it. `copying`: a block copies what was passed to it, or copies it back;
-        that is nobody's access."""
+        """Whose access this is, and what to say of it; `bits`: see `DebugEngine`. `copying`: a block copies what was passed to
+        it, or copies it back; that is nobody's access."""
         found: dict[Placed, str] = {}
         for placed, places in self._places.items():
             for place in places:
-                if offset + size <= place.offset or place.offset + place.size <= offset:
+                if offset + size <= place.offset or place.offset + place.size <= offset or not bits & place.mask:
                     continue
                 before = place.last
                 if written:

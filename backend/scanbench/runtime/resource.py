@@ -433,7 +433,7 @@ class Resource:
         self.journal.append(entry)
 
     def _load(self, loaded: Loaded) -> None:
-        self.loaded, self.inside, self.probed = loaded, None, None
+        self.loaded, self.inside, self.probed, self._passage = loaded, None, None, None
         self.header = Header(loaded.memory)
         self.measured = Measured()
 

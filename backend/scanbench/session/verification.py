@@ -5,7 +5,7 @@ each scan, with pace `step` in front of each statement, until both sides were co
 """
 
 import asyncio
-from collections.abc import Callable
+from collections.abc import Callable, Coroutine
 from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
@@ -56,14 +56,15 @@ class Verification:
 
     def __init__(
         self, id: int, session: Session, wanted: VerifyWish, trace: TraceSource | None, author: str, cache: Path,
-        on_change: Callable[["Verification"], None],
+        on_change: Callable[["Verification"], None], hand_over: Callable[["Verification"], bool],
     ) -> None:  # fmt: skip
+        """`hand_over`: whether another verification has the same PLC wait, which takes it over."""
         self.session, self.rows = session, Rows()
         source: Literal["live", "past", "trace"] = "live" if wanted.first is None else "past"
         self.status = VerificationStatus(
             id, session.id, author, wanted, "trace" if trace else source, wanted.pace, trace=trace.name if trace else ""
         )
-        self._trace, self._on_change = trace, on_change
+        self._trace, self._on_change, self._hand_over = trace, on_change, hand_over
         self._job = Job(cache, self._on_message, self._on_end)
         self._answers: dict[int, asyncio.Future[object]] = {}
         self._next_ref = 1
@@ -79,7 +80,7 @@ class Verification:
         self._stepping = 0
         """The statement of the step that is under way; -1: it is the seam; 0: whole scans are."""
         self._halt = 0
-        self._held = False
+        self.held = False
         """Whether the PLC ran when this verification had it wait."""
         self._owed = 0
         """Scans that somebody may still go on by, with pace `scan`."""
@@ -199,12 +200,20 @@ class Verification:
     # ---- going on -------------------------------------------------------------------------------------------------
 
     @property
+    def holding(self) -> bool:
+        """Whether the PLC is to wait for it."""
+        status = self.status
+        return status.source == "live" and status.pace != "free" and status.state in ("verifying", "waiting")
+
+    @property
     def _live_scan(self) -> int:
         state = self.session.state
         return state.live_scan if state.past_by else state.scan
 
     def _on_event(self, event: Event) -> None:
         if isinstance(event, StateChanged):
+            if event.state.state == "running":  # somebody lets it run: it does not wait because of this any more
+                self.held = False
             self._poke()
 
     def _poke(self) -> None:
@@ -213,7 +222,7 @@ class Verification:
         if status.state in ("starting", "stopped", "done", "failed"):
             return
         if status.source != "trace" and self.session.runs != self._run:
-            self._change(state="failed", message="a new run began: begin another verification")
+            self._fail("a new run began: begin another verification")
         elif self._busy is not None:
             return
         elif status.source != "live":
@@ -282,22 +291,22 @@ class Verification:
             ack = await session.drive("pause", None, author)
             if not ack.ok:
                 raise Refused(ack.message)
-            self._held = True
+            self.held = True
 
     async def _let_go(self, author: str) -> None:
         """A PLC that waits because of this verification goes on; where it cannot, it says so itself."""
-        if self._held and self.session.state.state in ("paused", "halted"):
+        if self.held and not self._hand_over(self) and self.session.state.state in ("paused", "halted"):
             if self.session.state.halt is not None:
                 await self.session.debug(lambda ref: debug_protocol.Step(ref, "continue", author))
             else:
                 await self.session.drive("continue", None, author)
-        self._held = False
+        self.held = False
 
     async def _go_on(self, author: str) -> None:
         """One scan or statement further."""
         status, session = self.status, self.session
         if status.pace == "free":
-            return
+            raise Refused("it goes on by itself: choose the pace scan or step to go on by hand")
         if status.source != "live":
             self._owed += 1
             return
@@ -321,9 +330,7 @@ class Verification:
             except Refused as refused:
                 self._change(auto=False, state="waiting", message=refused.message)
 
-        task = asyncio.get_running_loop().create_task(go_on())
-        self._tasks.add(task)
-        task.add_done_callback(self._tasks.discard)
+        self._do(go_on())
 
     # ---- the process ----------------------------------------------------------------------------------------------
 
@@ -349,7 +356,7 @@ class Verification:
             self._verified(message)
         elif isinstance(message, VerifyRefused) and ref == self._busy:
             self._busy = None
-            self._change(state="failed", message=message.message)
+            self._fail(message.message)
 
     def _verified(self, came: ScansVerified) -> None:
         status = self.status
@@ -385,7 +392,17 @@ class Verification:
         self._give_up(DIED)
         if self.status.state not in ("failed", "done"):
             self._busy = None
-            self._change(state="failed", message=DIED)
+            self._fail(DIED)
+
+    def _fail(self, why: str) -> None:
+        """The PLC need not wait any more."""
+        self._change(state="failed", message=why, auto=False)
+        self._do(self._let_go(self.status.by))
+
+    def _do(self, work: Coroutine[None, None, None]) -> None:
+        task = asyncio.get_running_loop().create_task(work)
+        self._tasks.add(task)
+        task.add_done_callback(self._tasks.discard)
 
     def _give_up(self, why: str) -> None:
         answers, self._answers = self._answers, {}

@@ -108,7 +108,9 @@ class Verifications:
             told = ", ".join(f"{each.status.title} at {each.session.name}" for each in self._all.values())
             raise Refused(f"{MOST} verifications are open, and there can be no more: close one of them first ({told})")
         id, self._next = self._next, self._next + 1
-        made = self._all[id] = Verification(id, session, wanted, trace, author, self._cache, self._on_change)
+        made = self._all[id] = Verification(
+            id, session, wanted, trace, author, self._cache, self._on_change, self._hand_over
+        )
         try:
             await made.begin()
         except BaseException:
@@ -153,6 +155,13 @@ class Verifications:
         project = (await asyncio.to_thread(self._store.project, session.project_id)).name
         head = _head(status, project, session.name, session.sources.model, when)
         return await asyncio.to_thread(_exported, head, rows, format)
+
+    def _hand_over(self, verification: Verification) -> bool:
+        others = [each for each in self._all.values() if each is not verification and each.holding]
+        heir = next((each for each in others if each.session is verification.session), None)
+        if heir is not None:
+            heir.held = True
+        return heir is not None
 
     def _one(self, id: int) -> Verification:
         verification = self._all.get(id)

@@ -156,6 +156,8 @@ class KeptRows:
     columns: tuple[Column, ...]
     inputs: tuple[str, ...]
     outputs: tuple[str, ...]
+    old: dict[int, PackedRow]
+    """By index: rows in front of `first` that differ."""
 
 
 @dataclass(frozen=True, slots=True)

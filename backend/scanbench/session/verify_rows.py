@@ -11,6 +11,8 @@ from scanbench.verify.verified import Column, Row
 MOST_ROWS = 20_000
 MOST_BYTES = 48 << 20
 """Of one verification."""
+MOST_OLD = 5000
+"""Rows that differ which outlive the equal ones around them."""
 MOST_DIFFERING = 10_000
 """Indices of rows that differ, which are told."""
 
@@ -39,7 +41,11 @@ class Rows:
     first: int = 0
     """Index of the first that is kept."""
     differing: list[int] = field(default_factory=list)
+    """Indices, those of `old` included."""
     bytes: int = 0
+    """Of `kept`."""
+    old: dict[int, PackedRow] = field(default_factory=dict)
+    """By index: rows in front of `first` that differ."""
 
     @property
     def count(self) -> int:
@@ -60,8 +66,12 @@ class Rows:
         """Rows that are others now: of the same scan, call and count."""
         self._learn(came)
         places = {(row.scan, row.call, row.count): at for at, row in enumerate(self.kept)}
+        old = {(row.scan, row.call, row.count): index for index, row in self.old.items()}
         for row in came.rows:
             at = places.get((row.scan, row.call, row.count))
+            index = old.get((row.scan, row.call, row.count))
+            if index is not None:
+                self.old[index] = row
             if at is not None:
                 self.bytes += len(row.data) - len(self.kept[at].data)
                 self.kept[at] = row
@@ -69,11 +79,11 @@ class Rows:
     def page(self, first: int, count: int, differing: bool) -> RowsPage:
         """Rows from index `first` on; with `differing` only those that differ."""
         if differing:
-            at = bisect_left(self.differing, max(first, self.first))
+            at = bisect_left(self.differing, first)
             indices: Iterable[int] = self.differing[at : at + count]
         else:
             indices = range(max(first, self.first), min(self.count, max(first, self.first) + count))
-        rows = tuple((index, row_of(self.kept[index - self.first])) for index in indices)
+        rows = tuple((index, row_of(self._row(index))) for index in indices)
         told = tuple(self.differing[-MOST_DIFFERING:])
         return RowsPage(
             tuple(self.columns), frozenset(self.outputs), frozenset(self.inputs), rows, self.first, self.count, told
@@ -81,27 +91,32 @@ class Rows:
 
     def all(self) -> Iterator[Row]:
         """Every row that is kept."""
-        return map(row_of, self.kept)
+        return map(row_of, (*self.old.values(), *self.kept))
 
     def as_now(self) -> "Rows":
         """For another thread: it unpacks, while rows come in here."""
         return replace(
             self, columns=[*self.columns], inputs={**self.inputs}, outputs={**self.outputs}, kept=[*self.kept],
-            differing=[*self.differing],
+            differing=[*self.differing], old={**self.old},
         )  # fmt: skip
 
     def packed(self) -> KeptRows:
         """To be kept."""
-        return KeptRows(self.first, tuple(self.kept), tuple(self.columns), tuple(self.inputs), tuple(self.outputs))
+        return KeptRows(
+            self.first, tuple(self.kept), tuple(self.columns), tuple(self.inputs), tuple(self.outputs), dict(self.old)
+        )
 
     @staticmethod
     def of(kept: KeptRows) -> "Rows":
         """As they were kept."""
-        differing = [kept.first + at for at, row in enumerate(kept.rows) if row.first is not None]
+        differing = [*kept.old, *(kept.first + at for at, row in enumerate(kept.rows) if row.first is not None)]
         return Rows(
             list(kept.columns), dict.fromkeys(kept.inputs), dict.fromkeys(kept.outputs), list(kept.rows), kept.first,
-            differing, sum(len(row.data) for row in kept.rows),
+            differing, sum(len(row.data) for row in kept.rows), dict(kept.old),
         )  # fmt: skip
+
+    def _row(self, index: int) -> PackedRow:
+        return self.old[index] if index < self.first else self.kept[index - self.first]
 
     def _learn(self, came: ScansVerified) -> None:
         known = {each.name for each in self.columns}
@@ -112,13 +127,17 @@ class Rows:
     def _forget(self) -> None:
         gone, freed = 0, 0
         while len(self.kept) - gone > MOST_ROWS or self.bytes - freed > MOST_BYTES:
-            freed += len(self.kept[gone].data)
+            row = self.kept[gone]
+            if row.first is not None and len(self.old) < MOST_OLD:  # the first ones: what came of them is of less use
+                self.old[self.first + gone] = row
+            freed += len(row.data)
             gone += 1
         if gone:
             del self.kept[:gone]
             self.first += gone
             self.bytes -= freed
-            del self.differing[: bisect_left(self.differing, self.first)]
+            at = bisect_left(self.differing, self.first)
+            self.differing[:at] = self.old
 
 
 def row_of(packed: PackedRow) -> Row:

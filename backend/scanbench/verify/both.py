@@ -85,7 +85,7 @@ class Both:
             view = view_of(self.control.side)
             trapped = False
             if self.control.side.resource.runnable:
-                more, trapped = self._run(scan, view, len(rows))
+                more, trapped = self._run(scan, view, max((each.call for each in rows), default=0))
                 rows += more
             elif not rows:
                 rows.append(Row("none", scan, note=self._stopped()))

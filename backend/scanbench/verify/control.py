@@ -76,8 +76,12 @@ class Source:
             self._note(self.recording)
             return True
         except Replaced:
+            before = dict(self._kept)
             self.recording.close()
             self.recording = self._opened()
+            for version, kept in before.items():  # another run may have another program of this number
+                if self._kept[version] != kept:
+                    self._programs.pop(version, None)
             return False
 
     def program(self, version: int) -> Program:

@@ -17,8 +17,6 @@ from scanbench.runtime.holds import HELD, HeldByte, held, holder
 from scanbench.runtime.target import not_called
 from scanbench.verify.disturb_wanted import bits_of, single_value
 
-Spots = tuple[tuple[int, int, int], ...]
-
 
 @dataclass(frozen=True, slots=True)
 class Firing(Command):

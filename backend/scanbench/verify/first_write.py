@@ -1,6 +1,6 @@
 """Which statement of a scan wrote any of some variables first."""
 
-from collections.abc import Sequence
+from collections.abc import Iterator, Sequence
 
 from scanbench.check.symbols import UnknownPath, resolve
 from scanbench.debug.frames import frame_name, instance_path, task_of
@@ -11,11 +11,14 @@ from scanbench.verify.findings import Change
 from scanbench.verify.reading import Reading
 from scanbench.verify.verified import Place
 
+Owners = dict[int, list[tuple[int, Change]]]
+"""By byte: which bits of it are whose."""
+
 
 class _Writes:
     """Notes which statement wrote what first; halts nowhere."""
 
-    def __init__(self, resource: Resource, owners: dict[int, Change]) -> None:
+    def __init__(self, resource: Resource, owners: "Owners") -> None:
         self._resource, self._owners = resource, owners
         self.found: tuple[int, int, Change] | None = None
         self.frames: tuple[Frame, ...] = ()
@@ -26,10 +29,14 @@ class _Writes:
 
     def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
         """See `Hook`."""
-        change = next((self._owners[at] for at in range(offset, offset + size) if at in self._owners), None)
-        if self.found is None and written and change is not None:
+        if self.found is not None or not written:
+            return
+        engine = self._resource.loaded.debugged()
+        theirs = (each for at in range(offset, offset + size) for each in self._owners.get(at, ()))
+        change = next((each for mask, each in theirs if mask & engine.bits), None)
+        if change is not None:
             self.found = count, site, change
-            self.frames = self._resource.loaded.debugged().frames()
+            self.frames = engine.frames()
 
     def entered(self) -> None:
         """See `Onlooker`."""
@@ -41,7 +48,10 @@ def first_write(reading: Reading, scan: int, changes: Sequence[Change]) -> tuple
     if timeline.goto(scan, 1) is not None:
         return None  # no statement ran
     resource = timeline.resource
-    owners = {at: each for each in reversed(changes) for at in _bytes(resource, each)}
+    owners: Owners = {}
+    for each in changes:
+        for at, mask in _bytes(resource, each):
+            owners.setdefault(at, []).append((mask, each))
     hook, listen, writes = resource.hook, resource.listening, _Writes(resource, owners)
     resource.hook = writes
     resource.listen(Listen(bytes=dict.fromkeys(owners, WRITE)))
@@ -62,11 +72,14 @@ def first_write(reading: Reading, scan: int, changes: Sequence[Change]) -> tuple
     return count, Place(task_of(program, frames), instance, frame.pou.name, span.file, span.line, text), change
 
 
-def _bytes(resource: Resource, change: Change) -> range:
-    """Where the variable is in the program that runs."""
+def _bytes(resource: Resource, change: Change) -> Iterator[tuple[int, int]]:
+    """Where the variable is in the program that runs, with the bits of each byte that are its own."""
     try:
         symbol = resolve(resource.program, change.path)
     except UnknownPath:
-        return range(0)
+        return
     place = None if symbol.slots else symbol.locate(resource.memory)
-    return range(0) if place is None else range(place[0], place[0] + symbol.type.size)
+    if place is not None:
+        offset, bit = place
+        mask = 0xFF if bit is None else 1 << bit
+        yield from ((at, mask) for at in range(offset, offset + symbol.type.size))

@@ -14,9 +14,6 @@ from scanbench.verify.engines import reference
 from scanbench.verify.sides import ProgramOf, Shelf, Side
 from scanbench.verify.uses import Fresh, Pass, Recorder
 
-Own = Mapping[int, int]
-"""Offset -> the byte that the monitor would have there by itself."""
-
 
 class Monitor:
     """Stands where the control device stands, and has what that should have."""

@@ -83,8 +83,6 @@ def resolve_range(program: Program, sites: Sites, wanted: Range, lines_of: Lines
             raise BadRange("the whole scan has no instance: name a POU")
         if wanted.first or wanted.last:
             raise BadRange(f"{_asked(wanted)} of what? Name a POU or a file, as in POU:10-20 or File.st:10-20")
-        if wanted.first or wanted.last:
-            raise BadRange("lines of what? Name a POU or a file with them")
         return Resolved("the whole scan")
     if 0 < wanted.last < wanted.first:
         raise BadRange(f"lines {wanted.first} to {wanted.last} are none: the first line comes first")

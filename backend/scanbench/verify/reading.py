@@ -166,7 +166,11 @@ class Reading:
         else:
             new = self._recording.read_on()
             self._entries += new
-        self._kept.update(self._recording.programs)
+        programs = self._recording.programs
+        if any(self._kept.get(version, kept) != kept for version, kept in programs.items()):
+            self._programs = None  # another run of this name, with another program of this number
+            self._texts.clear()
+        self._kept.update(programs)
         if self._programs is None:
             self._programs = self._programs_of(self._kept)
         return new

@@ -29,12 +29,13 @@ def uses_of(both: Both, call: int) -> tuple[Use, ...]:
         both.monitor.run(other, inputs)
         return other.passes
 
+    mine = ran.passes[number].log  # with the results that ran live; run again for the open calls only
     first = control.again(ran.control, run_control)[number]
     passes = monitor.again(ran.monitor, run_monitor)
     second = passes[number] if number < len(passes) else Pass(None, 0, 0)
     names = view.reader.namer.names(first.around)
     found = []
-    for index, (one, right) in enumerate(zip_longest(first.log, second.log)):
+    for index, (one, right) in enumerate(zip_longest(mine, second.log)):
         access: Access = one or right
         frames = first.frames_of[index] if one is not None else second.frames_of[index]
         place = view.reader.places.of(access.site, frames)

@@ -94,6 +94,7 @@ class Verifier:
         try:
             if not self._source.follow(until):
                 self._both = None
+                self._views, self._texts = {}, {}
         except (RunFileError, OSError) as error:
             raise Unverifiable(str(error)) from error
 
@@ -201,6 +202,8 @@ class Verifier:
         except OSError as error:
             self._both = None
             raise Unverifiable(f"{name} cannot be read: {error.strerror or error}") from error
+        except BadEdit:
+            raise
         except (Diverged, *NOT_AS_RECORDED) as error:
             self._both = None
             raise Unverifiable(f"scan {scan} of {name} cannot be replayed: {error}") from error

@@ -88,7 +88,7 @@ async def on_cells(bench: Bench, request: Request, verification: Id, cells: wire
 
 
 @router.get("/verifications/{verification}/uses")
-async def on_uses(bench: Bench, verification: Id, scan: Scan, call: Scan = 0) -> list[wire.VerifyUse]:
+async def on_uses(bench: Bench, verification: Id, scan: Scan, call: Scan = 1) -> list[wire.VerifyUse]:
     """The used-variable record of one row, in the order of use."""
     return list(map(translate_verify.use, await bench.verifications.uses(verification, scan, call)))
 

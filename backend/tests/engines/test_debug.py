@@ -68,7 +68,9 @@ class Told:
         return count == self.halt
 
     def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
-        self.lines.append(f"{count} {self.line(site)} {'writes' if written else 'reads'} {offset} {size} {self.engine.bits}")
+        self.lines.append(
+            f"{count} {self.line(site)} {'writes' if written else 'reads'} {offset} {size} {self.engine.bits}"
+        )
 
     def line(self, site: int) -> str:
         span = self.engine.sites.statements[site].span

@@ -47,7 +47,13 @@ def test_the_oldest_are_forgotten_and_indices_stay(monkeypatch: pytest.MonkeyPat
     for scan in range(0, 100, 10):
         rows.add(came(*(packed(each, each % 10 == 3) for each in range(scan, scan + 10))))
     assert (rows.first, rows.count, len(rows.kept)) == (80, 100, 20)
-    assert rows.differing == [83, 93]
+    assert rows.differing == [*range(3, 100, 10)]  # these outlive the equal ones
+    assert [row.scan for _, row in rows.page(0, 3, differing=True).rows] == [3, 13, 23]
+    assert [row.scan for row in rows.all()][:10] == [3, 13, 23, 33, 43, 53, 63, 73, 80, 81]
+    again = Rows.of(rows.packed())
+    assert (again.differing, again.first, again.count) == (rows.differing, 80, 100)
+    rows.replace(came(packed(13, differs=True, value=9)))
+    assert [row.outputs["speed"].control for _, row in rows.page(13, 1, differing=True).rows] == [b"\x09\0"]
     assert [row.scan for _, row in rows.page(0, 3, differing=False).rows] == [80, 81, 82]
     monkeypatch.setattr(verify_rows, "MOST_BYTES", 5 * len(packed(1).data))
     rows.add(came(packed(100)))

@@ -157,3 +157,15 @@ def test_without_a_fault_there_is_no_difference(program: Program, tmp_path: Path
     nothing = Fault("main.st", 21, "add", "add")
     recorded(tmp_path / "run", program, nothing)
     assert differing(tmp_path / "run", nothing, "", True) == []
+
+
+def test_the_uses_of_a_row_are_what_the_row_says(program: Program, tmp_path: Path) -> None:
+    fault = Fault("main.st", 25, "div", "mul")
+    recorded(tmp_path / "run", program, fault)
+    with Verifier(tmp_path / "run", ENTRIES, program_of, planted(fault, debug=False)) as verifier:
+        verifier.begin(parse_range("Main:25"))
+        row = next(row for scan in range(12) for row in verifier.verify(scan).rows if row.differs)
+        wrong = [each for each in verifier.uses(row.scan, row.call) if each.control != each.monitor]
+        assert [(each.name, each.control, each.monitor) for each in wrong] == [
+            (name, each.control, each.monitor) for name, each in row.outputs.items()
+        ]

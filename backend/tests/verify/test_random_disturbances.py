@@ -205,4 +205,8 @@ def test_every_one_is_found_and_nothing_else(tmp_path: Path, engine: EngineFacto
             missing = {at for at in wanted if at < size} - found_at(differences, result.resource.memory)
             assert not missing, f"{about}: {[at_offset(checked, at) for at in missing]}"
             said = {text for row in rows for text in row.disturbances}
-            assert said == {told(each) for each in entries if told(each)}, about
+            begun = {told(each) for each in entries if told(each)}
+            assert begun <= said, about
+            assert all(" stuck" in text or " late" in text or " lost" in text for text in said - begun), (
+                about
+            )  # they last

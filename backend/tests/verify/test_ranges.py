@@ -121,9 +121,9 @@ def test_lines_that_the_file_does_not_have() -> None:
         return resolve_range(made, sites_of(made), range, lambda file: 20)
 
     assert "line 13 was taken" in asked(Range(file="main.st", first=20, last=30)).note
-    with pytest.raises(BadRange, match="main.st has 20 lines: there are no lines 21 to 30"):
+    with pytest.raises(BadRange, match=r"main\.st has 20 lines: there are no lines 21 to 30"):
         asked(Range(file="main.st", first=21, last=30))
-    with pytest.raises(BadRange, match="main.st has 20 lines: there is no line 21"):
+    with pytest.raises(BadRange, match=r"main\.st has 20 lines: there is no line 21"):
         asked(Range(pou="Belt", first=21, last=21))
     with pytest.raises(BadRange, match="lines 3 to 4 of what"):
         asked(Range(first=3, last=4))

@@ -11,6 +11,7 @@ from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.runtime.command import Entry
+from scanbench.runtime.headless import run_headless
 from scanbench.runtime.inside import HaltAt
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
@@ -25,7 +26,8 @@ from scanbench.verify.disturb import Disturb
 from scanbench.verify.disturb_schedule import DisturbanceSchedule
 from scanbench.verify.disturb_wanted import Disturbance
 from scanbench.verify.engines import native, reference
-from scanbench.verify.verifier import BadEdit, Unverifiable
+from scanbench.verify.verified import Range
+from scanbench.verify.verifier import BadEdit, Unverifiable, Verifier
 from tests.caseformat import MODELS
 from tests.programs import INGREDIENTS, generate
 from tests.programs.compare import checked
@@ -225,9 +227,9 @@ def test_a_stuck_input_is_an_input_difference_while_it_is_another(tmp_path: Path
         assert row.inputs["start"].recorded == b"\0"
         assert row.inputs["start"].expected == b"\1"
         assert [each.cause for each in row.differences] == ["input"]
-    assert {row.scan: row.disturbances for row in found if row.disturbances} == {
-        scan: ("Input start stuck",) for scan in range(5, 10)
-    }
+    assert {row.scan: row.disturbances for row in found if row.disturbances} == dict.fromkeys(
+        range(5, 10), ("Input start stuck",)
+    )
     assert verifier(path, program(BELTS), "Main").step(8, 2).rows[0].disturbances == ("Input start stuck",)
     # the same when one goes there at once
     assert verifier(path, program(BELTS), "Main").verify(8).rows == (wrong[1],)
@@ -305,6 +307,38 @@ def test_a_program_change_on_the_way(tmp_path: Path) -> None:
     assert differences(found) == []
     steps = [value(row.outputs["pos"].monitor) for row in found if row.call == 2]
     assert [b - a for a, b in pairwise(steps)] == [6, 6, 6, 9, 9, 9, 9]
+
+
+def test_a_block_that_another_program_does_not_have_and_that_comes_back(tmp_path: Path) -> None:
+    small, big = program("PROGRAM Main VAR n : INT; END_VAR n := n + 1; END_PROGRAM"), program(BELTS)
+    shelf = Shelf(*(Loaded.make(each, ReferenceEngine, number) for number, each in ((1, big), (2, small), (3, big))))
+    path = record(
+        tmp_path / "run", big, 12, [(4, ProgramChange("Ada", 2)), (8, ProgramChange("Ada", 3))], programs=shelf,
+        more=[(2, small), (3, big)],
+    )  # fmt: skip
+    verified = verifier(path, big, "Belt", make=native(), others={2: small, 3: big})
+    found = rows(verified)
+    assert {row.scan for row in found} == set(range(12))
+    assert differences(found) == []
+
+
+def test_another_run_of_the_same_name_has_its_own_programs(tmp_path: Path) -> None:
+    text = "PROGRAM Main VAR n : DINT; END_VAR n := n + %d; END_PROGRAM"
+    made = {b"1": program(text % 1), b"2": program(text % 10)}
+
+    def run(sources: bytes) -> None:
+        with Recording.begin(tmp_path / "run", made[sources], 1, sources, ENTRIES, "Ada") as recording:
+            run_headless(made[sources], 20, ReferenceEngine, recording=recording)
+
+    run(b"1")
+    with Verifier(tmp_path / "run", ENTRIES, lambda kept: made[kept.sources], reference) as verified:
+        verified.begin(Range("Main"))
+        assert verified.verify(5).rows[0].outputs["Main.n"].control == (6).to_bytes(4, "little")
+        (tmp_path / "run").rename(tmp_path / "aside")
+        run(b"2")
+        verified.follow(20)
+        assert verified.verify(5).rows[0].outputs["Main.n"].control == (60).to_bytes(4, "little")
+        assert verified.verify(5).rows[0].outputs["Main.n"].monitor == (60).to_bytes(4, "little")
 
 
 def test_a_run_time_error_in_the_range(tmp_path: Path) -> None:

@@ -4,6 +4,8 @@ from pathlib import Path
 
 import pytest
 
+from scanbench.check.symbols import resolve
+from scanbench.debug.writers import writers
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.probed import ProbedBuilds
@@ -80,6 +82,26 @@ def test_a_statement(engine: EngineFactory, tmp_path: Path, monkeypatch: pytest.
     earlier = _last(timeline, "Main.quiet", 6, engine)
     assert (earlier.by, earlier.scan) == ("program", 4)
     assert _last(timeline, "Main.quiet", 4, engine).by == "start"
+
+
+NEIGHBOURS = """\
+PROGRAM Main
+VAR n : INT; motor AT CIO 100.00 : BOOL; lamp AT CIO 100.01 : BOOL; END_VAR
+n := n + 1;
+lamp := n > 3;
+motor := NOT motor;
+END_PROGRAM
+"""
+
+
+@ENGINES
+@pytest.mark.parametrize(("path", "line"), [("Main.lamp", 4), ("Main.motor", 5), ("CIO100.01", 4), ("CIO100", 5)])
+def test_neighbours_in_one_byte(engine: EngineFactory, path: str, line: int, tmp_path: Path) -> None:
+    timeline = begun(tmp_path / "run", NEIGHBOURS, engine)
+    advance(timeline, 20)
+    found = _last(timeline, path, engine=engine)
+    assert found.place is not None
+    assert (found.scan, found.place.line) == (19, line)
 
 
 @ENGINES
@@ -185,6 +207,40 @@ def test_a_block_that_was_never_called(tmp_path: Path) -> None:
     timeline = begun(tmp_path / "run", LINE)
     with pytest.raises(NoReading, match="not called yet"):
         _last(timeline, "Main.belt[1].level")
+
+
+def test_another_run_of_the_same_name_has_its_own_programs(tmp_path: Path) -> None:
+    first = begun(tmp_path / "run", LINE)
+    advance(first, 20)
+    first.close()
+    with _reading(tmp_path / "run") as reading:
+        reading.follow(20)
+        assert find_writer(reading, "Main.n", 15).shown == "15"
+        (tmp_path / "run").rename(tmp_path / "aside")
+        second = begun(tmp_path / "run", LINE.replace("n := n + 1;", "\n  n := n + 10;"))
+        advance(second, 20)
+        reading.follow(20)
+        found = find_writer(reading, "Main.n", 15)
+        assert (found.shown, found.place and found.place.text) == ("150", "n := n + 10;")
+        second.close()
+
+
+def test_an_input_of_a_counter_that_no_call_passes(tmp_path: Path) -> None:
+    """Its call writes the other members only, so no scan has to be looked at for it."""
+    source = "PROGRAM Main VAR n : INT; count : CTU; END_VAR n := n + 1; count(CU := n MOD 2 = 0, PV := 3); END_PROGRAM"
+    timeline = begun(tmp_path / "run", source)
+    advance(timeline, 20)
+    made = timeline.resource.program
+    sites = timeline.resource.loaded.debugged().sites
+
+    def written(name: str) -> int:
+        return len(writers(made, sites, resolve(made, f"Main.count.{name}")) or ())
+
+    assert {name: written(name) for name in ("CU", "R", "RESET", "PV", "Q", "CV")} == {
+        "CU": 1, "R": 0, "RESET": 0, "PV": 1, "Q": 1, "CV": 1,
+    }  # fmt: skip
+    assert _last(timeline, "Main.count.RESET").by == "start"
+    assert _last(timeline, "Main.count.CV").scan == 19
 
 
 def test_a_reading_follows_its_file(tmp_path: Path) -> None:

@@ -201,6 +201,7 @@ export const verifyEnglish = {
   "verify.uses.read": "read",
   "verify.uses.written": "written",
   "verify.uses": "Used variables",
+  "verify.holds": "waits for the verification: Go on",
   "verify.kept": "Kept as {name}",
   "verify.writer.none": "Choose a variable of the row",
   "verify.whole": "Verify whole program",

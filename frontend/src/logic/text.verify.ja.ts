@@ -202,6 +202,7 @@ export const verifyJapanese: Record<keyof typeof verifyEnglish, string> = {
   "verify.uses.read": "読み",
   "verify.uses.written": "書き",
   "verify.uses": "使用した変数",
+  "verify.holds": "検証の「次へ」を待っています",
   "verify.kept": "{name} として保存しました",
   "verify.writer.none": "行の変数を選んでください",
   "verify.whole": "プログラム全体を検証",

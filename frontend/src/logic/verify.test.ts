@@ -1,6 +1,18 @@
 import { describe, expect, it } from "vitest";
 import type { VerifyColumn, VerifyRow } from "../wire/types";
-import { differsIn, isEdited, isWholeScan, nextDifferent, resultOf, scanTyped, stretchLines } from "./verify";
+import {
+  differsIn,
+  firstDifferingUnit,
+  isEdited,
+  isWholeScan,
+  memberOf,
+  nextDifferent,
+  resultOf,
+  scanTyped,
+  stretchLines,
+  variableOf,
+  writtenBefore,
+} from "./verify";
 
 const column: VerifyColumn = {
   name: "speed",
@@ -94,5 +106,56 @@ describe("what is typed and told", () => {
     expect(isWholeScan({})).toBe(true);
     expect(isWholeScan({ pou: "", file: "" })).toBe(true);
     expect(isWholeScan({ pou: "Belt" })).toBe(false);
+  });
+});
+
+describe("variables of a row", () => {
+  const differs = (part: Partial<VerifyRow["differences"][number]>): VerifyRow["differences"][number] => ({
+    cause: "logic",
+    name: "speed",
+    control: "01",
+    monitor: "02",
+    place: null,
+    message: "",
+    type: "INT",
+    kind: "int",
+    size: 2,
+    ...part,
+  });
+
+  it("is that of the difference, else that of the column with the keys", () => {
+    expect(variableOf(differs({ name: "D120" }), null)).toBe("D120");
+    expect(variableOf(null, "input:zone.parts")).toBe("zone.parts");
+    expect(variableOf(null, "output:a[1,2]:A'")).toBe("a[1,2]");
+    expect(variableOf(differs({ name: "count (global)" }), null)).toBe("count");
+  });
+
+  it("what is told of no variable names none", () => {
+    expect(variableOf(null, "scan")).toBeNull();
+    expect(variableOf(differs({ cause: "order", name: "next statement" }), null)).toBeNull();
+    expect(variableOf(differs({ cause: "trap", name: "run-time error" }), null)).toBeNull();
+  });
+
+  it("has a path: what the block has inside is below its instance, the rest is a path already", () => {
+    const inside = [{ path: "Main.belt.position" }, { path: "Main.belt.zone" }];
+    expect(memberOf("Main.belt", inside, "position")).toBe("Main.belt.position");
+    expect(memberOf("Main.belt", inside, "Zone.parts[3]")).toBe("Main.belt.Zone.parts[3]");
+    expect(memberOf("Main.belt", inside, "positions")).toBe("positions");
+    expect(memberOf("Main", [{ path: "Main.count" }], "Main.count")).toBe("Main.count");
+    expect(memberOf("", [], "lamp")).toBe("lamp");
+  });
+
+  it("an input was written before the scan, a result in it", () => {
+    expect(writtenBefore(row({ scan: 9 }), differs({ cause: "input" }))).toBe(9);
+    expect(writtenBefore(row({ scan: 9 }), differs({}))).toBe(10);
+    expect(writtenBefore(row({ scan: 9 }), null)).toBe(10);
+  });
+
+  it("a jump leads to the cell that differs", () => {
+    const both = { control: "01", monitor: "01", set: null };
+    const read = row({ outputs: { speed: both }, differences: [differs({ cause: "input" })] });
+    expect(firstDifferingUnit(read, [output, input], "recorded")).toBe(input);
+    const written = row({ outputs: { speed: { ...both, monitor: "02" } }, differences: [differs({})] });
+    expect(firstDifferingUnit(written, [input, output], "recorded")).toBe(output);
   });
 });

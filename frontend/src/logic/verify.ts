@@ -82,5 +82,9 @@ export function scanTyped(text: string): number | null {
   return /^\d+$/.test(digits) ? Number(digits) : null;
 }
 
+/** The PLC waits for it. */
+export const isPaced = (info: Pick<VerificationInfo, "state" | "source" | "pace">) =>
+  info.source === "live" && info.pace !== "free" && isGoing(info);
+
 export const isGoing = ({ state }: Pick<VerificationInfo, "state">) =>
   state === "starting" || state === "verifying" || state === "waiting";

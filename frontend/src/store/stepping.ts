@@ -1,7 +1,7 @@
 /** Steps of the debugger: what the buttons and keys send, and whom the view follows. */
 import { create } from "zustand";
 import { permits } from "../logic/stepping";
-import { isGoing } from "../logic/verify";
+import { isPaced } from "../logic/verify";
 import { ask } from "./debug";
 import { caretPlace } from "./debugKeys";
 import { openFile } from "./navigate";
@@ -13,8 +13,7 @@ export type StepCommand = "continue" | "pause" | "next" | "stepIn" | "stepOut" |
 /** Whether a way back is searched for so long that people wonder: from then on it is said, and the buttons are off. */
 export const useStepping = create<{ searching: boolean }>(() => ({ searching: false }));
 
-const isStepwise = () =>
-  useVerify.getState().verifications.some((info) => info.pace === "step" && info.source === "live" && isGoing(info));
+const isStepwise = () => useVerify.getState().verifications.some((info) => info.pace === "step" && isPaced(info));
 
 /** Most searches are over before one could read of them. */
 const NOTICED_MS = 250;

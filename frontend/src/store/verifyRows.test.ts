@@ -80,6 +80,15 @@ afterEach(() => vi.restoreAllMocks());
 const settled = () => vi.waitFor(() => expect(useVerifyRows.getState().count).toBe(server.count));
 
 describe("rows of a verification", () => {
+  it("differences that were forgotten do not stand in the way of rows in sight", async () => {
+    server = { first: 600, count: 1000, differing: [] };
+    onVerifications([info({ rows: 1000, forgotten: 600, differing: 3 })]);
+    seeLines(0, 30);
+    await settled();
+    seeLines(300, 330);
+    await vi.waitFor(() => expect(useVerifyRows.getState().byIndex.has(929)).toBe(true));
+  });
+
   it("those in sight are fetched, and those one scrolls to", async () => {
     server = { first: 0, count: 1000, differing: [400] };
     onVerifications([info({ rows: 1000, differing: 1 })]);

@@ -3,7 +3,7 @@ import { create } from "zustand";
 import { nextDifferent } from "../logic/verify";
 import type { VerifyColumn, VerifyRow, VerifyUse } from "../wire/types";
 import { type VerifySource, verify as wire } from "../wire/verify";
-import { fail, shownNow, useVerify } from "./verify";
+import { fail, type ShownVerification, shownNow, useVerify } from "./verify";
 
 interface Rows {
   /** Of what, as text; another one begins anew. */
@@ -16,6 +16,8 @@ interface Rows {
   /** Rows that there were; the last one has index `count` - 1. */
   count: number;
   differing: readonly number[];
+  /** Rows that differed until then, those that were forgotten included. */
+  differed: number;
   onlyDiffering: boolean;
   /** The row that is looked at, by its index. */
   selected: number | null;
@@ -35,6 +37,7 @@ const nothing: Omit<Rows, "onlyDiffering"> = {
   first: 0,
   count: 0,
   differing: [],
+  differed: 0,
   selected: null,
   track: null,
   sought: null,
@@ -83,7 +86,7 @@ function isStale(): boolean {
     rows.generation !== info.generation ||
     rows.count < info.rows ||
     rows.first < info.forgotten ||
-    (rows.differing.length < info.differing && rows.differing.length < 10_000)
+    rows.differed < info.differing
   );
 }
 
@@ -98,12 +101,19 @@ function missing(): { first: number; count: number } | null {
   return null;
 }
 
+/** Nothing that is kept is of what is shown now. */
+function isOther(): boolean {
+  const shown = shownNow();
+  const rows = get();
+  return shown !== null && (rows.of !== keyOf(shown.source) || rows.generation !== shown.info.generation);
+}
+
 /** What the table knows of the whole is old, though its rows need not be. */
 function wantsNews(): { first: number; count: number } | null {
   const shown = shownNow();
   if (!shown || !isStale()) return null;
   const rows = get();
-  const other = rows.of !== keyOf(shown.source) || rows.generation !== shown.info.generation;
+  const other = isOther();
   // At the end of the table the new rows come along with the news that there are some.
   if (!other && !rows.onlyDiffering && sight.to >= lineCount(rows) && shown.info.rows > rows.count)
     return { first: Math.max(rows.count, shown.info.rows - PAGE / 2), count: PAGE };
@@ -117,11 +127,11 @@ async function fetchMissing(): Promise<void> {
   try {
     for (let goesOn = true; goesOn; ) {
       const shown = shownNow();
-      const wanted = wantsNews() ?? missing();
+      // Rows in sight come first, and bring the news along: on a busy machine there is always some.
+      const wanted = (isOther() ? null : missing()) ?? wantsNews();
       if (!shown || !wanted) return;
-      const { generation } = shown.info;
       const answer = await wire.rows(shown.source, wanted.first, wanted.count, get().onlyDiffering);
-      goesOn = take(keyOf(shown.source), generation, answer, wanted.first);
+      goesOn = take(shown, answer, wanted.first);
     }
   } catch (error) {
     fail(error);
@@ -140,8 +150,10 @@ function firstInSight(): number {
 type Answer = Awaited<ReturnType<typeof wire.rows>>;
 
 /** False when nothing came that was not there: asking again at once is no use, the next news of the server leads on. */
-function take(of: string, generation: number, answer: Answer, asked: number): boolean {
+function take({ source, info }: ShownVerification, answer: Answer, asked: number): boolean {
   const before = get();
+  const { generation } = info;
+  const of = keyOf(source);
   const anew = before.of !== of;
   const isNew =
     anew ||
@@ -168,6 +180,7 @@ function take(of: string, generation: number, answer: Answer, asked: number): bo
     first: answer.first,
     count: answer.count,
     differing: answer.differing,
+    differed: info.differing,
     selected: selected !== null && selected < answer.first ? null : selected,
     ...(anew ? { track: null } : {}),
   });

@@ -63,12 +63,6 @@ function paint(): void {
       "editorGutter.background": token("bg-panel"),
       "editorOverviewRuler.border": "#00000000",
       "scrollbar.shadow": "#00000000",
-      "menu.background": token("bg-float"),
-      "menu.foreground": token("text"),
-      "menu.border": token("line-seam"),
-      "menu.selectionBackground": token("accent-soft"),
-      "menu.selectionForeground": token("text"),
-      "menu.separatorBackground": token("line-seam"),
       focusBorder: token("focus"),
     },
   });

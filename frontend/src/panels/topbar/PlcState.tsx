@@ -1,9 +1,11 @@
 import { haltPlace } from "../../logic/halted";
 import { type ShownState, showState } from "../../logic/plcstate";
 import { t } from "../../logic/text";
+import { isPaced } from "../../logic/verify";
 import { useBench } from "../../store/bench";
 import { useOnline, usePlc } from "../../store/plc";
 import { useStepping } from "../../store/stepping";
+import { useVerify } from "../../store/verify";
 import { Icon } from "../../ui/Icon";
 
 /** A project that nothing runs yet is not a connection that was lost. */
@@ -21,7 +23,12 @@ export function PlcState() {
   const searching = useStepping((stepping) => stepping.searching);
   const missing = useBench((bench) => bench.project !== null && bench.instance === null);
   const shown = missing ? noPlc() : showState(state, online);
-  const detail = searching ? t("state.searching") : shown.detail;
+  const waits = useVerify(({ verifications }) => verifications.some(isPaced));
+  const detail = searching
+    ? t("state.searching")
+    : waits && state?.state === "paused"
+      ? t("verify.holds")
+      : shown.detail;
   const halt = online ? state?.halt : null;
   const short = searching ? undefined : shown.short;
   const whole = state?.state === "starting" ? detail : state?.message || detail;

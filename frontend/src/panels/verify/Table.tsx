@@ -67,11 +67,11 @@ export function Table({ shown }: { shown: ShownVerification }) {
   const from = items[0]?.index ?? 0;
   const to = (items.at(-1)?.index ?? -1) + 1;
   useEffect(() => seeLines(from, Math.max(to, from + 40)), [from, to]);
-  useHeldPlace(grid, rows.first, rows.onlyDiffering);
+  useHeldPlace(grid, rows.first, rows.onlyDiffering || follow.isOn());
   // biome-ignore lint/correctness/useExhaustiveDependencies: more rows are the reason
   useLayoutEffect(() => {
     if (follow.isOn() && grid.current) grid.current.scrollTop = grid.current.scrollHeight;
-  }, [count, rows.selected]);
+  }, [rows.count, count, rows.selected]);
   const at = rows.selected === null ? -1 : lineOfRow(rows, rows.selected);
   useReveal(at, (line) => virtual.scrollToIndex(line, { align: "auto" }));
   const editing = useEditing(shown, grid);
@@ -229,13 +229,13 @@ function useAcross(grid: { current: HTMLDivElement | null }) {
 }
 
 /** Rows that are forgotten go at the front: what one reads stays where it is. */
-function useHeldPlace(grid: { current: HTMLDivElement | null }, first: number, onlyDiffering: boolean): void {
+function useHeldPlace(grid: { current: HTMLDivElement | null }, first: number, moves: boolean): void {
   const before = useRef(first);
   useLayoutEffect(() => {
     const gone = first - before.current;
     before.current = first;
-    if (gone > 0 && !onlyDiffering && grid.current) grid.current.scrollTop -= gone * ROW;
-  }, [first, onlyDiffering, grid]);
+    if (gone > 0 && !moves && grid.current) grid.current.scrollTop -= gone * ROW;
+  }, [first, moves, grid]);
 }
 
 /** As many lines at the end: they are drawn at once, not when the browser has told that it scrolled there. */
@@ -252,11 +252,21 @@ function useFollowing(
   selected: number | null,
 ): { isOn: () => boolean } {
   const follows = useRef(live);
+  const isOn = () => live && follows.current && selected === null;
+  const on = useRef(isOn);
+  on.current = isOn;
   useEffect(() => {
     const element = grid.current;
     if (!element) return;
+    let height = element.clientHeight;
+    // Shown again or given another size: it is still the end that one looks at.
+    const sized = new ResizeObserver(() => {
+      height = element.clientHeight;
+      if (on.current()) element.scrollTop = element.scrollHeight;
+    });
+    sized.observe(element);
     const note = () => {
-      if (element.clientHeight > 0)
+      if (element.clientHeight > 0 && element.clientHeight === height)
         follows.current = element.scrollTop + element.clientHeight >= element.scrollHeight - ROW;
     };
     const stop = (event: WheelEvent) => {
@@ -265,11 +275,12 @@ function useFollowing(
     element.addEventListener("scroll", note, { passive: true });
     element.addEventListener("wheel", stop, { passive: true });
     return () => {
+      sized.disconnect();
       element.removeEventListener("scroll", note);
       element.removeEventListener("wheel", stop);
     };
   }, [grid]);
-  return { isOn: () => live && follows.current && selected === null };
+  return { isOn };
 }
 
 /** Where a jump leads comes into sight; what goes on meanwhile moves nothing. */
