@@ -37,8 +37,10 @@ def diff(
     of = programs_of(_Checked().program, make)
     try:
         with Reading(run1, of, ENTRIES, _texts) as one, Reading(run2, of, ENTRIES, _texts) as other:
-            one.follow()
-            other.follow()
+            for path, reading in ((run1, one), (run2, other)):
+                damage = reading.follow().recording.damage
+                if damage:
+                    typer.echo(f"scanbench: {path}: the file was damaged: {damage}", err=True)
             found = find_divergence(one, other)
     except NoReading as error:
         usage(with_near(str(error), error.near))

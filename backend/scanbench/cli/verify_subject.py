@@ -142,6 +142,8 @@ def _program_of(kept: KeptProgram) -> Program:
 
 def _about(path: Path) -> str:
     with Recording.open(path, ENTRIES, read_only=True) as recording:
+        if recording.damage:
+            typer.echo(f"scanbench: {path}: the file was damaged: {recording.damage}", err=True)
         return recording.about.model
 
 
