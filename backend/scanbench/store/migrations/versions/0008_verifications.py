@@ -35,7 +35,7 @@ def upgrade() -> None:
         sa.Column("by", sa.String(100), nullable=False),
         sa.Column("at", sa.DateTime(timezone=True), nullable=False),
         sa.PrimaryKeyConstraint("id", name="pk_trace_mapping"),
-        sa.UniqueConstraint("project_id", "name", name="uq_trace_mapping_project_id"),
+        sa.UniqueConstraint("project_id", "name", name="uq_trace_mapping_project_id_name"),
         sa.ForeignKeyConstraint(["project_id"], ["project.id"], name="fk_trace_mapping_project_id", ondelete="CASCADE"),
     )
 
