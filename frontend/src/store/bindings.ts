@@ -5,6 +5,7 @@ import type { Binding } from "../wire/types";
 import { useBench } from "./bench";
 import { messageOf } from "./documents";
 import { useForces } from "./forces";
+import { isAway } from "./members";
 
 const AGAIN = 2000;
 
@@ -53,7 +54,8 @@ async function askAll(): Promise<void> {
 
 async function ask(path: string): Promise<void> {
   const instance = useBench.getState().instance?.id;
-  if (instance === undefined) return;
+  // A PLC without a process cannot tell: it is asked again when it is back.
+  if (instance === undefined || isAway()) return;
   let found: Binding;
   try {
     found = await rest.binding(instance, path);

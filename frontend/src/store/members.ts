@@ -2,6 +2,7 @@
 import { create } from "zustand";
 import { rest } from "../wire/rest";
 import type { PlcSymbol } from "../wire/types";
+import { usePlc } from "./plc";
 
 interface Members {
   instance: number | null;
@@ -17,12 +18,18 @@ export function resetMembers(instance: number | null): void {
   useMembers.setState({ instance, of: new Map(), refused: new Map() });
 }
 
+/** Whether the PLC has no process now, which alone could tell. */
+export function isAway(): boolean {
+  const { state } = usePlc.getState();
+  return state !== null && state.pid === null;
+}
+
 /** Fetches the members below a path ('' is the top: programs and globals), once. */
 export async function loadMembers(path: string): Promise<readonly PlcSymbol[]> {
   const { instance, of } = useMembers.getState();
   const known = of.get(path);
   if (known) return known;
-  if (instance === null) return [];
+  if (instance === null || isAway()) return [];
   try {
     const symbols = await rest.symbols(instance, path);
     if (useMembers.getState().instance === instance) {
@@ -35,6 +42,8 @@ export async function loadMembers(path: string): Promise<readonly PlcSymbol[]> {
     return symbols;
   } catch (error) {
     const message = error instanceof Error ? error.message : String(error);
+    // Whoever looks at this store asks again when it changes: the same refusal once more is no news.
+    if (useMembers.getState().refused.get(path) === message) return [];
     useMembers.setState((state) => ({ refused: new Map(state.refused).set(path, message) }));
     return [];
   }

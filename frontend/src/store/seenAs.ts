@@ -2,7 +2,7 @@
 import { create } from "zustand";
 import { rest } from "../wire/rest";
 import type { PlcSymbol } from "../wire/types";
-import { loadMembers, useMembers } from "./members";
+import { isAway, loadMembers, useMembers } from "./members";
 import { usePlc } from "./plc";
 import { useStack } from "./stack";
 
@@ -28,7 +28,7 @@ export function resetSeenAs(): void {
 export async function loadInstances(pou: string): Promise<void> {
   const key = pou.toUpperCase();
   const { instance } = useMembers.getState();
-  if (instance === null || asked.has(key)) return;
+  if (instance === null || isAway() || asked.has(key)) return;
   asked.add(key);
   try {
     const paths = (await rest.instancesOf(instance, pou)).map(({ path }) => path);
