@@ -148,6 +148,10 @@ class TraceFiles:
 
     async def save_mapping(self, project: int, name: str, mapping: TraceMapping, author: str) -> MappingRow:
         """Saves one; it replaces that of the same name."""
+        try:
+            TraceMapping.from_json(mapping.to_json())
+        except BadMapping as bad:
+            raise Refused(str(bad)) from bad
         content = json.loads(mapping.to_json())
         return await asyncio.to_thread(self._store.save_mapping, project, name, content, author)
 

@@ -18,10 +18,10 @@ export function resetMembers(instance: number | null): void {
   useMembers.setState({ instance, of: new Map(), refused: new Map() });
 }
 
-/** Whether the PLC has no process now, which alone could tell. */
+/** Whether the PLC cannot tell its variables now: before it runs, and while it is switched off. */
 export function isAway(): boolean {
   const { state } = usePlc.getState();
-  return state !== null && state.pid === null;
+  return state === null || ["off", "starting", "restarting", "failed"].includes(state.state);
 }
 
 /** Fetches the members below a path ('' is the top: programs and globals), once. */

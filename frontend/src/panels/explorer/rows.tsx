@@ -7,7 +7,7 @@ import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { useDebug } from "../../store/debug";
 import { isDirty, useDocuments } from "../../store/documents";
-import { loadMembers, useMembers } from "../../store/members";
+import { isAway, loadMembers, useMembers } from "../../store/members";
 import { openFile } from "../../store/navigate";
 import { usePlc } from "../../store/plc";
 import { addToTrace } from "../../store/traces";
@@ -64,10 +64,7 @@ export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) =>
   const open = useDocuments((documents) => documents.open);
 
   const { isOpen } = folding;
-  // Before it runs, and while it is switched off, a PLC cannot tell its variables.
-  const answers = usePlc(
-    ({ state }) => state !== null && !["off", "starting", "restarting", "failed"].includes(state.state),
-  );
+  const answers = usePlc(() => !isAway());
   const showInstances = instance !== null && answers && isOpen("instances");
   useEffect(() => {
     if (showInstances && !members.has("")) void loadMembers("");
