@@ -80,7 +80,7 @@ layers:
 	@cd backend && $(BIN)/lint-imports --no-logo
 
 unit:
-	@cd backend && $(BIN)/python -m pytest --quiet
+	@cd backend && $(BIN)/python -m pytest --quiet --numprocesses auto --maxprocesses 4 --dist loadfile
 
 # The debug adapter, with a client that is not ours.
 adapter:
