@@ -154,8 +154,10 @@ class Both:
         control, monitor = self.control.side, self.monitor.side
         ran = Ran(view, control.begin(), monitor.begin(), held(control.resource.journal), calls)
         self.ran.append(ran)
-        recorder = Recorder(control.resource, view.reader.namer, view.range, view.limit)
-        ran.passes = recorder.passes
+        recorder = Recorder(
+            control.resource, view.reader.namer, view.range, view.limit, disturbed={*self._disturbed.own, *ran.held}
+        )
+        ran.passes, self._disturbed.written = recorder.passes, recorder.written
 
         def first() -> None:
             ran.there.update((at, (mask, control.memory[at])) for at, mask in ran.held.items())

@@ -1,5 +1,6 @@
 """Rows of the table: what the two sides used and came to, pass by pass, and the first place where they part."""
 
+from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from scanbench.verify.monitor import Inputs
@@ -62,15 +63,18 @@ class Disturbed:
     own: dict[int, int] = field(default_factory=dict)
     told: set[int] = field(default_factory=set)
     """Those that a row tells of."""
+    written: Mapping[int, Sequence[tuple[int, int]]] = field(default_factory=dict)
+    """What statements of the scan have written of them (count, bits): what is read of that later is not disturbed."""
 
-    def own_of(self, offset: int, value: bytes, bits: int) -> bytes | None:
-        """What would have been read here; None: the same."""
+    def own_of(self, offset: int, value: bytes, bits: int, position: int) -> bytes | None:
+        """What would have been read here, by the statement of this count; None: the same."""
         if not self.own:
             return None
         made = bytearray(value)
         for at, byte in enumerate(value, offset):
-            if at in self.own and (self.there[at] ^ byte) & bits == 0:
-                made[at - offset] = self.own[at] & bits
+            left = bits & ~sum(each for count, each in self.written.get(at, ()) if count < position)
+            if at in self.own and left and (self.there[at] ^ byte) & left == 0:
+                made[at - offset] = byte & ~left | self.own[at] & left
                 if made[at - offset] != byte:
                     self.told.add(at)
         return bytes(made) if made != value else None
@@ -149,8 +153,8 @@ def _inputs(
     found: dict[str, Input] = {}
     differences: list[Mismatch] = []
     instead = inputs.expected[number]
-    for (_, _, offset, size, bits, _, value), _ in inputs.fresh[number]:
-        own = disturbed.own_of(offset, value, bits)
+    for (_, position, offset, size, bits, _, value), _ in inputs.fresh[number]:
+        own = disturbed.own_of(offset, value, bits, position)
         if instead:
             patched = bytearray(value if own is None else own)
             for at in range(offset, offset + size):

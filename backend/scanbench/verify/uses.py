@@ -4,7 +4,7 @@ The recorder listens to the debug flavour of either side. A pass begins when a s
 POU, and ends when another statement begins in that frame, or the frame ends; what is called belongs to it.
 """
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
@@ -91,12 +91,18 @@ class Pass:
 class Recorder:
     """Listens to one side while a scan runs. It halts nowhere."""
 
-    def __init__(self, resource: Resource, namer: Namer, range: Resolved, limit: int, detail: bool = False) -> None:
+    def __init__(
+        self, resource: Resource, namer: Namer, range: Resolved, limit: int, detail: bool = False,
+        disturbed: Iterable[int] = (),
+    ) -> None:  # fmt: skip
+        """`disturbed`: bytes of which every write is noted, wherever the program makes it."""
         self._resource, self._namer, self._range = resource, namer, range
         self._engine = resource.loaded.debugged()
         self._memory = resource.memory
         self._left, self._detail = limit, detail
-        self._idle = Listen(sites=range.sites, count=1)
+        self.written: dict[int, list[tuple[int, int]]] = {at: [] for at in disturbed}
+        """Of each disturbed byte what statements have written of it: the count, and the bits that nobody had written."""
+        self._idle = Listen(sites=range.sites, count=1, bytes=dict.fromkeys(self.written, WRITE))
         self._busy = Listen(sites=range.sites, every=True, accesses=READ | WRITE)
         if range.whole:
             self._idle = self._busy = Listen(count=1, accesses=READ | WRITE)
@@ -142,6 +148,8 @@ class Recorder:
 
     def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
         """See `Hook`."""
+        if written and self.written:
+            self._note_written(count, range(offset, offset + size))
         open = self._open
         if open is None:
             if not self._range.whole:
@@ -161,6 +169,14 @@ class Recorder:
         open.log.append(_new(Access, (site, count, offset, size, bits, written, value)))
         if self._detail:
             open.frames_of.append(self._engine.frames())
+
+    def _note_written(self, count: int, span: range) -> None:
+        for at in span if len(span) < len(self.written) else [at for at in self.written if at in span]:
+            known = self.written.get(at)
+            if known is not None:
+                new = self._engine.bits & ~sum(bits for _, bits in known)
+                if new:
+                    known.append((count, new))
 
     def entered(self) -> None:
         """Something was entered inside of the scan: what it changed that a statement had written counts as its result."""

@@ -213,6 +213,36 @@ def test_a_flipped_bit_that_nobody_reads_is_found(tmp_path: Path) -> None:
     assert (difference.cause, difference.name, difference.kind) == ("input", "D777", "bits")
 
 
+OVERWRITTEN = """\
+PROGRAM Main
+VAR n, x, y : INT; u : BOOL; s AT D10 : WORD; END_VAR
+  x := n MOD 2;
+  s.3 := n MOD 2 = 1;
+  y := x;
+  u := s.3;
+  u := u OR s.4;
+  n := n + 1;
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize(("range", "flip", "bit", "read"), [
+    ("Main:5", "Main.x", 0, None), ("Main:6", "D10", 3, None), ("Main:7", "D10", 4, "Main.s.4"), ("Main:3-5", "Main.x", 0, None),
+    ("", "Main.x", 0, None),
+])  # fmt: skip
+def test_what_the_program_wrote_over_a_flipped_bit_is_no_input_difference(
+    range: str, flip: str, bit: int, read: str | None, tmp_path: Path
+) -> None:
+    path = disturbed(tmp_path, Disturbance("flip", flip, bit, scan=7), source=OVERWRITTEN)
+    found = rows(verifier(path, program(OVERWRITTEN), range))
+    (row,) = [row for row in found if row.differs]
+    assert row.scan == 7
+    assert {name for name, each in row.inputs.items() if each.expected is not None} == ({read} if read else set())
+    (difference,) = row.differences
+    assert difference.cause == "input"
+    assert ("nobody wrote it" in difference.message) == (read is None)
+
+
 def test_a_stuck_input_is_an_input_difference_while_it_is_another(tmp_path: Path) -> None:
     path = record(
         tmp_path / "run", program(BELTS), 14,
