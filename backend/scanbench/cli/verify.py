@@ -25,6 +25,8 @@ from scanbench.verify.verified import DEFAULT_LIMIT, MAX_LIMIT, BadRange, Range
 from scanbench.verify.verifier import Begun, Unverifiable
 
 SCANS = 1000
+STRETCHES = 100
+"""Of scans that were not compared; a report has the last ones."""
 """That a project runs when nobody says how many."""
 INTERRUPTED = 128 + signal.SIGINT
 _EVERY_NS = 200_000_000
@@ -184,7 +186,7 @@ def _head(
         project=subject.project, instance=subject.instance, model=subject.model, by=AUTHOR, when=iso(wall_time()),
         version=begun.version, title=begun.title, source=subject.source, first=first,
         last=last if stopped is None or collected.last_scan is None else collected.last_scan,
-        compared=collected.compared, skipped=0, differing=collected.differing, tool=f"Scanbench {__version__}",
+        compared=collected.compared, skipped=collected.skipped, differing=collected.differing, tool=f"Scanbench {__version__}",
         trace=subject.trace, interval_ns=begun.interval_ns, forgotten=collected.seen - len(collected.rows()),
-        limit=limit, note=" ".join(filter(None, notes)),
+        limit=limit, stretches=tuple(collected.stretches[-STRETCHES:]), note=" ".join(filter(None, notes)),
     )  # fmt: skip

@@ -5,8 +5,10 @@ from collections.abc import Iterator
 from scanbench.faults.sweep_report import count
 from scanbench.verify.report import Report, ReportHead
 from scanbench.verify.value_text import column_of, differing_bits, value_text
-from scanbench.verify.verified import Column, Mismatch, Row
+from scanbench.verify.verified import ENDED, Column, Mismatch, Row
 
+STRETCHES = 5
+"""Of scans that were not compared that are named."""
 SHOWN = 10
 """Differences that are printed; `--json` and `--html` have more."""
 CAUSES = {
@@ -28,6 +30,9 @@ def verify_text(report: Report) -> Iterator[str]:
     if len(differences) > SHOWN:
         yield f"{len(differences) - SHOWN:,} more differences: --json and --html have them"
         yield ""
+    for row in report.rows:
+        if ENDED in row.note and not row.differs:
+            yield f"scan {row.scan}: {row.note}, in the reference as well"
     yield _summary(head)
 
 
@@ -35,11 +40,16 @@ def _summary(head: ReportHead) -> str:
     came = f"{count(head.differing, 'row')} differ" if head.differing else "no difference"
     if not head.compared:
         came = "nothing was compared"
-    skipped = f", {head.skipped:,} skipped" if head.skipped else ""
+    skipped = f", {head.skipped:,} not compared ({_stretches(head)})" if head.skipped else ""
     return (
         f"{head.project} on {head.model}, {head.title}: scans {head.first} to {head.last}, "
         f"{head.compared:,} compared{skipped}: {came}"
     )
+
+
+def _stretches(head: ReportHead) -> str:
+    shown = [str(first) if first == last else f"{first} to {last}" for first, last in head.stretches[:STRETCHES]]
+    return ", ".join(shown) + (", ..." if len(head.stretches) > STRETCHES else "")
 
 
 def _block(row: Row, difference: Mismatch, columns: tuple[Column, ...]) -> Iterator[str]:
@@ -49,9 +59,10 @@ def _block(row: Row, difference: Mismatch, columns: tuple[Column, ...]) -> Itera
         yield f"  task      {place.task or '-'}"
         yield f"  instance  {place.instance}"
         yield f"  line      {place.file}:{place.line}" + (f": {place.text}" if place.text else "")
-    yield f"  variable  {difference.name}" + (f" : {difference.type}" if difference.type else "")
-    yield f"  was       {value_text(column, difference.control) or '-'}"
-    yield f"  is        {value_text(column, difference.monitor) or '-'} in the reference"
+    if difference.control or difference.monitor:
+        yield f"  variable  {difference.name}" + (f" : {difference.type}" if difference.type else "")
+        yield f"  was       {value_text(column, difference.control) or '-'}"
+        yield f"  is        {value_text(column, difference.monitor) or '-'} in the reference"
     bits = differing_bits(difference.control, difference.monitor)
     if bits:
         yield f"  bits      {', '.join(map(str, bits[:16]))}{', ...' if len(bits) > 16 else ''}"

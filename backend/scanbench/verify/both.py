@@ -10,7 +10,7 @@ from scanbench.check.layout import Layout
 from scanbench.runtime.command import Entry
 from scanbench.runtime.holds import held
 from scanbench.runtime.trap import Trapped, trap_info
-from scanbench.verify.control import Control, Source, Unverifiable
+from scanbench.verify.control import Control, Source, Unverifiable, trap_of
 from scanbench.verify.disturb import DISTURBED, is_disturbance, told, told_held
 from scanbench.verify.monitor import Inputs, Monitor
 from scanbench.verify.naming import WHOLE, Leaf
@@ -19,7 +19,7 @@ from scanbench.verify.rows import MAX_MISMATCHES, Disturbed, Pair, Reader, row_o
 from scanbench.verify.sentences import mismatch, values
 from scanbench.verify.sides import Begin, Side
 from scanbench.verify.uses import Access, Pass, Recorder, results_are
-from scanbench.verify.verified import Mismatch, Row
+from scanbench.verify.verified import ENDED, Mismatch, Row
 
 MAX_BYTES = 2000
 """Bytes that are another of which the variables are looked for."""
@@ -88,7 +88,7 @@ class Both:
                 more, trapped = self._run(scan, view, max((each.call for each in rows), default=0))
                 rows += more
             elif not rows:
-                rows.append(Row("none", scan, note=self._stopped()))
+                rows.append(Row("none", scan, note=self._stopped(), compared=False))
             if not trapped:
                 break
             if self._next(scan) is None:
@@ -168,16 +168,15 @@ class Both:
             first()
         inputs = Inputs(ran.passes, ran.there)
         other = Recorder(monitor.resource, view.reader.namer, view.range, view.limit)
-        stop = self.monitor.run(other, inputs)
+        right = trap_of(self.monitor.run(other, inputs))
         if not other.began:
             inputs.first()
         self._note_held(inputs, ran)
-        rows = self._rows(scan, ran, other.passes, inputs)
-        if trap != stop.trap:
-            rows[-1] = _with(rows[-1], self._trap(view, scan, trap, stop.trap))
+        rows = self._rows(scan, ran, other.passes, inputs, (trap, right))
         if trap:
-            note = f"ended by a run-time error: {trap_info(control.resource.program, trap, scan)}"
-            rows[-1] = replace(rows[-1], note="; ".join(filter(None, (rows[-1].note, note))))
+            at = max(len(ran.passes) - 1, 0)
+            note = f"{ENDED}: {trap_info(control.resource.program, trap, scan)}"
+            rows[at] = replace(rows[at], note="; ".join(filter(None, (rows[at].note, note))))
         self._keep_own(inputs, ran)
         self._go_on(scan, trap)
         return rows, bool(trap)
@@ -195,16 +194,20 @@ class Both:
 
     # ---- what came out --------------------------------------------------------------------------------------------
 
-    def _rows(self, scan: int, ran: Ran, other: list[Pass], inputs: Inputs) -> list[Row]:
+    def _rows(
+        self, scan: int, ran: Ran, other: list[Pass], inputs: Inputs, traps: tuple[int, int]
+    ) -> list[Row]:  # fmt: skip
+        """`traps`: numbers of the run-time errors that ended it on either side, or 0."""
         control, monitor, passes = self.control.side, self.monitor.side, ran.passes
-        different = self.different()
+        cut = traps[0] != traps[1]
+        different = self.different(begin=ran.control.memory if cut else b"")
         if different:
             _settle(passes, other, control.memory, monitor.memory, different)
         rows = []
         for number in range(max(len(passes), len(other))):
             pair = Pair(
                 passes[number] if number < len(passes) else None, other[number] if number < len(other) else None, scan,
-                ran.calls + number + 1,
+                ran.calls + number + 1, cut,
             )  # fmt: skip
             rows.append(
                 row_of(
@@ -215,15 +218,21 @@ class Both:
             )  # fmt: skip
         if not rows:
             rows.append(Row("none", scan, note="not run in this scan"))
+        if cut:
+            at = max(len(passes) - 1, 0)
+            rows[at] = _with(rows[at], self.trap(ran.view, scan, *traps))
         known = _explained(passes, other) if different else set()
         left = [at for at in different if at not in known]
         if left:
             rows[-1] = _with(rows[-1], *self._outside(ran.view, scan, left, control.memory, monitor.memory))
         return rows
 
-    def different(self, one: bytes | bytearray = b"", other: bytes | bytearray = b"") -> list[int]:
+    def different(
+        self, one: bytes | bytearray = b"", other: bytes | bytearray = b"", begin: bytes = b""
+    ) -> list[int]:  # fmt: skip
         """The bytes of the two states (else those of now) that are another, but for the force table, and what a disturbance
-        holds."""
+        holds. Where only one side came to the end of the scan: those that the control device has changed since it began,
+        and not what the system counts; what it did not come to is no difference of its own."""
         one, other = one or self.control.side.memory, other or self.monitor.side.memory
         size = self.control.side.resource.program.layout.state_size
         found = np.flatnonzero(_bytes(one, size) != _bytes(other, size)).tolist()
@@ -233,7 +242,9 @@ class Both:
         return [
             at
             for at in found
-            if not Layout.FORCE_COUNT <= at < Layout.FORCES_END and (one[at] ^ other[at]) & ~bits.get(at, 0)
+            if not Layout.FORCE_COUNT <= at < Layout.FORCES_END
+            and (one[at] ^ other[at]) & ~bits.get(at, 0)
+            and not (begin and (at < Layout.HEADER_SIZE or one[at] == begin[at]))
         ]
 
     def _outside(
@@ -260,7 +271,8 @@ class Both:
                 leaves[leaf.name] = leaf
         return list(leaves.values())[:MAX_MISMATCHES]
 
-    def _trap(self, view: View, scan: int, control: int, monitor: int) -> Mismatch:
+    def trap(self, view: View, scan: int, control: int, monitor: int) -> Mismatch:
+        """A run-time error, by its number, ended the scan on one side, and none or another one on the other."""
         program = self.control.side.resource.program
         texts = [str(trap_info(program, each, scan)) if each else "" for each in (control, monitor)]
         if control:
@@ -269,7 +281,8 @@ class Both:
             )
         else:
             text = f"the control device went to the end of scan {scan}, and a run-time error ended the reference: {texts[1]}"
-        return Mismatch("trap", "run-time error", texts[0].encode(), texts[1].encode(), None, text)
+        place = view.reader.places.of_trap(control or monitor)
+        return Mismatch("trap", "run-time error", b"", b"", place, text)
 
     # ---- disturbances ---------------------------------------------------------------------------------------------
 
@@ -325,7 +338,9 @@ class Both:
 
 
 def _with(row: Row, *more: Mismatch) -> Row:
-    return replace(row, differences=(*row.differences, *more)[:MAX_MISMATCHES])
+    """There is always room for a run-time error."""
+    room = MAX_MISMATCHES - sum(each.cause == "trap" for each in more)
+    return replace(row, differences=(*row.differences[:room], *more)[:MAX_MISMATCHES])
 
 
 def _bytes(memory: bytes | bytearray, size: int) -> NDArray[np.uint8]:

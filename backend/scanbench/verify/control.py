@@ -156,14 +156,14 @@ class Control:
         side = self.side
         try:
             if side.waits:  # only the debug flavour can enter anything inside of a scan
-                return _trap(side.run(recorder, recorder.listen))
+                return trap_of(side.run(recorder, recorder.listen))
             stop, live = side.run(None), side.state
             side.stand(begin)
             side.run(recorder, recorder.listen)
         except Diverged as error:
             raise Unverifiable(str(error)) from error
         side.memory[: len(live)] = live
-        return _trap(stop)
+        return trap_of(stop)
 
     def recorded(self) -> bytes | None:
         """The state that the run file has of this very moment, if that is another one."""
@@ -192,5 +192,6 @@ def _trapped(entries: Sequence[Entry]) -> bool:
     return trapped
 
 
-def _trap(stop: Stop) -> int:
+def trap_of(stop: Stop) -> int:
+    """The number of the run-time error that ended it, or 0."""
     return stop.trap if stop.reason is Reason.TRAP else 0

@@ -40,6 +40,13 @@ class Places:
             self.task(frames), path or statement.pou, statement.pou, span.file, span.line, self.line(span.file, span.line)
         )  # fmt: skip
 
+    def of_trap(self, trap: int) -> Place:
+        """The place of a run-time error, by its number."""
+        site = self.program.traps[trap - 1]
+        path, span = self._only(self._pous.get(site.pou)), site.span
+        line = self.line(span.file, span.line)
+        return Place(self.task(()), path or site.pou, site.pou, span.file, span.line, line)
+
     def path(self, pou: Pou | None, instance: int) -> str:
         """`Main.belt[3]`; of a FUNCTION its name."""
         if pou is None:

@@ -34,6 +34,7 @@ class ReportHead:
     compared: int
     """Scans."""
     skipped: int
+    """Scans of which nothing was compared."""
     differing: int
     """Rows; with what is not in the report any more."""
     tool: str
@@ -72,11 +73,21 @@ class Report:
         return [(row, each) for row in self.rows for each in row.differences]
 
 
+def stretched(stretches: list[tuple[int, int]], first: int, last: int) -> None:
+    """Adds scans to stretches of them, both ends included."""
+    if stretches and stretches[-1][1] == first - 1:
+        first = stretches.pop()[0]
+    stretches.append((first, last))
+
+
 @dataclass(slots=True)
 class Collected:
     """Takes scans as they are verified, and keeps what a report shows: rows that differ, and a few around them."""
 
     compared: int = 0
+    skipped: int = 0
+    """Scans of which nothing was compared, and the stretches of them."""
+    stretches: list[tuple[int, int]] = field(default_factory=list)
     differing: int = 0
     """Rows."""
     first_difference: tuple[Row, Mismatch] | None = None
@@ -93,7 +104,11 @@ class Collected:
 
     def add(self, verified: ScanVerified) -> None:
         """One more scan."""
-        self.compared += 1
+        if verified.compared:
+            self.compared += 1
+        else:
+            self.skipped += 1
+            stretched(self.stretches, verified.scan, verified.scan)
         self.last_scan = verified.scan
         self.most_used = max(self.most_used, verified.used)
         self.columns += verified.columns

@@ -88,6 +88,8 @@ class Pair:
     monitor: Pass | None
     scan: int
     call: int
+    cut: bool = False
+    """A run-time error ended the scan on one side only: that the other one went on says nothing else."""
 
     @property
     def either(self) -> Pass:
@@ -113,6 +115,8 @@ def row_of(
     note = ""
     if made.full:
         note = f"record full: {len(made.log):,} of {made.used:,} uses kept"
+    if pair.cut and (pair.control is None or pair.monitor is None):
+        note = f"not run {'in the reference' if pair.monitor is None else 'by the control device'}: a run-time error came before"
     place = None
     if made.pou is not None and made.frames:
         place = reader.places.of(made.frames[0].site, made.frames)
@@ -204,7 +208,7 @@ def _differences(
                 made.append(teller.differs(cause, leaf, here, there, one.site, control_at(one.position)))
             last[leaf.name] = leaf, one, here, there
     else:
-        if len(control) != len(monitor) and not full:
+        if len(control) != len(monitor) and not full and not pair.cut:
             index = min(len(control), len(monitor))
             longer, at = (control, control_at) if len(control) > index else (monitor, monitor_at)
             made.append(teller.only_one(longer[index], longer is control, at(longer[index].position)))

@@ -8,11 +8,12 @@ from scanbench.engines.engine import Reason, Stop
 from scanbench.runtime.holds import held
 from scanbench.runtime.resource import Resource
 from scanbench.verify.both import Both, View, ViewOf
+from scanbench.verify.control import trap_of
 from scanbench.verify.naming import ANYWHERE, Leaf, Names
 from scanbench.verify.sentences import mismatch, values
 from scanbench.verify.sides import Begin, Side
 from scanbench.verify.uses import Access, Pass
-from scanbench.verify.verified import Input, Mismatch, Output, Place, Row
+from scanbench.verify.verified import ENDED, Input, Mismatch, Output, Place, Row
 
 
 class _Stepper:
@@ -65,6 +66,8 @@ class _Stood:
     trap: int = 0
     marks: dict[int, int] = field(default_factory=dict)
     """What was held, as the first statement began."""
+    begin: bytes = b""
+    """The whole image in front of the scan."""
 
 
 def step_row(both: Both, scan: int, count: int, view_of: ViewOf) -> Row:
@@ -99,7 +102,9 @@ def _go(side: Side, begin: Begin, count: int, first: Callable[[], dict[int, int]
         inside = side.resource.inside
         frames = inside.frames if inside is not None else ()
         ended = stop.reason is not Reason.HALTED
-        return _Stood(bytes(side.memory), frames, stepper.log, stepper.before, ended, stop.trap, marks)
+        return _Stood(
+            bytes(side.memory), frames, stepper.log, stepper.before, ended, trap_of(stop), marks, begin.memory
+        )
 
     return side.again(begin, run)
 
@@ -133,7 +138,7 @@ class _Step:
         }
         note = ""
         if control.ended:
-            note = "ended by a run-time error" if control.trap else "end of the scan"
+            note = ENDED if control.trap else "end of the scan"
         path = place.instance if place is not None else ""
         return Row(
             "step", self.scan, 0, 0 if control.ended else self.count, path, place, outputs, inputs,
@@ -159,28 +164,32 @@ class _Step:
         yield from self.both.extra
         here = [(each.pou, each.instance, each.site) for each in control.frames]
         there = [(each.pou, each.instance, each.site) for each in monitor.frames]
-        if here != there or control.ended != monitor.ended:
+        cut = control.trap != monitor.trap
+        if cut:
+            yield self.both.trap(self.view, self.scan, control.trap, monitor.trap)
+        elif here != there or control.ended != monitor.ended:
             other = reader.places.of(monitor.frames[0].site, monitor.frames) if monitor.frames else None
             texts = [
                 f"{each.file}:{each.line}" if each is not None else "the end of the scan" for each in (place, other)
             ]
             text = f"{texts[0]} is next, and {texts[1]} in the reference, in scan {self.scan}"
-            yield Mismatch("order", "next statement", texts[0].encode(), texts[1].encode(), place, text)
+            yield Mismatch("order", "next statement", b"", b"", place, text)
         ran = control.log[-1].site if control.log else None
         before = None if ran is None else reader.places.of(ran, control.before)
         logs = (*control.log, *monitor.log)
         written = {at for each in logs if each.written for at in range(each.offset, each.offset + each.size)}
-        for leaf, mine in self._different(written):
+        begin = control.begin if cut or control.ended != monitor.ended else b""
+        for leaf, mine in self._different(written, begin):
             was, right = (leaf.cut(each, 0) for each in (control.memory, monitor.memory))
             here_text, there_text = values(leaf, was, right)
             where = f" at {before.file}:{before.line}" if mine and before is not None else ""
             text = f"{leaf.name} is {here_text}, the reference gives {there_text},{where} in scan {self.scan}"
             yield mismatch("logic" if mine else "outside", leaf, was, right, before if mine else None, text)
 
-    def _different(self, written: set[int]) -> Iterator[tuple[Leaf, bool]]:
+    def _different(self, written: set[int], begin: bytes) -> Iterator[tuple[Leaf, bool]]:
         """The variables that are another now, and whether the statement before wrote them."""
         control, monitor = self.control.memory, self.monitor.memory
-        found = self.both.different(control, monitor)
+        found = self.both.different(control, monitor, begin)
         mine = [at for at in found if at in written]
         for chosen, ours in ((mine, True), ([at for at in found if at not in written], False)):
             for leaf in self.both.leaves(self.view, chosen, control, monitor):

@@ -41,7 +41,7 @@ def to_csv(
         statement = "" if row.place is None else f"{row.place.file}:{row.place.line}"
         write([
             row.scan, row.call or "", row.kind, _guarded(row.instance), _guarded(statement),
-            "yes" if row.differs else "", *(each.text(row) for each in fields),
+            "yes" if row.differs else "" if row.compared else "not compared", *(each.text(row) for each in fields),
             _guarded("; ".join(each.message for each in row.differences)),
             _guarded("; ".join(row.disturbances)), _guarded(row.note),
         ])  # fmt: skip

@@ -12,10 +12,11 @@ from scanbench.verify.rows import MAX_MISMATCHES, Reader, written_by
 from scanbench.verify.trace_bind import Signal, Trace
 from scanbench.verify.trace_monitor import Ran, Result, TraceMonitor, put
 from scanbench.verify.uses import Access, Pass
-from scanbench.verify.verified import Input, Mismatch, Output, Place, Row, RowKind, Use
+from scanbench.verify.verified import ENDED, Input, Mismatch, Output, Place, Row, RowKind, Use
 
 _HELD = "not in the trace: inputs held"
 _TAKEN_OVER = "taken over from the trace, not compared"
+_NOTHING = "the trace has no value to compare here"
 
 
 class TraceRows:
@@ -38,7 +39,7 @@ class TraceRows:
         if ran.trap:
             rows = [*rows[:-1], self._trapped(rows[-1] if rows else Row("none", ran.recorded.scan), ran)]
         if not rows:
-            rows = [Row("none", ran.recorded.scan, note="not run in this scan")]
+            rows = [Row("none", ran.recorded.scan, note="not run in this scan", compared=False)]
         return tuple(replace(each, note="; ".join(filter(None, (note, each.note)))) for each in rows)
 
     def skipped(self, scan: int) -> Row:
@@ -46,7 +47,7 @@ class TraceRows:
         scans = self._trace.scans.of_rows
         last = next(each for each in scans if each > scan) - 1
         which = f"scan {scan} is" if last == scan else f"scans {scan} to {last} are"
-        return Row("none", scan, note=f"{which} not in the trace: skipped")
+        return Row("none", scan, note=f"{which} not in the trace: skipped", compared=False)
 
     def _row(self, kind: RowKind, made: Pass, call: int, ran: Ran, results: Sequence[Result]) -> Row:
         reader = self._reader
@@ -67,8 +68,12 @@ class TraceRows:
             for name, (leaf, value) in _read(reader, made).items()
             if reader.columns.used(leaf, False)
         }
+        compared = any(None not in (each.control, each.monitor) for each in outputs.values())
+        if not compared and ran.recorded.row is not None and not ran.recorded.taken_over:
+            note = "; ".join(filter(None, (note, _NOTHING)))
         return Row(
-            kind, ran.recorded.scan, call, 0, path, place, outputs, inputs, differences[:MAX_MISMATCHES], (), made.used, note
+            kind, ran.recorded.scan, call, 0, path, place, outputs, inputs, differences[:MAX_MISMATCHES], (), made.used, note,
+            compared,
         )  # fmt: skip
 
     def _differences(
@@ -86,12 +91,11 @@ class TraceRows:
     def _trapped(self, row: Row, ran: Ran) -> Row:
         """The monitor ended the scan by a run-time error, and the controller did not."""
         program, scan = self._reader.places.program, ran.recorded.scan
-        info, site = trap_info(program, ran.trap, scan), program.traps[ran.trap - 1]
-        place = Place("", site.pou, site.pou, info.file, info.line, self._reader.places.line(info.file, info.line))
+        info, place = trap_info(program, ran.trap, scan), self._reader.places.of_trap(ran.trap)
         message = f"the reference ended scan {scan} by a run-time error, at {info.file}:{info.line}: {info.message}"
         found = Mismatch("trap", "", b"", b"", place, message)
-        note = "; ".join(filter(None, (row.note, f"ended by a run-time error: {info.message}")))
-        return replace(row, differences=(found, *row.differences), note=note)
+        note = "; ".join(filter(None, (row.note, f"{ENDED}: {info.message}")))
+        return replace(row, differences=(found, *row.differences), note=note, compared=True)
 
     # ---- inside of a scan ---------------------------------------------------------------------------------------------
 
@@ -116,9 +120,15 @@ class TraceRows:
         if ran is not None:
             monitor.back(ran)
         note = "end of the scan" if over else "a trace has values at the ends of scans only"
-        return Row(
-            "step", scan, 0, count, "" if place is None else place.instance, place, outputs, {}, tuple(differences), note=note
+        if ran is not None and over and ran.recorded.taken_over:
+            note = f"{note}; {_TAKEN_OVER}"
+        told = over and ran is not None and not ran.recorded.taken_over
+        compared = told and any(None not in (each.control, each.monitor) for each in outputs.values())
+        row = Row(
+            "step", scan, 0, count, "" if place is None else place.instance, place, outputs, {}, tuple(differences), note=note,
+            compared=compared,
         )  # fmt: skip
+        return self._trapped(row, ran) if ran is not None and ran.trap else row
 
     def uses(self, made: Pass, ran: Ran, passes: Sequence[Pass]) -> tuple[Use, ...]:
         """Every use of a pass. The trace has values of inputs as they were read, and of outputs as they were written last."""
@@ -159,7 +169,7 @@ class TraceRows:
         outputs = {name: replace(each, set=values.get(name)) for name, each in row.outputs.items()}
         outputs |= {name: Output(None, None, value) for name, value in written.items() if name not in outputs}
         inputs = {name: replace(each, set=edits.get(name)) for name, each in row.inputs.items()}
-        note = "; ".join(filter(None, (row.note, "set data: ended by a run-time error" if again.trap else "")))
+        note = "; ".join(filter(None, (row.note, f"set data: {ENDED}" if again.trap else "")))
         return replace(row, outputs=outputs, inputs=inputs, note=note)
 
 

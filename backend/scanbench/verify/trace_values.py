@@ -15,7 +15,7 @@ from scanbench.verify.trace_axis import Unit, number
 Leaf = Elementary | StringType
 _PLAIN = re.compile(r"[+-]?\d+")
 _WHOLE = re.compile(r"([+-]?\d+)[.,]0+")
-_DIGITS = re.compile(r"[+-]?(\d*)(?:[.,](\d*))?(?:[eE][+-]?\d+)?")
+_DIGITS = re.compile(r"[+-]?(\d*)(?:[.,](\d*))?(?:[eE]([+-]?\d+))?")
 LEAST_DIGITS = 6
 """Significant digits that a column of numbers has at least: what `%g` writes."""
 
@@ -55,7 +55,7 @@ class Exactness:
     digits: int = 0
     """Significant ones; 0: values are compared byte by byte."""
     decimals: int | None = None
-    """All cells have so many, and some end in 0: they are written that way."""
+    """The cells have no more than so many behind the point; None: that says nothing."""
     scale: float = 1.0
     """What 1 in the file is in the variable: ns of a TIME."""
 
@@ -84,15 +84,17 @@ def exactness(type: Leaf, texts: Sequence[str], unit: Unit | None) -> Exactness:
     if not timed and not (isinstance(type, Elementary) and type.kind is Kind.REAL):
         return Exactness()
     digits, decimals, zero = LEAST_DIGITS, set[int](), False
-    for text in texts:
+    for text in filter(None, texts):
         found = _DIGITS.fullmatch(text)
         if found is None:
             continue
         whole, fraction = found.group(1), found.group(2) or ""
         digits = max(digits, len((whole + fraction).lstrip("0")))
-        decimals.add(len(fraction))
+        decimals.add(max(0, len(fraction) - int(found.group(3) or 0)))
         zero = zero or fraction.endswith("0")
-    fixed = decimals.pop() if len(decimals) == 1 and zero else None
+    most = max(decimals, default=0)
+    # a REAL is rounded to the longest cell's decimals; whole numbers, and durations, are mostly exact
+    fixed = most if most and (not timed or (zero and len(decimals) == 1)) else None
     return Exactness(digits, fixed, float(UNITS_NS[unit]) if timed and unit is not None and unit != "scan" else 1.0)
 
 

@@ -19,6 +19,8 @@ scans, or of an input refresh). order: another statement ran, or another variabl
 run-time error. outside: a variable that the range does not use. recorded: code that ran live came to something else than
 the same code run again (the run file's checkpoint differs)."""
 
+ENDED = "ended by a run-time error"
+"""How the note of a row begins whose scan one did."""
 DEFAULT_LIMIT = 4096
 """Uses of variables that are recorded in a scan, unless somebody wants another limit."""
 MAX_LIMIT = 1_000_000
@@ -142,6 +144,9 @@ class Row:
     note: str = ""
     """`record full: 4,096 of 5,120 uses kept`, `not run in this scan`, `ended by a run-time error: ...`."""
 
+    compared: bool = True
+    """Whether anything was: not where the program stood still, nor where a trace has no value, or is believed."""
+
     @property
     def differs(self) -> bool:
         """Whether anything is not as it should be."""
@@ -173,3 +178,8 @@ class ScanVerified:
     """Names that were outputs for the first time."""
     used: int = 0
     """The most uses of a row."""
+
+    @property
+    def compared(self) -> bool:
+        """Whether anything of the scan was compared: else nothing can be said of it."""
+        return any(row.compared for row in self.rows)

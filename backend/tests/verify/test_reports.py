@@ -149,8 +149,8 @@ def test_a_page_of_a_trace_with_skipped_scans_says_what_was_not_compared() -> No
     )
     text = to_html(Report(head, COLUMNS, (row(1),), ("state",), ("speed",)))
     assert "trace of a real controller: press {4}.csv" in text
-    assert "Skipped: 5, 7 – 17. 3 rows are not in this report." in text
-    assert "No scan was skipped" not in text
+    assert "Not compared: 5, 7 – 17. 3 rows are not in this report." in text
+    assert "All scans were compared" not in text
 
 
 def test_a_page_without_a_difference_says_so() -> None:

@@ -262,12 +262,16 @@ def test_gaps_are_run_with_inputs_held_or_skipped() -> None:
     rows = verified(opened(text, program, gaps="hold"))
     assert found(rows) == []
     assert [row.note for row in rows[5:9]] == 4 * ["not in the trace: inputs held"]
+    assert [row.compared for row in rows] == [True] * 5 + [False] * 4 + [True] * 21
     assert rows[5].outputs["Main.n"].control is None
     rows = verified(opened(text, program, gaps="skip"))
     assert found(rows) == []
     assert [row.scan for row in rows] == [*range(6), *range(9, 30)]
     assert (rows[5].kind, rows[5].note) == ("none", "scans 5 to 8 are not in the trace: skipped")
     assert "taken over" in rows[6].note
+    assert [row.compared for row in rows] == [True] * 5 + [False] * 2 + [True] * 20
+    verifier = opened(text, program, gaps="skip")
+    assert [verifier.verify(scan).compared for scan in range(4, 11)] == [True] + [False] * 5 + [True]
     assert opened(text, program, gaps="skip").verify(20).rows == (rows[17],)
     late = text.replace("\n20;FALSE;9;18\n", "\n20;FALSE;9;17\n")
     assert late != text
@@ -281,7 +285,26 @@ def test_cells_without_a_value() -> None:
     rows = verified(opened(text, program))
     assert found(rows) == []
     assert rows[2].outputs["Main.n"].control is None
+    assert [row.compared for row in rows] == [True, True, False, True, True]
+    assert "no value to compare" in rows[2].note
     assert found(verified(opened(text.replace("2,,\n", "2,,4\n"), program)))[0] == (2, "logic", "Main.n")
+
+
+def test_a_real_column_is_compared_in_the_decimals_of_the_file() -> None:
+    """Cells without a value say nothing of the decimals."""
+    program = program_of(
+        "PROGRAM Main VAR raw : INT; level : REAL; END_VAR level := INT_TO_REAL(raw) / 7.0; END_PROGRAM"
+    )
+    lines = [f"{scan},{scan},{'' if scan == 3 else format(scan / 7, '.2f')}\n" for scan in range(5, 60)]
+    text = "scan,Main.raw,Main.level\n0,1,0.14\n1,2,\n2,3,0.43\n3,4,0.57\n4,4,0.57\n" + "".join(lines)
+    assert found(verified(opened(text, program))) == []
+    assert found(verified(opened(text.replace("4,4,0.57", "4,4,0.58"), program))) == [(4, "logic", "Main.level")]
+
+
+def test_a_range_that_did_not_run_was_not_compared() -> None:
+    program = program_of(COUNTER)
+    verifier = opened(trace_of(program, ["Main.go", "Main.n"], 5, GO), program, "Adder")
+    assert [verifier.verify(scan).compared for scan in range(5)] == [False] * 3 + [True] * 2
 
 
 # ---- questions ------------------------------------------------------------------------------------------------------

@@ -382,6 +382,45 @@ def test_a_run_time_error_in_the_range(tmp_path: Path) -> None:
     assert value(found[-1].outputs["Main.n"].monitor) == 5
 
 
+INDEXED = """\
+PROGRAM Main
+VAR ix, n : INT; arr : ARRAY[0..9] OF INT; END_VAR
+  ix := (ix + 1) MOD 10;
+  arr[ix] := arr[ix] + 1;
+  n := n + 1;
+END_PROGRAM
+"""
+_TRAP = "a run-time error ended scan 7: main.st:4:18: index outside of 0..9 (scan 7); the reference went on"
+
+
+@pytest.mark.parametrize(("range", "others"), [("", ["Main.ix"]), ("Main", ["Main.ix"]), ("Main:5", ["Main.ix"])])
+def test_a_run_time_error_on_one_side_is_the_difference(range: str, others: list[str], tmp_path: Path) -> None:
+    wanted = Disturbance("result", site="main.st:3", bit=4, scan=7)
+    verified = verifier(disturbed(tmp_path, wanted, source=INDEXED), program(INDEXED), range)
+    assert verified.end == 8
+    found = rows(verified)
+    assert {row.scan for row in found if row.differs} == {7}
+    told = {each.name: each for each in differences(found)}
+    assert told.keys() == {"run-time error", *others}  # and nothing of what the system counts, or was not reached
+    trap = told["run-time error"]
+    assert (trap.cause, trap.message, trap.control, trap.place and trap.place.line) == ("trap", _TRAP, b"", 4)
+
+
+def test_a_run_time_error_on_one_side_is_the_difference_of_its_step(tmp_path: Path) -> None:
+    wanted = Disturbance("result", site="main.st:3", bit=4, scan=7)
+    verified = verifier(disturbed(tmp_path, wanted, source=INDEXED), program(INDEXED))
+    (row,) = verified.step(7, 3).rows
+    assert (row.differences[0].cause, row.differences[0].message) == ("trap", _TRAP)
+    assert {each.name for each in row.differences} == {"run-time error", "Main.ix"}
+
+
+def test_scans_in_which_the_program_stands_still_are_not_compared(tmp_path: Path) -> None:
+    stopped = [(3, SetMode("Ada", "PROGRAM")), (6, SetMode("Ada", "RUN"))]
+    path = record(tmp_path / "run", program(BELTS), 8, stopped)
+    verified = verifier(path, program(BELTS))
+    assert [verified.verify(scan).compared for scan in range(8)] == [True] * 3 + [False] * 3 + [True] * 2
+
+
 # ---- steps --------------------------------------------------------------------------------------------------------
 
 IL = """\
