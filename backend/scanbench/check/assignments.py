@@ -51,7 +51,7 @@ class AssignmentChecker(CallChecker):
         return target
 
     def _whole(self, node: tree.Expression, type: Type, what: str) -> Expr:
-        """A whole array or structure: of this type, or of one that has the same members in the same places."""
+        """A whole array or structure: of this type, or an array of as many elements of the same type."""
         value = self.expr(node, type)
         if isinstance(value, Load) and value.type != type and alike(value.type, type):
             return Load(replace(value.place, type=type))
@@ -109,15 +109,14 @@ class AssignmentChecker(CallChecker):
 
 
 def alike(first: Type | None, second: Type) -> bool:
-    """Whether the bytes of one mean the same as the other: arrays of the same lengths, structures of the same members."""
+    """Whether one may be assigned to the other: the same type, arrays of the same lengths of it, or variables of one declaration
+    that writes its STRUCT out. Two structures that each have a name differ, whatever their members are."""
     if first is None or first == second:
         return first is not None
     if isinstance(first, ArrayType) and isinstance(second, ArrayType):
         lengths = [[high - low for low, high in each.bounds] for each in (first, second)]
         return lengths[0] == lengths[1] and alike(first.element, second.element)
-    if not isinstance(first, Record) or not isinstance(second, Record) or first.size != second.size:
+    if not isinstance(first, Record) or not isinstance(second, Record):
         return False
-    if first.kind is not Kind.STRUCT or second.kind is not Kind.STRUCT or list(first.members) != list(second.members):
-        return False
-    pairs = zip(first.members.values(), second.members.values(), strict=True)
-    return all(a.offset == b.offset and a.bit == b.bit and alike(a.type, b.type) for a, b in pairs)
+    declared = [[member.span for member in each.members.values()] for each in (first, second)]
+    return first.kind is Kind.STRUCT and first.written_out and declared[0] == declared[1]

@@ -111,7 +111,9 @@ class Declarations:
             case tree.ArraySpec():
                 return self._array(spec)
             case tree.StructSpec():
-                return structure(self, f"STRUCT of line {spec.span.line}", spec)
+                record = structure(self, f"STRUCT of line {spec.span.line}", spec)
+                record.written_out = True
+                return record
             case tree.OpenArraySpec(dimensions, element):
                 return OpenArray(dimensions, self._element(element))
             case tree.EnumSpec():

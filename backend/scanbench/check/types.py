@@ -270,6 +270,8 @@ class Record:
     align: int = 1
     overlaps: bool = False
     """A UNION, or a STRUCT with OVERLAP: its members share bytes."""
+    written_out: bool = False
+    """A STRUCT in the declaration of a variable, without a name of its own."""
     base: "Record | None" = None
     """What a block or class extends."""
     interfaces: tuple["Record", ...] = ()
