@@ -25,16 +25,17 @@ EPOCH = calendar_date(1970, 1, 1).toordinal()
 
 def integer(text: str) -> int:
     """`1_000`, `16#FF`, `2#1010`, `-8#17`."""
+    text = text.replace("_", "")
     if len(text) > MAX_DIGITS:
         raise ValueError("more digits than any type can hold")
     if "#" not in text:
-        return int(text.replace("_", ""))
+        return int(text)
     base, digits = text.split("#", 1)
     sign, base = (-1, base[1:]) if base[0] == "-" else (1, base.removeprefix("+"))
     if base not in ("2", "8", "16"):
         raise ValueError("a number is written in base 2, 8 or 16")
     try:
-        return sign * int(digits.replace("_", ""), int(base))
+        return sign * int(digits, int(base))
     except ValueError:
         raise ValueError(f"these are not digits of base {base}") from None
 
