@@ -31,7 +31,8 @@ REFUSED = {
     **dict.fromkeys(("_LD_BODY", "_FBD_BODY", "_CFC_BODY", "_SFC_BODY"), "convert the drawing to Structured Text"),
 }
 LABEL_KINDS = frozenset((NAME, Lex.INTEGER, Lex.TYPED, Lex.STRING, Lex.TIME))
-LABEL_TEXTS = frozenset((",", "..", ".", "-", "+", "TRUE", "FALSE"))
+LABEL_TEXTS = frozenset(", .. . - + * / ** & ( ) MOD AND OR XOR NOT TRUE FALSE".split())
+"""What a constant expression is made of. Nothing else that begins a statement reaches a `:` by way of these."""
 MAX_LABELS = 1000
 
 
