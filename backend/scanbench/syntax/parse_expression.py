@@ -151,11 +151,13 @@ class ExpressionParser(LiteralParser):
             self.at = at + 1
             return tree.PartialAccess(base, "X", int(text), base.span.to(self.span_of(at)))
         if kind is Lex.ADDRESS:
-            size, number = text[1:2].upper(), text[2:]
-            if size in "XBWDL" and number.isdigit() and len(number) < 4:
+            size, (number, *bit) = text[1:2].upper(), text[2:].split(".")
+            if size in "XBWDL" and all(each.isdigit() and len(each) < 4 for each in (number, *bit)) and len(bit) < 2:
                 self.at = at + 1
-                return tree.PartialAccess(base, size, int(number), base.span.to(self.span_of(at)))
-            raise self.fail("a part of a variable is written like x.%X3, x.%B1, x.%W0 or x.%D0")
+                span = base.span.to(self.span_of(at))
+                part = tree.PartialAccess(base, size, int(number), span)
+                return tree.PartialAccess(part, "X", int(bit[0]), span) if bit else part
+            raise self.fail("a part of a variable is written like x.%X3, x.%B1, x.%W0, x.%D0 or x.%B1.3")
         if kind is Lex.TYPED and (owner := _path(base)):
             self.at = at + 1
             return self.literal(at, owner + ".")
