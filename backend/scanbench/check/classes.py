@@ -239,8 +239,9 @@ class _Inherit:
         record.members[TYPE_NUMBER.upper()].initial = owner.number.to_bytes(4, "little")
 
     def _record(self, parent: Class) -> Record | None:
-        with self.declarations.names.within(Space()):
-            made = self.declarations.named(parent.name, parent.declaration.span)
+        declaration = parent.declaration  # looked up where it stands: it may be INTERNAL there
+        with self.declarations.names.within(Space(declaration.namespace)):
+            made = self.declarations.named(declaration.name, declaration.span)
         target = made.target if isinstance(made, Reference) else made
         return target if isinstance(target, Record) else None
 
