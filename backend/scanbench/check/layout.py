@@ -66,8 +66,8 @@ class Layout:
     VIOLATION_LIMIT: ClassVar[int] = 256
     """Entries of the list of violations."""
     VIOLATION_BYTES: ClassVar[int] = 48
-    """An entry: u32 site, u32 times (saturating), u64 byte offset of the instance whose body the check stands in (0 in
-    a FUNCTION), i64 or u64 last value, u64 first scan, u64 last scan, 8 bytes reserved. Entries are (site, instance)
+    """An entry: u32 site, u32 times (saturating), u64 byte offset of the instance whose body or method the check
+    stands in (0 in a FUNCTION), i64 or u64 last value, u64 first scan, u64 last scan, 8 bytes reserved. Entries are (site, instance)
     pairs in the order in which they first happened."""
 
     model: Model

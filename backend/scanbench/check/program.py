@@ -452,6 +452,12 @@ class Pou:
         return any(each.copied for each in self.instance.members.values())
 
     @property
+    def this(self) -> Member | None:
+        """The slot of a method that holds its instance."""
+        member = self.frame.members.get("THIS")
+        return member if member is not None and member.hidden else None
+
+    @property
     def returned(self) -> Member | None:
         """The member of the frame that holds a function's result: the one of Section.RESULT."""
         if self.result is None:

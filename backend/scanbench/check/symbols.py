@@ -450,10 +450,25 @@ def _descend(program: Program, symbol: Symbol, offset: int) -> str:
 
 
 def instance_at(program: Program, offset: int, pou: str) -> str:
-    """The path of the instance of this POU (or of a block derived from it) that begins at a byte of the image."""
-    blocks = [each for each in starting_at(program, offset) if each.type.kind is Kind.BLOCK]
-    exact = (each.path for each in blocks if each.type.name.upper() == pou.upper())
-    return next(exact, blocks[0].path if blocks else f"image+{offset}")
+    """The path of the instance of this POU (or of a block derived from it) that begins at a byte of the image.
+
+    `pou` may be a method, too: `Tank.Fill`, `Tank.Level.get`."""
+    blocks = [each for each in starting_at(program, offset) if isinstance(each.type, Record) and each.type.kind is Kind.BLOCK]
+    name = pou.upper()
+    while name:
+        for each in blocks:
+            if name in _ancestry(each.type):
+                return each.path
+        name = name.rpartition(".")[0]
+    return blocks[0].path if blocks else f"image+{offset}"
+
+
+def _ancestry(type: Type) -> Iterator[str]:
+    """Names of a block and of what it extends, in upper case."""
+    record = type if isinstance(type, Record) else None
+    while record is not None:
+        yield record.name.upper()
+        record = record.base
 
 
 def starting_at(program: Program, offset: int) -> Iterator[Symbol]:

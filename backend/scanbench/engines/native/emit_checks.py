@@ -1,11 +1,13 @@
 """Subrange checks: a branch that is hardly ever taken, and a list in the image of what was found there."""
 
+from scanbench.check.bound import BYTE_OFFSET
 from scanbench.check.layout import Layout
-from scanbench.check.program import Limit, Violates
-from scanbench.check.types import Elementary
+from scanbench.check.program import Base, Limit, Place, Violates
+from scanbench.check.types import ULINT, Elementary
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import UNLIKELY, Value
 from scanbench.engines.native.emit_operators import intrinsic
+from scanbench.engines.native.emit_places import address
 from scanbench.engines.native.emit_types import elementary, integer, value_type
 from scanbench.engines.native.ranges import within
 
@@ -156,5 +158,15 @@ def _record(body: Body, value: Value, type: Elementary, site: int) -> None:
         first = body.text.op(f"load i32, ptr {body.unit.symbol(body.pou).replace('p.', 'check.', 1)}, align 4")
         number = body.text.op(f"add i32 {first}, {site}")
     violations = body.text.op(f"load i64, ptr {LIST}, align 8")
-    given = f"ptr {body.image}, i64 {violations}, i32 {number}, i64 {body.instance_offset}, i64 {wide}"
+    given = f"ptr {body.image}, i64 {violations}, i32 {number}, i64 {_instance(body)}, i64 {wide}"
     body.text.do(f"call void @violation({given}){body.module.tag(LIST_TAG)}")
+
+
+def _instance(body: Body) -> str:
+    """Where the instance begins whose body or method this is; 0 in a FUNCTION."""
+    this = body.pou.this
+    if this is None:
+        return body.instance_offset
+    slot = address(body, Place(ULINT, Base.FRAME, this.offset))
+    whole = body.text.op(f"load i64, ptr {slot.pointer}, align 1{slot.tag}")
+    return body.text.op(f"and i64 {whole}, {BYTE_OFFSET}")
