@@ -1,5 +1,6 @@
 """`scanbench`: the command line."""
 
+import signal
 import sys
 
 
@@ -9,6 +10,9 @@ def main() -> None:
         from scanbench.web.dap.streams import prepare
 
         prepare()
-    from scanbench.cli.commands import app
+    try:
+        from scanbench.cli.commands import app
 
-    app()
+        app()
+    except KeyboardInterrupt:  # before the command has begun; the commands themselves tell what they have
+        sys.exit(128 + signal.SIGINT)

@@ -11,6 +11,7 @@ import typer
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
 from scanbench.cli.inputs import below, find_model, find_model_named, problem_json, read_sources, usage
+from scanbench.cli.interrupt import INTERRUPTED
 from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.run_options import read_interval
 from scanbench.cli.sweep_states import START, BadStates, FromRun, State, read_states, run_state
@@ -132,7 +133,7 @@ def sweep_errors(
     """Raise every error alone, from each state, and find out what the program does about it.
 
     Each run is compared with the same run without the error. Exit 0; 1: an error is unhandled (never read, or read without
-    effect), or the program does not compile; 2: wrong usage.
+    effect), or the program does not compile; 2: wrong usage; 130: interrupted, no error unhandled so far.
     """
     for path in filter(None, (junit, html)):
         must_be_writable(path)
@@ -144,9 +145,12 @@ def sweep_errors(
     make = _engine(engine)
     points = _points(states, program, given, make)
     programs = ObservedPrograms({_VERSION: program}.__getitem__, make)
-    cells = tuple(sweep(points, [each.id for each in chosen], window, programs))
+    cells, whole = _swept(points, chosen, window, programs)
+    tried = {cell.error for cell in cells}
     begun = tuple((name, Header(point.state).scan) for name, point in points.items())
-    result = SweepResult(project.resolve().name, plc.name, window, begun, tuple(chosen), cells)
+    result = SweepResult(
+        project.resolve().name, plc.name, window, begun, tuple(each for each in chosen if each.id in tried), cells
+    )
     severities = _severities(severity)
     unhandled = result.unhandled(severities)
     _tell(result, unhandled, as_json)
@@ -154,7 +158,21 @@ def sweep_errors(
         write_text(junit, sweep_junit(result, severities))
     if html is not None:
         write_text(html, sweep_page(result, iso(wall_time())))
-    raise typer.Exit(1 if unhandled else 0)
+    if not whole:
+        typer.echo(f"scanbench: interrupted after {len(tried)} of {count(len(chosen), 'error')}", err=True)
+    raise typer.Exit(1 if unhandled else 0 if whole else INTERRUPTED)
+
+
+def _swept(
+    points: dict[str, Point], chosen: Sequence[ErrorEntry], window: int, programs: ObservedPrograms
+) -> tuple[tuple[Cell, ...], bool]:
+    """The cells, and whether they are all; after Ctrl-C those of the errors that were raised in every state."""
+    cells: list[Cell] = []
+    try:
+        cells.extend(sweep(points, [each.id for each in chosen], window, programs))
+    except KeyboardInterrupt:
+        return tuple(cells[: len(cells) - len(cells) % len(points)]), False
+    return tuple(cells), True
 
 
 def _tell(result: SweepResult, unhandled: Sequence[Cell], as_json: bool) -> None:

@@ -9,6 +9,7 @@ import typer
 
 from scanbench.check.build import check_sources
 from scanbench.cli.inputs import find_model_named, usage
+from scanbench.cli.interrupt import INTERRUPTED
 from scanbench.cli.run import ENGINES, EngineChoice
 from scanbench.engines.pair import Differs
 from scanbench.runtime.contents import KeptProgram
@@ -28,14 +29,19 @@ def replay(
 ) -> None:  # fmt: skip
     """Replay a run and compare it with every checkpoint in it.
 
-    Exit 0 when every byte was the same; 2: wrong usage, or a file that cannot be replayed here; 3: it came out different.
+    Exit 0 when every byte was the same; 2: wrong usage, or a file that cannot be replayed here; 3: it came out different; 130:
+    interrupted, the same so far.
     """
 
     def programs_of(kept: Mapping[int, KeptProgram]) -> Shelf:
         return Shelf(*(_load(each, ENGINES[engine]) for each in kept.values()))
 
+    agreed: list[int] = []
     try:
-        result = replay_file(path, programs_of, ENTRIES, scans)
+        result = replay_file(path, programs_of, ENTRIES, scans, agreed.append)
+    except KeyboardInterrupt:
+        typer.echo(f"scanbench: {path}: interrupted: {_so_far(agreed)}", err=True)
+        raise typer.Exit(INTERRUPTED) from None
     except (RunFileError, OSError) as error:
         usage(f"{path}: {error}")
     except (Diverged, Differs) as difference:
@@ -50,6 +56,12 @@ def _load(kept: KeptProgram, engine_factory: EngineFactory) -> Loaded:
     if checked.program is None:
         usage(f"program version {kept.version} of the run does not compile here: {checked.problems[0]}")
     return Loaded.make(checked.program, engine_factory, kept.version)
+
+
+def _so_far(agreed: list[int]) -> str:
+    if not agreed:
+        return "nothing was compared yet"
+    return f"the same up to scan {agreed[-1]}, in {len(agreed)} checkpoint{'s' * (len(agreed) != 1)}"
 
 
 def _text(result: Replayed) -> str:

@@ -9,6 +9,7 @@ import typer
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
 from scanbench.cli.inputs import below, find_model, problem_json, read_sources, usage, with_near
+from scanbench.cli.interrupt import INTERRUPTED, interruptible
 from scanbench.cli.record import check_whole, recorded
 from scanbench.cli.run_options import Options, find_symbol, read_commands, read_condition, read_interval
 from scanbench.cli.run_report import Result, nothing_ran, report_json, report_text, values
@@ -72,7 +73,7 @@ def run(
     """Run a program. A command @SCAN is applied before that scan; scans count from 0.
 
     Exit 0 when it ran; 1: it does not compile; 2: wrong usage, a command was refused, or --until was never met; 3: the
-    engines differ; 4: the PLC trapped.
+    engines differ; 4: the PLC trapped; 130: interrupted by Ctrl-C, what is printed is of the scans that ran.
     """
     sources = read_sources([path])
     plc = find_model(model, sources)
@@ -92,10 +93,14 @@ def run(
         usage("--engine both cannot wait for a line: code that notes statements runs on one engine")
     condition = None if until is None else read_condition(program, until)
     try:
-        with recorded(record, program, below(path, sources.texts), read_interval(interval)) as recording:
+        with (
+            recorded(record, program, below(path, sources.texts), read_interval(interval)) as recording,
+            interruptible() as interrupt,
+        ):
             result = run_headless(
                 program, scans, ENGINES[engine], commands, every, lambda plc: values(plc, shown),
                 detect=Detection(), agenda=Joined(Schedule(OBSERVED[engine]), DisturbanceSchedule()), recording=recording, until=condition,
+                interrupt=interrupt,
             )  # fmt: skip
             if recording is not None:
                 check_whole(recording)
@@ -113,10 +118,10 @@ def run(
     for scan, _ in commands:
         if scan > result.scans:
             typer.echo(f"scanbench: the command for scan {scan} was not applied: the run ended before it", err=True)
-    _end(result, until)
+    _end(result, until, interrupt.asked)
 
 
-def _end(result: Result, until: str | None) -> None:
+def _end(result: Result, until: str | None, interrupted: bool) -> None:
     for refused in result.refused:
         why = with_near(refused.refusal.message, refused.refusal.near)
         typer.echo(f"scanbench: refused before scan {refused.scan}: {why}", err=True)
@@ -126,6 +131,9 @@ def _end(result: Result, until: str | None) -> None:
             f"{trap.file}:{trap.line}:{trap.column}: trap {trap.kind}: {trap.message} in scan {trap.scan}", err=True
         )
         raise typer.Exit(4)
+    if interrupted:
+        typer.echo(f"scanbench: interrupted after {result.scans:,} scans", err=True)
+        raise typer.Exit(INTERRUPTED)
     if until is not None and not result.met:
         typer.echo(f"scanbench: after {result.scans} scans it was not so that {until}", err=True)
         raise typer.Exit(2)

@@ -1,7 +1,6 @@
 """`scanbench verify`: the scans of a run, or of a real controller's trace, compared with a second execution."""
 
 import re
-import signal
 import sys
 from enum import StrEnum
 from pathlib import Path
@@ -11,6 +10,7 @@ import typer
 
 from scanbench import __version__
 from scanbench.cli.inputs import usage, with_near
+from scanbench.cli.interrupt import INTERRUPTED
 from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.run_options import AUTHOR, Options
 from scanbench.cli.verify_subject import Given, Subject, opened
@@ -28,7 +28,6 @@ SCANS = 1000
 STRETCHES = 100
 """Of scans that were not compared; a report has the last ones."""
 """That a project runs when nobody says how many."""
-INTERRUPTED = 128 + signal.SIGINT
 _EVERY_NS = 200_000_000
 """From one line of progress to the next."""
 _STRETCH = re.compile(r"(\d*)\.\.(\d*)")
@@ -77,8 +76,12 @@ def verify(
     first, last = _stretch(scans)
     given = Given(path, model, interval, options, SCANS if last is None else last + 1, trace, map)
     make: Make = native() if engine is ControlEngine.NATIVE else reference
-    with opened(given, make) as subject:
-        report, stopped = _verified(subject, wanted, limit, first, last)
+    try:
+        with opened(given, make) as subject:
+            report, stopped = _verified(subject, wanted, limit, first, last)
+    except KeyboardInterrupt:  # while the project runs, or the run goes to its first scan
+        typer.echo("scanbench: interrupted before the first scan was verified", err=True)
+        raise typer.Exit(INTERRUPTED) from None
     typer.echo(to_json(report) if as_json else "\n".join(verify_text(report)))
     if html is not None:
         write_text(html, to_html(report))

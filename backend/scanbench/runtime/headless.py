@@ -11,6 +11,7 @@ from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.checkpoints import Checkpoints
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.detect import Detect
+from scanbench.runtime.interrupt import Interrupt
 from scanbench.runtime.programs import EngineFactory, Loaded, Programs
 from scanbench.runtime.recording import Recording
 from scanbench.runtime.resource import Resource
@@ -54,6 +55,7 @@ def run_headless(
     recording: Recording | None = None,
     programs: Programs | None = None,
     until: Condition | None = None,
+    interrupt: Interrupt | None = None,
 ) -> HeadlessRun[T]:
     """Runs `scans` scans from a cold start in MONITOR mode.
 
@@ -63,12 +65,14 @@ def run_headless(
     holds, a condition for the program that the run begins with.
 
     A `recording` that stands at the cold start gets all of it, with checkpoints on the way, and is left open; `entries`
-    has only what is still in there.
+    has only what is still in there. Asked by the `interrupt`, the run ends after the scan that is running.
     """
     loaded = Loaded.make(program, engine_factory)
     resource = Resource(loaded, programs=programs, detect=detect, recorder=recording, agenda=agenda)
     recorded = _Recorded(recording, resource) if recording is not None else None
     resource.until = until
+    if interrupt is not None:
+        interrupt.reaches(resource.knock)
     met = False
     refused: list[Refused] = []
     rows: list[tuple[int, T]] = []
@@ -82,7 +86,7 @@ def run_headless(
                 refused.append(Refused(at, command, outcome))
             elif recorded is not None:
                 recorded.take_due()
-        if now >= scans or met:
+        if now >= scans or met or (interrupt is not None and interrupt.asked):
             break
         stops = [scans]
         if waiting:

@@ -1,7 +1,7 @@
 """A run file replayed from its beginning, with every checkpoint on the way compared: the proof that it determines its run."""
 
 import hashlib
-from collections.abc import Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
@@ -39,8 +39,12 @@ class Replayed:
         return self.scan - self.first_scan
 
 
-def replay_file(path: Path, programs_of: ProgramsOf, codec: Codec, until: int | None = None) -> Replayed:
-    """Replays up to the last scan that the file knows of, or to the end of scan `until` - 1.
+def replay_file(
+    path: Path, programs_of: ProgramsOf, codec: Codec, until: int | None = None,
+    on_agreed: Callable[[int], None] = lambda scan: None,
+) -> Replayed:  # fmt: skip
+    """Replays up to the last scan that the file knows of, or to the end of scan `until` - 1. Each checkpoint that agrees
+    is told with its scan.
 
     `Diverged` when the run does not go as recorded, with the scan; `RunFileError` when the file cannot be used.
     """
@@ -54,7 +58,7 @@ def replay_file(path: Path, programs_of: ProgramsOf, codec: Codec, until: int | 
             end = until
         try:
             resource = open_at(recording, programs, recording.checkpoints[0], entries)
-            agreed = _compare(recording, resource, entries, end)
+            agreed = _compare(recording, resource, entries, end, on_agreed)
             left = [entry for entry in entries[len(resource.journal) :] if entry.scan <= end]
             replay(resource, left[: front(left, end)], end)
         except NOT_AS_RECORDED as error:
@@ -66,7 +70,9 @@ def replay_file(path: Path, programs_of: ProgramsOf, codec: Codec, until: int | 
         )  # fmt: skip
 
 
-def _compare(recording: Recording, resource: Resource, entries: Sequence[Entry], end: int) -> int:
+def _compare(
+    recording: Recording, resource: Resource, entries: Sequence[Entry], end: int, on_agreed: Callable[[int], None]
+) -> int:
     """Runs from checkpoint to checkpoint; how many there are up to `end`."""
     agreed = 0
     for checkpoint in recording.checkpoints:
@@ -76,6 +82,7 @@ def _compare(recording: Recording, resource: Resource, entries: Sequence[Entry],
         if resource.version != checkpoint.version or resource.state != _recorded(recording, resource, checkpoint):
             raise Diverged(_difference(recording, resource, checkpoint))
         agreed += 1
+        on_agreed(checkpoint.scan)
     return agreed
 
 

@@ -200,6 +200,10 @@ class Resource:
         self._attend(met)
         return stop
 
+    def knock(self) -> None:
+        """Asks, from any thread, for the run to come back after the current scan."""
+        self.engine.knock()
+
     def finish(self) -> None:
         """Runs the scan to its end that is halted, whoever wants to halt it again. A trap ends it, too."""
         scan = self.header.scan

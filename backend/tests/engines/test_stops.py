@@ -1,5 +1,8 @@
 """Why `run` comes back: the same reasons from each engine."""
 
+import os
+import signal
+import threading
 from collections.abc import Callable
 
 import pytest
@@ -191,3 +194,42 @@ def test_of_several_conditions_each_ends_the_run_whatever_traps(make: Callable[[
     engine.stop_when(None, made[0], condition(program, "Main.n = 25"))
     assert (engine.run(20), scan(memory)) == (Stop(Reason.CONDITION), 25)
     assert engine.holds(condition(program, "Main.n = 25"))
+
+
+class Woken(Exception):
+    """What a signal's handler raises, as Ctrl-C does."""
+
+
+def test_a_long_native_run_lets_signals_through() -> None:
+    """Nobody knocks: the handler of a signal is called all the same, in the thread that runs."""
+    program = check(COUNT)
+    memory = bytearray(program.initial_image)
+    engine = NativeEngine(program, memory)
+
+    def on_signal(number: int, frame: object) -> None:
+        raise Woken
+
+    def send() -> None:
+        while scan(memory) == 0:
+            pass
+        os.kill(os.getpid(), signal.SIGUSR1)
+
+    before = signal.signal(signal.SIGUSR1, on_signal)
+    thread = threading.Thread(target=send)
+    try:
+        thread.start()
+        with pytest.raises(Woken):
+            engine.run(9_000_000_000)
+        assert scan(memory) < 9_000_000_000
+    finally:
+        thread.join()
+        signal.signal(signal.SIGUSR1, before)
+
+
+def test_a_run_in_slices_is_one_run() -> None:
+    program = check(COUNT)
+    memory = bytearray(program.initial_image)
+    engine = NativeEngine(program, memory)
+    assert (engine.run(1_000_003), scan(memory)) == (Stop(Reason.DONE), 1_000_003)
+    engine.stop_when(condition(program, "Main.n = 1000500"))
+    assert (engine.run(1_000_000), scan(memory)) == (Stop(Reason.CONDITION), 1_000_500)

@@ -2,6 +2,7 @@
 
 import ctypes
 from collections.abc import Sequence
+from time import monotonic_ns
 
 from scanbench.check.condition import Condition
 from scanbench.check.program import Program
@@ -13,6 +14,11 @@ from scanbench.engines.native.emit_loop import ASKED, CONDITION, DONE, FUTEX, FU
 from scanbench.engines.native.observer import NativeObserver
 from scanbench.engines.native.sample_code import link_samplings
 from scanbench.engines.sample import Sampling
+
+_SLICE_NS = 20_000_000
+"""Without a pace, Python gets a look about this often: else a signal (Ctrl-C) would wait for the last scan."""
+_FIRST_SLICE = 64
+"""Scans, before it is known how long one takes."""
 
 
 class _Control(ctypes.Structure):
@@ -79,11 +85,25 @@ class NativeEngine(Engine):
         self._samplings: tuple[Sampling, ...] = ()
         self._sampler: tuple[jit.Code, ctypes.Array[ctypes.c_uint64]] | None = None
         self._program = program
+        self._slice = _FIRST_SLICE
 
     def run(self, scans: int, pace: Pace | None = None) -> Stop:
         """See `Engine.run`. A pace with period 0 runs as fast as possible, and measures the whole run at once."""
         if any(each.full for each in self._samplings):
             return Stop(Reason.KNOCKED)
+        if pace is not None:
+            return self._call(scans, pace)
+        while scans > self._slice:
+            size, begun = self._slice, monotonic_ns()
+            stop = self._call(size, None)
+            if stop.reason is not Reason.DONE:
+                return stop
+            scans -= size
+            took = monotonic_ns() - begun
+            self._slice = size * 2 if took < _SLICE_NS else max(1, size // 2) if took > 4 * _SLICE_NS else size
+        return self._call(scans, None)
+
+    def _call(self, scans: int, pace: Pace | None) -> Stop:
         measured = None if pace is None else _Pace(
             pace.period_ns, pace.deadline_ns, pace.late_ns, pace.worst_ns, pace.busy_ns, pace.scans,
             pace.late_scans,
