@@ -25,9 +25,9 @@ from scanbench.verify.verified import DEFAULT_LIMIT, MAX_LIMIT, BadRange, Range
 from scanbench.verify.verifier import Begun, Unverifiable
 
 SCANS = 1000
+"""That a project runs when nobody says how many."""
 STRETCHES = 100
 """Of scans that were not compared; a report has the last ones."""
-"""That a project runs when nobody says how many."""
 _EVERY_NS = 200_000_000
 """From one line of progress to the next."""
 _STRETCH = re.compile(r"(\d*)\.\.(\d*)")
