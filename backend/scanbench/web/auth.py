@@ -1,11 +1,13 @@
 """Who may speak to this server: token, Host and Origin, checked before any route is reached.
 
-The token is in the address printed at the start; opening it sets a cookie. Host must be an address or a name of this
-machine, so that no foreign name can be pointed here (DNS rebinding); Origin must be the page this server gave out.
+The token is in the address printed at the start; opening it sets a cookie. Whoever comes without it gets a page with
+a field for it. Host must be an address or a name of this machine, so that no foreign name can be pointed here (DNS
+rebinding); Origin must be the page this server gave out.
 """
 
 import hmac
 import ipaddress
+import re
 import socket
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
@@ -18,11 +20,14 @@ from starlette.types import ASGIApp, Receive, Scope, Send
 from starlette.websockets import WebSocketClose
 
 from scanbench.session.events import User
-from scanbench.web.pages import no_token_page
+from scanbench.web.pages import sign_in_page
 
 USER = "scanbench_user"
 _SAFE = {"GET", "HEAD", "OPTIONS"}
 _NAME_LENGTH = 40
+_REMEMBERED = 365 * 86400
+"""Seconds for which a browser keeps its cookies: a link that arrives tomorrow opens as well."""
+_PASTED = re.compile(r"[?&]token=([^&#\s]+)")
 
 
 @dataclass(slots=True)
@@ -113,7 +118,7 @@ class Guard:
         kind, _, bearer = connection.headers.get("authorization", "").partition(" ")
         given = (
             connection.cookies.get(self._gate.cookie),
-            connection.query_params.get("token"),
+            _key_in(connection.query_params.get("token", "")),
             bearer.strip() if kind.lower() == "bearer" else None,
         )
         right = self._gate.token.encode()
@@ -122,17 +127,24 @@ class Guard:
     def _entrance(self, connection: HTTPConnection) -> Response | None:
         """The page itself: a token in the address moves into a cookie; without one there is an explanation."""
         if not self._knows_token(connection):
-            return HTMLResponse(no_token_page(), 401)
+            wrong = bool(connection.query_params.get("token"))
+            languages = connection.headers.get("accept-language", "")
+            page = sign_in_page(
+                _path(connection), _query_without(connection, "token"), wrong=wrong, languages=languages
+            )
+            return HTMLResponse(page, 401)
         query = parse_qs(connection.url.query)
         named = USER in connection.cookies and USER not in query
         if "token" not in query and named:
             return None
         response = RedirectResponse(_without_token(connection), 303)
         # lax: a link to a scan also opens from a chat or a report; nothing is ever changed by GET
-        response.set_cookie(self._gate.cookie, self._gate.token, httponly=True, samesite="lax", path="/")
+        response.set_cookie(
+            self._gate.cookie, self._gate.token, httponly=True, samesite="lax", path="/", max_age=_REMEMBERED
+        )
         if not named:
             name = user_of(connection).name if USER in query else self._gate.next_guest()
-            response.set_cookie(USER, quote(name), samesite="lax", path="/", max_age=365 * 86400)
+            response.set_cookie(USER, quote(name), samesite="lax", path="/", max_age=_REMEMBERED)
         return response
 
 
@@ -141,11 +153,24 @@ def is_page(path: str) -> bool:
     return path == "/" or path.startswith("/i/")
 
 
+def _key_in(typed: str) -> str:
+    """The token in what somebody typed: people paste the whole address that was printed."""
+    found = _PASTED.search(typed)
+    return found[1] if found else typed.strip()
+
+
+def _path(connection: HTTPConnection) -> str:
+    return quote(connection.url.path) if connection.url.path.startswith("/i/") else "/"
+
+
+def _query_without(connection: HTTPConnection, *names: str) -> list[tuple[str, str]]:
+    return [(name, value) for name, value in parse_qsl(connection.url.query) if name not in names]
+
+
 def _without_token(connection: HTTPConnection) -> str:
     """The same address, but for what has moved into cookies."""
-    kept = [(name, value) for name, value in parse_qsl(connection.url.query) if name not in ("token", USER)]
-    path = quote(connection.url.path) if connection.url.path.startswith("/i/") else "/"
-    return f"{path}?{urlencode(kept)}" if kept else path
+    kept = _query_without(connection, "token", USER)
+    return f"{_path(connection)}?{urlencode(kept)}" if kept else _path(connection)
 
 
 async def _refuse(scope: Scope, receive: Receive, send: Send, status: int, message: str) -> None:

@@ -1,5 +1,8 @@
 """Token, Host, Origin."""
 
+import re
+from html import unescape
+
 import httpx
 import pytest
 from websockets.exceptions import InvalidStatus
@@ -12,9 +15,6 @@ def test_without_the_token_nothing_is_told(server: Server) -> None:
     assert httpx.get(f"{server.base}/api").status_code == 401
     assert httpx.get(f"{server.base}/api", params={"token": "wrong"}).status_code == 401
     assert httpx.get(f"{server.base}/api", headers={b"Authorization": "Bearer ü".encode()}).status_code == 401
-    page = httpx.get(server.base)
-    assert page.status_code == 401
-    assert "token" in page.text
 
 
 def test_opening_the_printed_address_sets_the_cookie(server: Server) -> None:
@@ -71,3 +71,34 @@ def test_a_link_to_a_scan_keeps_where_it_leads(server: Server) -> None:
     with httpx.Client() as browser:
         reply = browser.get(f"{server.base}//evil.example/i/", params={"token": server.token})
         assert not reply.headers.get("location", "").startswith("//")
+
+
+def _form(page: httpx.Response) -> tuple[str, dict[str, str]]:
+    """Where the form leads, and what it sends besides the key."""
+    assert page.status_code == 401
+    action = re.search(r'<form method="get" action="([^"]*)"', page.text)
+    hidden = re.findall(r'<input type="hidden" name="([^"]*)" value="([^"]*)"', page.text)
+    assert action is not None
+    assert 'name="token"' in page.text
+    return unescape(action[1]), {unescape(name): unescape(value) for name, value in hidden}
+
+
+def test_without_the_key_there_is_a_field_for_it_that_leads_on(server: Server) -> None:
+    with httpx.Client(base_url=server.base, follow_redirects=True) as browser:
+        action, kept = _form(browser.get("/i/1/scan/40", params={"panel": "verify", "scanbench_user": 'Ada "L"'}))
+        assert (action, kept) == ("/i/1/scan/40", {"panel": "verify", "scanbench_user": 'Ada "L"'})
+        wrong = browser.get(action, params={**kept, "token": "wrong"})
+        assert _form(wrong) == (action, kept), "the wrong key must not be sent again"
+        assert 'role="alert"' in wrong.text
+        page = browser.get(action, params={**kept, "token": server.address})  # the whole address is as good
+        assert page.status_code in (200, 503)
+        assert str(page.url) == f"{server.base}/i/1/scan/40?panel=verify"
+        assert browser.get("/api").json()["you"]["name"] == 'Ada "L"'
+        assert all(cookie.expires for cookie in browser.cookies.jar), "a browser that was closed has to ask again"
+    assert "キー" in httpx.get(server.base, headers={"Accept-Language": "ja,en;q=0.5"}).text
+
+
+def test_the_field_for_the_key_cannot_be_made_to_say_something_else(server: Server) -> None:
+    page = httpx.get(f'{server.base}/i/"><script>1</script>', params={'"><script>': '"><script>'})
+    assert page.status_code == 401
+    assert "<script" not in page.text

@@ -100,10 +100,31 @@ function Shut({ locked }: { locked: boolean }) {
       <Icon name={locked ? "forced" : "lost"} />
       <h1>{t(locked ? "shut.locked" : "shut.failed")}</h1>
       <p>{t(locked ? "shut.locked.about" : "shut.failed.about")}</p>
-      <p className="mono faint">{problem}</p>
-      <button type="button" className="btn" onClick={() => void start()}>
-        {t("lost.now")}
-      </button>
+      {locked ? <KeyForm /> : <p className="mono faint">{problem}</p>}
+      {!locked && (
+        <button type="button" className="btn" onClick={() => void start()}>
+          {t("lost.now")}
+        </button>
+      )}
     </main>
+  );
+}
+
+/** The address that is shown once more, with the key: the server moves the key into a cookie and leads back. */
+function KeyForm() {
+  const kept = [...new URLSearchParams(location.search)].filter(([name]) => name !== "token");
+  return (
+    <form method="get" action={location.pathname}>
+      {kept.map(([name, value]) => (
+        <input key={name} type="hidden" name={name} value={value} />
+      ))}
+      <label className="field">
+        <span>{t("shut.locked.key")}</span>
+        <input className="inp" type="password" name="token" autoComplete="current-password" required />
+      </label>
+      <button type="submit" className="btn primary">
+        {t("shut.locked.open")}
+      </button>
+    </form>
   );
 }

@@ -1,5 +1,5 @@
 import { describe, expect, it } from "vitest";
-import { isBrokenLink, linkPath, readLink, wayTo } from "./links";
+import { isBrokenLink, isOwnComputer, linkPath, readLink, wayTo } from "./links";
 
 const at = (pathname: string, search = "") => ({ pathname, search });
 
@@ -25,6 +25,13 @@ describe("links", () => {
       const { pathname, search } = new URL(linkPath(link), "http://x");
       expect(readLink({ pathname, search })).toEqual(link);
     }
+  });
+
+  it("knows the hosts that lead a colleague to their own computer", () => {
+    expect(["localhost", "127.0.0.1", "[::1]", "plc.localhost"].filter(isOwnComputer)).toHaveLength(4);
+    expect(["bench", "192.168.0.127", "127.example.org", "localhost.lan", "[fe80::1]"].filter(isOwnComputer)).toEqual(
+      [],
+    );
   });
 
   it("tells a broken link from none", () => {

@@ -38,6 +38,11 @@ export function linkPath({ instance, scan, panel }: Link): string {
   return `/i/${instance}${at}${shown}`;
 }
 
+/** True of a host that each computer understands as itself: an address with it leads a colleague to their own. */
+export function isOwnComputer(host: string): boolean {
+  return /^(localhost|.+\.localhost|127(\.\d+){3}|\[::1\])$/i.test(host);
+}
+
 export type LinkWay = "there" | "go" | "ask" | "outside";
 
 /** How a scan that a link names is come to. Where others look at the PLC they are asked for first: everybody sees the past. */

@@ -450,8 +450,11 @@ export const english = {
   "severity.warning": "Warning",
   "shut.failed": "The server does not answer",
   "shut.failed.about": "Start it with make run, or look at its output. This page tries again when you ask it to.",
-  "shut.locked": "This address needs its token",
-  "shut.locked.about": "Open the address that scanbench serve printed; it ends with ?token=…",
+  "shut.locked": "This server asks for its key",
+  "shut.locked.about":
+    "Enter the key once in this browser. It is in the address that the server printed at its start, after ?token=; the person who started the server has it. What you wrote and did not save is kept in this browser.",
+  "shut.locked.key": "Key, or the whole address with ?token=",
+  "shut.locked.open": "Open",
   splitter: "Width of the explorer",
   "start.label": "Start",
   "start.new": "New file:",

@@ -449,8 +449,11 @@ export const japanese: Record<TextKey, string> = {
   "severity.warning": "警告",
   "shut.failed": "サーバーが応答しません",
   "shut.failed.about": "make run で起動するか、サーバーの出力を確認してください。",
-  "shut.locked": "このアドレスにはトークンが必要です",
-  "shut.locked.about": "scanbench serve が表示した ?token=… 付きのアドレスを開いてください。",
+  "shut.locked": "このサーバーにはキーが必要です",
+  "shut.locked.about":
+    "このブラウザで一度だけキーを入力してください。キーはサーバー起動時に表示されたアドレスの ?token= の後にあり、サーバーを起動した人が持っています。保存していない内容はこのブラウザに残っています。",
+  "shut.locked.key": "キー、または ?token= を含むアドレス全体",
+  "shut.locked.open": "開く",
   splitter: "エクスプローラの幅",
   "start.label": "開始",
   "start.new": "新しいファイル:",

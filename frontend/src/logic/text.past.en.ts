@@ -59,8 +59,12 @@ export const pastEnglish = {
   "link.ask.title": "The link leads to scan {scan}.",
   "link.broken": "This address names no instance and scan of this server. It is to look like {example}.",
   "link.copied": "Link copied",
+  "link.copied.here": "Copied; opens on this computer only",
   "link.copy": "Copy link",
-  "link.copy.hint": "The address of this scan, for a colleague or a report",
+  "link.copy.hint":
+    "The address of this scan, for a colleague or a report. Whoever opens this server for the first time is asked for its key",
+  "link.copy.hint.here":
+    "The address of this scan. It names this computer ({host}), so it opens here only: for a colleague, open this page under the server's network name first",
   "link.copy.scan": "Copy link to scan {scan}",
   "link.gone":
     "There is no instance {instance} on this server any more, or there never was. Ask who sent the link for the run file.",

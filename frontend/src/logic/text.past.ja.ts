@@ -59,8 +59,12 @@ export const pastJapanese: Record<keyof typeof pastEnglish, string> = {
   "link.ask.title": "このリンクはスキャン {scan} を指しています。",
   "link.broken": "このアドレスはインスタンスとスキャンを指していません。例: {example}",
   "link.copied": "リンクをコピーしました",
+  "link.copied.here": "コピーしました(このコンピューターでのみ有効)",
   "link.copy": "リンクをコピー",
-  "link.copy.hint": "このスキャンのアドレス。同僚や報告書に使えます",
+  "link.copy.hint":
+    "このスキャンのアドレス。同僚や報告書に使えます。初めてこのサーバーを開く人はキーの入力を求められます",
+  "link.copy.hint.here":
+    "このスキャンのアドレス。このコンピューター({host})を指すため、ここでしか開けません。同僚に渡すには、先にサーバーのネットワーク名でこのページを開いてください",
   "link.copy.scan": "スキャン {scan} へのリンクをコピー",
   "link.gone": "このサーバーにインスタンス {instance} はありません。リンクの送り主に実行ファイルを頼んでください。",
   "link.label": "リンク",

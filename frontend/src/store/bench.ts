@@ -54,10 +54,28 @@ export async function start(): Promise<void> {
     if (instance) await chooseInstance(instance);
     else if (app.projects[0]) await chooseProject(app.projects[0]);
   } catch (error) {
-    const locked = error instanceof Refused && (error.status === 401 || error.status === 403);
-    set({ phase: locked ? "locked" : "failed", problem: messageOf(error) });
+    set({ phase: isLocked(error) ? "locked" : "failed", problem: messageOf(error) });
   }
 }
+
+const isLocked = (error: unknown) => error instanceof Refused && error.status === 401;
+
+/** The server may be back with another key, or this browser has forgotten its own: then no try gets through, and the key is asked for. */
+async function checkKey(): Promise<void> {
+  try {
+    await rest.app(AbortSignal.timeout(KEY_PATIENCE));
+  } catch (error) {
+    if (!isLocked(error)) return;
+    link.connect(null);
+    set({ phase: "locked", problem: messageOf(error) });
+  }
+}
+
+const KEY_PATIENCE = 2000;
+
+usePlc.subscribe(({ link: now }, { link: before }) => {
+  if (now.state === "lost" && now.attempt !== before.attempt) void checkKey();
+});
 
 export async function chooseInstance(instance: Instance): Promise<void> {
   keep("instance", instance.id);

@@ -1,6 +1,6 @@
 /** The address of what is shown, and what an address that was opened asks for. */
 import { create } from "zustand";
-import { isBrokenLink, type Link, linkPath, readLink, wayTo } from "../logic/links";
+import { isBrokenLink, isOwnComputer, type Link, linkPath, readLink, wayTo } from "../logic/links";
 import { grouped } from "../logic/numbers";
 import { t } from "../logic/text";
 import { useBench } from "./bench";
@@ -65,6 +65,14 @@ export const putAwayLinkTrouble = () => set({ trouble: null });
 export function scanLink(scan: number | null, panel: string | null = null): string {
   const instance = useBench.getState().instance?.id;
   return instance === undefined ? "" : location.origin + linkPath({ instance, scan, panel });
+}
+
+/** What a button that copies a link says before and after: for whom the link works. */
+export function linkWords(): { title: string; done: string } {
+  const host = location.hostname;
+  return isOwnComputer(host)
+    ? { title: t("link.copy.hint.here", { host }), done: t("link.copied.here") }
+    : { title: t("link.copy.hint"), done: t("link.copied") };
 }
 
 const QUIET = 300;

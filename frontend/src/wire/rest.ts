@@ -78,8 +78,8 @@ async function readRefusal(response: Response): Promise<Refusal> {
   }
 }
 
-export async function json<T>(method: string, path: string, body?: unknown): Promise<T> {
-  return (await (await request(method, path, body)).json()) as T;
+export async function json<T>(method: string, path: string, body?: unknown, signal?: AbortSignal): Promise<T> {
+  return (await (await request(method, path, body, [], signal)).json()) as T;
 }
 
 const filePath = (project: number, path: string) =>
@@ -101,7 +101,7 @@ async function savedErrors(answer: Promise<Response>): Promise<{ saved: UserErro
 }
 
 export const rest = {
-  app: () => json<AppInfo>("GET", ""),
+  app: (signal?: AbortSignal) => json<AppInfo>("GET", "", undefined, signal),
 
   createProject: (name: string, model: string) => json<Project>("POST", "/projects", { name, model }),
   files: (project: number) => json<FileInfo[]>("GET", `/projects/${project}/files`),

@@ -4,7 +4,7 @@ import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { branch, openInstance } from "../../store/instances";
-import { scanLink } from "../../store/links";
+import { linkWords, scanLink } from "../../store/links";
 import { keepState } from "../../store/sweeps";
 import { returnToLive } from "../../store/timeline";
 import { AskName } from "../../ui/AskName";
@@ -44,13 +44,7 @@ export function PastBanner({ state }: { state: InstanceState }) {
         <Icon name="plus" small />
         {t("states.keep")}
       </button>
-      <CopyButton
-        label={t("link.copy")}
-        done={t("link.copied")}
-        title={t("link.copy.hint")}
-        text={() => scanLink(scan)}
-        disabled={instance === null}
-      />
+      <CopyButton label={t("link.copy")} {...linkWords()} text={() => scanLink(scan)} disabled={instance === null} />
       <button type="button" className="btn past sm" onClick={returnToLive}>
         {t("past.live")}
       </button>

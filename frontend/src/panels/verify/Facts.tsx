@@ -4,7 +4,7 @@ import { t } from "../../logic/text";
 import { isEdited, resultOf, variableOf } from "../../logic/verify";
 import { bitsBeside, differingBits, shownValue, type ValueType } from "../../logic/verifyValues";
 import { useBench } from "../../store/bench";
-import { scanLink } from "../../store/links";
+import { linkWords, scanLink } from "../../store/links";
 import { useForbidden } from "../../store/plc";
 import { travel } from "../../store/timeline";
 import { drive, type ShownVerification } from "../../store/verify";
@@ -248,8 +248,7 @@ function Deeds({ shown, row, difference, uses, onUses }: DeedsProps) {
           </button>
           <CopyButton
             label={t("link.copy")}
-            done={t("link.copied")}
-            title={t("link.copy.hint")}
+            {...linkWords()}
             className="btn quiet sm"
             text={() => scanLink(row.scan, "verification")}
           />
