@@ -13,7 +13,7 @@ they are typed in the watch table: `TRUE`, `42`, `T#5s`, `'text'`.
 """
 
 import json
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from threading import Event
 from urllib.error import HTTPError
@@ -117,12 +117,48 @@ class Plc:
 
     def raise_error(self, error: str, **details: Value) -> str:
         """Raises an error of the model's catalogue."""
-        one: Json = {"id": error, "details": {name: str(value) for name, value in details.items()}}
-        return self._command("errors/generate", {"errors": [one]})
+        return self._command("errors/generate", {"errors": [_error(error, details)]})
 
     def recover(self, *errors: str) -> str:
         """Recovers these errors, or all."""
         return self._command("errors/recover", {"ids": list(errors) or None})
+
+    def clear(self, what: str | int = "current") -> str:
+        """Clears errors as a tool does it on the device: `current` (the most serious), `all`, or that of a code. What the
+        simulator raised and whose cause lasts stays: `recover` it."""
+        return self._command("errors/clear", {"what": what})
+
+    def arm(
+        self, error: str, *, start: Mapping[str, Json] | None = None, shape: Mapping[str, Json] | None = None,
+        **details: Value,
+    ) -> str:  # fmt: skip
+        """Raises an error later, or again and again: `start={"kind": "scan", "scan": 500}`,
+        `shape={"kind": "for", "scans": 5}`. The fields are those of `FaultStart` and `FaultShape` of the REST API."""
+        body: dict[str, Json] = {"errors": [_error(error, details)]}
+        if start is not None:
+            body["start"] = dict(start)
+        if shape is not None:
+            body["shape"] = dict(shape)
+        return self._command("errors/arm", body)
+
+    @property
+    def armed(self) -> Sequence[Mapping[str, Json]]:
+        """The faults that are armed and not over: `id`, `errors`, `text`, `state`, `next_scan` and more."""
+        answer = self._server.ask("GET", f"{self._base}/errors/armed")
+        assert isinstance(answer, list)
+        return [each for each in answer if isinstance(each, dict)]
+
+    def disarm(self, *ids: int) -> str:
+        """Takes these armed faults back, or all; what they raised is recovered."""
+        return self._command("errors/disarm", {"ids": list(ids) or None})
+
+    def mode(self, mode: str) -> str:
+        """`PROGRAM`, `MONITOR` or `RUN`. A fatal error has to be recovered first."""
+        return self._command("mode", {"mode": mode})
+
+    def restart(self, kind: str = "warm") -> str:
+        """`cold`, `warm` or `power` (off and on); afterwards the program runs."""
+        return self._command("restart", {"kind": kind})
 
     def run(
         self, scans: int | None = None, until: str | None = None, speed: float | None = None, timeout_s: float = 60.0
@@ -169,6 +205,10 @@ def connect(address: str, token: str = "", user: str = "script") -> Server:
     parts = urlsplit(address if "//" in address else f"http://{address}")
     given = token or parse_qs(parts.query).get("token", [""])[0]
     return Server(f"{parts.scheme}://{parts.netloc}", given, user)
+
+
+def _error(id: str, details: Mapping[str, Value]) -> Json:
+    return {"id": id, "details": {name: str(value) for name, value in details.items()}}
 
 
 def _typed(value: Value) -> str:

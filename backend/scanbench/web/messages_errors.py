@@ -193,23 +193,33 @@ class FaultShape(Wire):
     acknowledge: str = Field(default="", max_length=2000)
 
 
-class Arm(Wire):
+class ArmFaults(Wire):
     """Errors with a beginning and a shape; `gap` scans from one to the next (0: all in one seam)."""
 
-    type: Literal["arm"] = "arm"
-    ref: int
     errors: list[GenerateOne] = Field(min_length=1)
     start: FaultStart = FaultStart()
     shape: FaultShape = FaultShape()
     gap: Annotated[int, Field(ge=0, le=1_000_000_000)] = 0
 
 
-class Disarm(Wire):
+class Arm(ArmFaults):
+    """`ArmFaults` on the socket."""
+
+    type: Literal["arm"] = "arm"
+    ref: int
+
+
+class DisarmFaults(Wire):
     """Takes faults back: nothing more is raised, and what they raised and is still present is recovered."""
+
+    ids: list[Id] | None = Field(default=None, description="null is all of them")
+
+
+class Disarm(DisarmFaults):
+    """`DisarmFaults` on the socket."""
 
     type: Literal["disarm"] = "disarm"
     ref: int
-    ids: list[Id] | None = Field(description="null is all of them")
 
 
 class ArmedFault(Wire):

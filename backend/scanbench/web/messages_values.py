@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from scanbench.web.messages import Mode, RestartKind
 from scanbench.web.messages_base import Wire
 
 
@@ -40,3 +41,15 @@ class Drive(Wire):
     speed: float | None = Field(default=None, description="0.01 to 1000; 0 is as fast as possible")
     scans: Annotated[int, Field(ge=1, lt=1 << 53)] | None = None
     until: str | None = Field(default=None, description="a BOOL expression over instance paths and addresses")
+
+
+class ChangeMode(Wire):
+    """As `SetMode` on the socket."""
+
+    mode: Mode
+
+
+class BeginAnew(Wire):
+    """As `Restart` on the socket."""
+
+    kind: RestartKind

@@ -2,6 +2,7 @@
 
 from fastapi import APIRouter, Request
 
+from scanbench.faults.arm import Arm, Disarm
 from scanbench.faults.clear import ClearErrorLog, ClearErrors
 from scanbench.faults.inject import Generate, Recover
 from scanbench.session.refused import Refused
@@ -53,6 +54,30 @@ async def on_clear(
 async def on_clear_log(bench: Bench, request: Request, instance: Id) -> messages_errors.CommandResult:
     """Empties the PLC's own error log, as a tool does it on the device (FINS 2103)."""
     return command_result(await bench.session(instance).submit(ClearErrorLog(user_of(request).name)))
+
+
+@router.get("/errors/armed")
+async def on_armed(bench: Bench, instance: Id) -> list[messages_errors.ArmedFault]:
+    """The faults that are armed and not over."""
+    return list(map(translate_errors.armed, bench.session(instance).armed))
+
+
+@router.post("/errors/arm")
+async def on_arm(
+    bench: Bench, request: Request, instance: Id, wanted: messages_errors.ArmFaults
+) -> messages_errors.CommandResult:
+    """Errors that begin later, or come and go; the message begins with `armed N`, N is what `disarm` takes."""
+    command = Arm(user_of(request).name, translate_errors.wanted(wanted))
+    return command_result(await bench.session(instance).submit(command))
+
+
+@router.post("/errors/disarm")
+async def on_disarm(
+    bench: Bench, request: Request, instance: Id, wanted: messages_errors.DisarmFaults
+) -> messages_errors.CommandResult:
+    """Takes these faults back, or all; what they raised is recovered."""
+    ids = None if wanted.ids is None else tuple(wanted.ids)
+    return command_result(await bench.session(instance).submit(Disarm(user_of(request).name, ids)))
 
 
 @router.post("/errors/preview")

@@ -5,6 +5,8 @@ from typing import Annotated
 from fastapi import APIRouter, Query, Request
 
 from scanbench.runtime.forces import Force, Release
+from scanbench.runtime.modes import SetMode
+from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.session.debug_protocol import Evaluate, Evaluated
 from scanbench.session.protocol import Ack
@@ -71,3 +73,15 @@ async def on_run(bench: Bench, request: Request, instance: Id, wanted: messages_
     """Lets the PLC run, pauses it, runs one scan. The answer comes when it is under way, not when it is done."""
     session, author = bench.session(instance), user_of(request).name
     return command_result(await session.drive(wanted.action, wanted.speed, author, wanted.scans, wanted.until))
+
+
+@router.post("/mode")
+async def on_mode(bench: Bench, request: Request, instance: Id, wanted: messages_values.ChangeMode) -> CommandResult:
+    """Changes the mode. MONITOR and RUN are refused while a fatal error is present."""
+    return command_result(await bench.session(instance).submit(SetMode(user_of(request).name, wanted.mode)))
+
+
+@router.post("/restart")
+async def on_restart(bench: Bench, request: Request, instance: Id, wanted: messages_values.BeginAnew) -> CommandResult:
+    """The program begins anew, in every mode; afterwards it runs."""
+    return command_result(await bench.session(instance).submit(Restart(user_of(request).name, wanted.kind)))

@@ -18,7 +18,7 @@ def refs(errors: Sequence[wire.GenerateOne]) -> tuple[ErrorRef, ...]:
     return tuple(ErrorRef(one.id, tuple(one.details.items())) for one in errors)
 
 
-def wanted(arm: wire.Arm) -> Wanted:
+def wanted(arm: wire.ArmFaults) -> Wanted:
     """Errors with a beginning and a shape."""
     start, shape = arm.start, arm.shape
     return Wanted(

@@ -69,6 +69,48 @@ def test_a_run_until_ends_where_the_condition_holds(plc: Plc) -> None:
     assert plc.state["state"] == "paused"
 
 
+def test_a_fatal_error_is_not_the_end_of_a_script(server: Server) -> None:
+    server.instance("fatal", "CJ1M-CPU63", main="PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n")
+    plc = connect(server.address, user="Ann").plc("fatal")
+    plc.run(scans=3)
+    plc.raise_error("memory-error", location="io-table-checksum")
+    assert plc.read("A401.15") == "TRUE"
+    with pytest.raises(Refused, match="Recover it"):
+        plc.mode("MONITOR")
+    plc.recover("memory-error")
+    assert plc.mode("MONITOR") == "mode MONITOR: the program runs"
+    count = int(plc.read("Main.n"))
+    plc.run(scans=5)
+    assert int(plc.read("Main.n")) == count + 5
+    plc.raise_error("memory-error", location="io-table-checksum")
+    assert "memory-error" in plc.clear("all")  # the tool's own way
+    plc.raise_error("battery-error")
+    with pytest.raises(Refused, match="battery-error"):
+        plc.clear("all")  # its cause lasts
+    plc.raise_error("memory-error", location="io-table-checksum")
+    assert "power off and on" in plc.restart("power")
+    plc.run(scans=2)
+    assert plc.read("Main.n") == "2"
+
+
+def test_a_script_arms_faults_and_takes_them_back(server: Server) -> None:
+    server.instance("armed", "CJ1M-CPU63", main="PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n")
+    plc = connect(server.address, user="Ann").plc("armed")
+    plc.run(scans=3)
+    begin = int(str(plc.state["scan"]))
+    said = plc.arm("basic-io-error", start={"kind": "scan", "scan": begin + 4}, shape={"kind": "stay"}, rack=1, slot=3)
+    assert said.startswith("armed 1: basic-io-error")
+    assert [(each["id"], each["errors"]) for each in plc.armed] == [(1, ["basic-io-error"])]
+    plc.run(scans=6)
+    assert plc.read("A408") == "16#0103"
+    plc.arm("battery-error", start={"kind": "scan", "scan": begin + 1000})
+    plc.disarm()
+    assert not plc.armed
+    assert plc.read("A402.12") == "FALSE"
+    with pytest.raises(Refused, match="no statement begins"):
+        plc.arm("battery-error", start={"kind": "line", "file": "main.st", "line": 99})
+
+
 def test_the_example_of_the_docs_runs(tmp_path: Path) -> None:
     page = (Path(__file__).parents[3] / "docs" / "scripts.md").read_text("utf-8")
     found = re.search(r"```python\n(.*?)```", page, re.DOTALL)

@@ -345,6 +345,46 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/errors/arm": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Arm
+         * @description Errors that begin later, or come and go; the message begins with `armed N`, N is what `disarm` takes.
+         */
+        post: operations["on_arm_api_instances__instance__errors_arm_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/errors/armed": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Armed
+         * @description The faults that are armed and not over.
+         */
+        get: operations["on_armed_api_instances__instance__errors_armed_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/errors/clear": {
         parameters: {
             query?: never;
@@ -359,6 +399,26 @@ export interface paths {
          * @description Clears errors as a tool does it on the device (FINS 2101).
          */
         post: operations["on_clear_api_instances__instance__errors_clear_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/errors/disarm": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Disarm
+         * @description Takes these faults back, or all; what they raised is recovered.
+         */
+        post: operations["on_disarm_api_instances__instance__errors_disarm_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -605,6 +665,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/mode": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Mode
+         * @description Changes the mode. MONITOR and RUN are refused while a fatal error is present.
+         */
+        post: operations["on_mode_api_instances__instance__mode_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/model": {
         parameters: {
             query?: never;
@@ -679,6 +759,26 @@ export interface paths {
          * @description The run once more with one error another, as a new instance; how far it is comes by this instance's WebSocket.
          */
         post: operations["on_rerun_api_instances__instance__reruns_post"];
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
+    "/api/instances/{instance}/restart": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        get?: never;
+        put?: never;
+        /**
+         * On Restart
+         * @description The program begins anew, in every mode; afterwards it runs.
+         */
+        post: operations["on_restart_api_instances__instance__restart_post"];
         delete?: never;
         options?: never;
         head?: never;
@@ -2080,7 +2180,7 @@ export interface components {
         };
         /**
          * Arm
-         * @description Errors with a beginning and a shape; `gap` scans from one to the next (0: all in one seam).
+         * @description `ArmFaults` on the socket.
          */
         Arm: {
             /** Errors */
@@ -2163,6 +2263,48 @@ export interface components {
              * @description start and shape in a sentence
              */
             text: string;
+        };
+        /**
+         * ArmFaults
+         * @description Errors with a beginning and a shape; `gap` scans from one to the next (0: all in one seam).
+         */
+        ArmFaults: {
+            /** Errors */
+            errors: components["schemas"]["GenerateOne"][];
+            /**
+             * Gap
+             * @default 0
+             */
+            gap: number;
+            /**
+             * @default {
+             *       "acknowledge": "",
+             *       "kind": "stay",
+             *       "period": 2,
+             *       "scans": 1
+             *     }
+             */
+            shape: components["schemas"]["FaultShape"];
+            /**
+             * @default {
+             *       "condition": "",
+             *       "file": "",
+             *       "kind": "now",
+             *       "line": 0
+             *     }
+             */
+            start: components["schemas"]["FaultStart"];
+        };
+        /**
+         * BeginAnew
+         * @description As `Restart` on the socket.
+         */
+        BeginAnew: {
+            /**
+             * Kind
+             * @enum {string}
+             */
+            kind: "cold" | "warm" | "power";
         };
         /** BetweenEntry */
         BetweenEntry: {
@@ -2382,6 +2524,17 @@ export interface components {
              * @description false ends the process, true starts it where it was
              */
             power?: boolean | null;
+        };
+        /**
+         * ChangeMode
+         * @description As `SetMode` on the socket.
+         */
+        ChangeMode: {
+            /**
+             * Mode
+             * @enum {string}
+             */
+            mode: "PROGRAM" | "MONITOR" | "RUN";
         };
         /**
          * CheckRequest
@@ -2648,12 +2801,13 @@ export interface components {
         };
         /**
          * Disarm
-         * @description Takes faults back: nothing more is raised, and what they raised and is still present is recovered.
+         * @description `DisarmFaults` on the socket.
          */
         Disarm: {
             /**
              * Ids
              * @description null is all of them
+             * @default null
              */
             ids: number[] | null;
             /** Ref */
@@ -2663,6 +2817,17 @@ export interface components {
              * @enum {string}
              */
             type: "disarm";
+        };
+        /**
+         * DisarmFaults
+         * @description Takes faults back: nothing more is raised, and what they raised and is still present is recovered.
+         */
+        DisarmFaults: {
+            /**
+             * Ids
+             * @description null is all of them
+             */
+            ids?: number[] | null;
         };
         /** DisturbanceInfo */
         DisturbanceInfo: {
@@ -6950,6 +7115,72 @@ export interface operations {
             };
         };
     };
+    on_arm_api_instances__instance__errors_arm_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ArmFaults"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
+                };
+            };
+        };
+    };
+    on_armed_api_instances__instance__errors_armed_get: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ArmedFault"][];
+                };
+            };
+        };
+    };
     on_clear_api_instances__instance__errors_clear_post: {
         parameters: {
             query?: never;
@@ -6962,6 +7193,41 @@ export interface operations {
         requestBody: {
             content: {
                 "application/json": components["schemas"]["ClearErrors"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
+                };
+            };
+        };
+    };
+    on_disarm_api_instances__instance__errors_disarm_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["DisarmFaults"];
             };
         };
         responses: {
@@ -7384,6 +7650,41 @@ export interface operations {
             };
         };
     };
+    on_mode_api_instances__instance__mode_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["ChangeMode"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
+                };
+            };
+        };
+    };
     on_model_api_instances__instance__model_get: {
         parameters: {
             query?: never;
@@ -7516,6 +7817,41 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["Rerun"];
+                };
+            };
+        };
+    };
+    on_restart_api_instances__instance__restart_post: {
+        parameters: {
+            query?: never;
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody: {
+            content: {
+                "application/json": components["schemas"]["BeginAnew"];
+            };
+        };
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["CommandResult"];
                 };
             };
         };

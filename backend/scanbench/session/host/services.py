@@ -110,13 +110,15 @@ class Services:
                 self._attended = message.anybody
 
     def entered(self) -> None:
-        """Tells of the journal's new entries, and first what runs now, when that is another program."""
+        """Tells of the journal's new entries, and first what runs now, when that is another program. What they leave armed or
+        present is told before anybody gets an answer."""
         if self._timeline.live_version != self._version_told:
             self._version_told = self._timeline.live_version
             self._link.post(protocol.NowRuns(self._sources(self._version_told)))
         entries = self._timeline.new_entries()
         if entries:
             self._link.post(protocol.Entered(tuple(entries)))
+            self._tell_standing()
 
     def moved(self) -> None:
         """Another program is shown: every variable may have another place."""
