@@ -196,7 +196,8 @@ class ArgumentChecker(StandardCallChecker):
     def in_out(self, member: Member, value: tree.Expression | None, span: Span, before: list[Stmt]) -> Place:
         """What an in-out is bound to: a variable, or for a constant one a value that `before` puts somewhere."""
         if value is None:
-            raise self.report.reject("T005", f"The in-out `{member.name}` must be connected at every call.", span)
+            what = "input" if member.constant and isinstance(member.type, OpenArray) else "in-out"
+            raise self.report.reject("T005", f"The {what} `{member.name}` must be connected at every call.", span)
         if member.constant:
             return self._constant_in_out(member, value, before)
         if not isinstance(value, VARIABLES):

@@ -341,7 +341,11 @@ class Declarations:
                 ):
                     self.report.error("D001", f"`{variable.name}` is declared already; rename one.", variable.span)
                     continue
-                member = self.declare(record, variable, kind, "CONSTANT" in section.qualifiers)
+                constant = "CONSTANT" in section.qualifiers
+                if function and kind is Section.INPUT and isinstance(variable.type, tree.OpenArraySpec):
+                    self.declare(record, variable, Section.IN_OUT, constant=True)  # referred to, and only read
+                    continue
+                member = self.declare(record, variable, kind, constant)
                 if member and kind is not Section.IN_OUT and has_instance(member.type):
                     what = "FUNCTION" if function else "VAR_TEMP"
                     self.report.error(
@@ -385,7 +389,11 @@ class Declarations:
             bound = section is Section.IN_OUT and not copied
             made = self.referred(variable.type) if bound else self.type_of(variable.type)
             if isinstance(made, OpenArray) and section is not Section.IN_OUT:
-                raise self.report.reject("D008", "ARRAY[*] is for VAR_IN_OUT; state the bounds here.", variable.span)
+                raise self.report.reject(
+                    "D008",
+                    "ARRAY[*] is for VAR_IN_OUT, and for VAR_INPUT of a FUNCTION or METHOD; state the bounds here.",
+                    variable.span,
+                )
         except Rejected:
             self.broken.add((owner.name.upper(), key))
             return None

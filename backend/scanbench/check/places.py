@@ -325,6 +325,8 @@ class PlaceChecker(SubrangeChecker):
     def assignable(self, place: Place, member: Member | None, span: Span) -> None:
         """Refuses what cannot be assigned: constants, outputs of others, memory that the model protects."""
         if member is not None:
+            if member.constant and member.section is Section.IN_OUT and isinstance(member.type, OpenArray):
+                raise self.report.reject("T003", f"`{member.name}` can only be read here.", span)
             if member.constant:
                 what = "is a CONSTANT and cannot" if member.home != SYSTEM.name else "counts by itself and cannot"
                 raise self.report.reject("T003", f"`{member.name}` {what} be assigned.", span)
