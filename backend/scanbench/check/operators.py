@@ -31,7 +31,7 @@ from scanbench.check.types import (
     Type,
     base_of,
 )
-from scanbench.check.untyped import ANY_INT, ANY_REAL, bounds, common, is_untyped, settle
+from scanbench.check.untyped import ANY_INT, ANY_REAL, bounds, common, is_untyped, real_beside, settle
 from scanbench.problems import Span
 
 COMPARISONS = ("eq", "ne", "lt", "le", "gt", "ge")
@@ -56,7 +56,7 @@ class OperatorChecker(LiteralChecker):
             return self._time(op, left, right, span)
         if op == "pow":
             return self._power(left, right, span, wanted)
-        left, right, type = self._same(op, _number(left), _number(right), span)
+        left, right, type = self._same(op, _number(left), _number(right), span, wanted)
         if op in ("and", "or", "xor"):
             fits = type.kind in (Kind.BOOL, Kind.BITS) or type == ANY_INT
             need = "BOOL or bit strings"
@@ -106,7 +106,9 @@ class OperatorChecker(LiteralChecker):
         made = fold.binary(op, type, left, right, trap)
         return self.in_64_bits(made, span) if isinstance(made, Const) and type == ANY_INT else made
 
-    def _same(self, op: str, left: Expr, right: Expr, span: Span) -> tuple[Expr, Expr, Elementary]:
+    def _same(
+        self, op: str, left: Expr, right: Expr, span: Span, wanted: Type | None = None
+    ) -> tuple[Expr, Expr, Elementary]:
         """Both operands in their common type."""
         a, b = left.type, right.type
         if not isinstance(a, Elementary) or not isinstance(b, Elementary):
@@ -116,9 +118,9 @@ class OperatorChecker(LiteralChecker):
             type = ANY_REAL if ANY_REAL in (a, b) else ANY_INT
             return Const(type, _plain(left)), Const(type, _plain(right)), type
         if is_untyped(left):
-            left, a = self._beside(left, b, span), b
+            left, a = self._beside(left, b, span, wanted), b
         elif is_untyped(right):
-            right, b = self._beside(right, a, span), a
+            right, b = self._beside(right, a, span, wanted), a
         assert isinstance(left.type, Elementary)
         assert isinstance(right.type, Elementary)
         type_or_none = common(left.type, right.type)
@@ -127,7 +129,7 @@ class OperatorChecker(LiteralChecker):
             raise self.report.reject("T002", f"`{OPERATORS[op]}` cannot join {left.type} and {right.type}.{hint}", span)
         return fold.convert(type_or_none, left), fold.convert(type_or_none, right), type_or_none
 
-    def _beside(self, literal: Expr, type: Elementary, span: Span) -> Expr:
+    def _beside(self, literal: Expr, type: Elementary, span: Span, wanted: Type | None) -> Expr:
         """An untyped literal beside an operand of `type`: that type, or a larger one where it does not fit."""
         assert isinstance(literal, Const)
         if literal.type == ANY_INT and type.kind in (Kind.INT, Kind.UINT):
@@ -135,7 +137,7 @@ class OperatorChecker(LiteralChecker):
             if not low <= int(literal.value) <= high:
                 return settle(literal)
         if literal.type == ANY_REAL and type.kind in (Kind.INT, Kind.UINT):
-            return Const(LREAL, literal.value)
+            return self.literal_as(literal, real_beside([type], wanted), span, "The other operand")
         return self.literal_as(literal, type, span, "The other operand")
 
     # ---- durations and dates ----------------------------------------------------------------------------

@@ -10,7 +10,7 @@ from scanbench.check.names import LIBRARY
 from scanbench.check.program import Assign, CallFunction, Const, Expr, Load, Stmt
 from scanbench.check.standard.functions import Row
 from scanbench.check.types import LINT, Elementary, Kind, StringType, Type
-from scanbench.check.untyped import ANY_REAL, common, is_untyped, settle
+from scanbench.check.untyped import ANY_REAL, common, is_untyped, real_beside, settle
 from scanbench.problems import Span
 from scanbench.syntax import tree
 
@@ -71,7 +71,8 @@ class StandardArguments(ExpressionChecker):
         assert type is not None
         real = any(value.type == ANY_REAL for value in values)
         if real and isinstance(type, Elementary) and type.kind is not Kind.REAL:
-            type = self._join([*typed, settle(Const(ANY_REAL, 0.0))], span, name)
+            literal = Const(real_beside([value.type for value in typed], wanted), 0.0)
+            type = self._join([*typed, literal], span, name)
         return [self.coerce(value, type, span, what) for value in values]
 
     def _join(self, values: list[Expr], span: Span, name: str) -> Type:

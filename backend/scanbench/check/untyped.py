@@ -1,5 +1,6 @@
 """Literals before they have a type: `7` becomes INT, REAL or WORD by what stands beside it."""
 
+from collections.abc import Sequence
 from functools import cache
 
 from scanbench.check.program import Const, Expr
@@ -8,6 +9,7 @@ from scanbench.check.types import (
     ELEMENTARY,
     LINT,
     LREAL,
+    REAL,
     ULINT,
     Elementary,
     Enumeration,
@@ -53,6 +55,11 @@ def settle(expr: Expr) -> Expr:
     if isinstance(expr, Const) and expr.type == ANY_REAL:
         return Const(LREAL, expr.value)
     return expr
+
+
+def real_beside(types: Sequence[Type | None], wanted: Type | None) -> Elementary:
+    """What a real literal is beside values of these types: REAL where that is wanted and holds all of them, else LREAL."""
+    return REAL if wanted == REAL and all(type is not None and widens(type, REAL) for type in types) else LREAL
 
 
 def widens(source: Type, target: Type) -> bool:
