@@ -13,6 +13,11 @@ KINDS = {
     Kind.INT: "integer", Kind.UINT: "", Kind.REAL: "real", Kind.BITS: "bit string", Kind.BOOL: "BOOL",
     Kind.TIME: "duration", Kind.DATE: "date or time of day", Kind.CHAR: "character", Kind.STRING: "string",
 }  # fmt: skip
+FIRST_CALLS = (
+    "The first call of an `R_TRIG` says Q when CLK is TRUE. The first call of an `F_TRIG` never says Q: nothing has fallen yet.",
+    "The body that IEC 61131-3 prints for F_TRIG says Q there when CLK is FALSE; a program that counts on it sees one pulse less",
+    "here, in its first scan. Inputs with `R_EDGE` and `F_EDGE` do the same.",
+)
 LETTERS = {"s": "string", "n": "integer"}
 
 
@@ -48,7 +53,7 @@ def page() -> str:
             if not pou.name.startswith("__"):
                 (functions if pou.kind == "function" else blocks).append(f"| {signature(pou)} |")
     lines += ["## Functions in ST", "", "| function |", "|---|", *functions, ""]
-    lines += ["## Function blocks", "", "| block |", "|---|", *blocks, ""]
+    lines += ["## Function blocks", "", "| block |", "|---|", *blocks, "", *FIRST_CALLS, ""]
     return "\n".join(lines)
 
 

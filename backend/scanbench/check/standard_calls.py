@@ -170,7 +170,7 @@ class StandardCallChecker(ChoiceFunctions):
             case "__CODE_AT":
                 position = self.integer(values[1], node.span, name)
                 return fold.convert(INT, standard_fold.intrinsic("CHAR_AT", CHAR, (values[0], position)))
-            case "MUL_TIME" | "DIV_TIME" | "MUL_LTIME" | "DIV_LTIME":
+            case "MUL_TIME" | "DIV_TIME" | "MUL_LTIME" | "DIV_LTIME" | "MULTIME" | "DIVTIME":
                 time = self.coerce(values[0], LTIME if "_L" in base else TIME, node.span, "`IN1`")
                 return self.operate(base[:3].lower(), time, values[1], node.span)
         return self._byte_order(node, name, values[0], wanted)

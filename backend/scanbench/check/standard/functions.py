@@ -104,6 +104,9 @@ def _times() -> dict[str, Row]:
             rows[f"SUB_{name}_{name}"] = Operator("sub", types=(type, type))
         for op in ("mul", "div"):
             rows[f"{op.upper()}_{long}TIME"] = Special(("IN1", "IN2"), f"{time}, a number -> {time}")
+    for op in ("MUL", "DIV"):
+        says = f"TIME, a number -> TIME: the name of {op}_TIME in edition 2"
+        rows[f"{op}TIME"] = Special(("IN1", "IN2"), says)
     return rows
 
 
