@@ -62,6 +62,8 @@ class InstructionList:
         self._open: list[_Open] = []
         self._current: Current = NOTHING
         self._dead = False
+        self._wanted: Type | None = None
+        """What the next instruction works on: a function of literals alone gives that type."""
         self._find_wanted()
 
     def statements(self) -> tuple[Stmt, ...]:
@@ -98,11 +100,16 @@ class InstructionList:
                 fresh.append(self._flow.labels[node.label.upper()])
             if not node.operator:
                 continue
-            takes = node.operator == "ST" or (node.operator in BINARY and not node.arguments)
-            type = self._type(node.operand) if takes and node.operand is not None else None
+            wanted = self._wanted_by(node)
             for label in fresh:
-                label.wanted = base_of(type) if isinstance(type, Elementary) else None
+                label.wanted = wanted
             fresh.clear()
+
+    def _wanted_by(self, node: tree.IlInstruction) -> Elementary | None:
+        """The type of what the instruction works on: that which a literal before it takes."""
+        takes = node.operator == "ST" or (node.operator in BINARY and not node.arguments)
+        type = self._type(node.operand) if takes and node.operand is not None else None
+        return base_of(type) if isinstance(type, Elementary) else None
 
     def _literal_for(self, name: str) -> None:
         """Before the way to a label: a literal is kept in the type that is wanted there."""
@@ -122,11 +129,13 @@ class InstructionList:
     def _round(self) -> None:
         self._flow.start()
         self._blocks, self._open, self._current, self._dead = [[]], [], NOTHING, False
-        for node in self._body.instructions:
+        following = self._following()
+        for node, after in zip(self._body.instructions, following, strict=True):
             if node.label is not None:
                 self._label(node.label, node.span)
             if not node.operator:
                 continue
+            self._wanted = None if after is None else self._wanted_by(after)
             if not self._flow.falls:
                 self._unreachable(node)
             try:
@@ -137,6 +146,15 @@ class InstructionList:
             self._report.error(
                 "S003", f"`{left.node.operator}(` is never closed; write `)` on a line of its own.", left.node.span
             )
+
+    def _following(self) -> list[tree.IlInstruction | None]:
+        """The instruction after each one."""
+        found: list[tree.IlInstruction | None] = []
+        after = None
+        for node in reversed(self._body.instructions):
+            found.append(after)
+            after = node if node.operator else after
+        return found[::-1]
 
     def _unreachable(self, node: tree.IlInstruction) -> None:
         """Told once for each stretch that a JMP or RET leaves behind."""
@@ -175,9 +193,9 @@ class InstructionList:
         result = self._current.node
         return tree.Name(result.name, node.span) if isinstance(result, tree.Name) else result
 
-    def _set(self, node: tree.Expression, span: Span) -> None:
+    def _set(self, node: tree.Expression, span: Span, wanted: Type | None = None) -> None:
         """Makes a value the current result."""
-        value = self._checker.expr(node)
+        value = self._checker.expr(node, wanted)
         settled = settle(value)
         if settled.type is None or has_instance(settled.type):
             what = "nothing" if settled.type is None else f"an instance of {settled.type}"
@@ -260,7 +278,7 @@ class InstructionList:
             return
         operand = self._operand(node)
         operand = _negated(operand) if node.negated else operand
-        self._set(tree.BinaryOp(BINARY[node.operator], before, operand, node.span), node.span)
+        self._set(tree.BinaryOp(BINARY[node.operator], before, operand, node.span), node.span, self._wanted)
 
     def _close(self, node: tree.IlInstruction) -> None:
         if not self._open:
@@ -271,7 +289,7 @@ class InstructionList:
         finally:
             self._open.pop()
         inside = _negated(inside) if left.node.negated else inside
-        self._set(tree.BinaryOp(BINARY[left.node.operator], left.before, inside, node.span), node.span)
+        self._set(tree.BinaryOp(BINARY[left.node.operator], left.before, inside, node.span), node.span, self._wanted)
 
     # ---- jumps and calls --------------------------------------------------------------------------------
 
@@ -368,7 +386,7 @@ class InstructionList:
             self._run(tree.ExpressionStatement(call, node.span))
             self._current = NOTHING
         else:
-            self._set(call, node.span)
+            self._set(call, node.span, self._wanted)
 
     def _takes(self, node: tree.IlInstruction, pou: Pou | None) -> bool:
         """Whether it has any argument, so that the current result is the first."""
