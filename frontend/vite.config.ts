@@ -1,16 +1,42 @@
+import { readFile, writeFile } from "node:fs/promises";
+import { join } from "node:path";
+import { promisify } from "node:util";
+import { gzip } from "node:zlib";
 import react from "@vitejs/plugin-react";
-import { defineConfig } from "vite";
+import { defineConfig, type Plugin } from "vite";
 
 // `npm run dev` serves the page with hot reload and passes /api on to a running `scanbench serve`.
 const backend = process.env.SCANBENCH_URL ?? "http://127.0.0.1:8765";
 
+/** Beside each file its compressed half: the server sends that one, and compresses nothing itself. */
+const compressed: Plugin = {
+  name: "compressed",
+  apply: "build",
+  async writeBundle({ dir = "dist" }, bundle) {
+    const files = Object.keys(bundle).filter((name) => name.startsWith("assets/"));
+    for (const file of files.map((name) => join(dir, name)))
+      await writeFile(`${file}.gz`, await promisify(gzip)(await readFile(file), { level: 9 }));
+  },
+};
+
 export default defineConfig({
-  plugins: [react()],
+  plugins: [react(), compressed],
   // The page also stands at `/i/3/scan/4711`: what it needs is at the root.
   base: "/",
   build: {
-    // Monaco is one chunk of 4 MB by nature; it is loaded after the shell has painted.
+    // Monaco is one chunk of 4 MB by nature; it is loaded after the shell has painted, and stays the same when the page changes.
     chunkSizeWarningLimit: 5000,
+    rolldownOptions: {
+      output: {
+        codeSplitting: {
+          groups: [
+            // What the build itself adds is needed by all, and must not draw Monaco into what comes first.
+            { name: "runtime", test: /\0/, priority: 1 },
+            { name: "monaco", test: /node_modules[\\/]monaco-editor[\\/]/ },
+          ],
+        },
+      },
+    },
   },
   server: { proxy: { "/api": { target: backend, ws: true } } },
 });

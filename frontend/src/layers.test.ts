@@ -1,4 +1,4 @@
-import { readdirSync, readFileSync } from "node:fs";
+import { existsSync, readdirSync, readFileSync } from "node:fs";
 import { dirname, join, relative } from "node:path";
 import { fileURLToPath } from "node:url";
 import { describe, expect, it } from "vitest";
@@ -30,6 +30,19 @@ function imports(path: string): string[] {
   );
 }
 
+/** What a file needs before it runs: types and what is imported later, when it is used, are not among it. */
+function needs(path: string): string[] {
+  const text = readFileSync(path, "utf8");
+  return [...text.matchAll(/^(?:import|export)\s+(?!type\b)(?:[^"';]*?\sfrom\s+)?"([^"]+)"/gm)].flatMap(
+    ([, name = ""]) => {
+      if (!name.startsWith(".")) return [name];
+      return ["", ".ts", ".tsx"]
+        .map((end) => join(dirname(path), name + end))
+        .filter((file) => /\.tsx?$/.test(file) && existsSync(file));
+    },
+  );
+}
+
 const folderOf = (path: string) =>
   path
     .split("/")
@@ -52,6 +65,14 @@ describe("layers", () => {
       expect(wrong).toEqual([]);
     });
   }
+
+  it("the page needs no Monaco to stand", () => {
+    const seen = new Set([join(root, "main.tsx")]);
+    for (const path of seen) if (path.startsWith(root)) for (const next of needs(path)) seen.add(next);
+    expect([...seen].filter((path) => path.startsWith("monaco-editor"))).toEqual([]);
+    expect([...seen]).toContain(join(root, "panels/editor/EditorPanel.tsx"));
+    expect(needs(join(root, "panels/editor/monaco.ts"))).toContain("monaco-editor/editor");
+  });
 
   it("finds the imports it is to judge", () => {
     expect(imports(join(root, "main.tsx"))).toContain("app/App");

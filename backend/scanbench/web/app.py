@@ -8,7 +8,6 @@ from pathlib import Path
 from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import HTMLResponse, JSONResponse
-from fastapi.staticfiles import StaticFiles
 from starlette.exceptions import HTTPException
 
 from scanbench import __version__
@@ -36,6 +35,7 @@ from scanbench.web import (
     translate,
 )
 from scanbench.web.auth import Gate, Guard
+from scanbench.web.built_files import BuiltFiles
 from scanbench.web.pages import frontend_directory, not_built_page
 
 _STATUS: dict[type[Exception], int] = {
@@ -132,11 +132,4 @@ def _serve_page(app: FastAPI, directory: Path) -> None:
             return HTMLResponse(not_built_page(directory), 503)
         return HTMLResponse(index.read_text("utf-8"), headers={"Cache-Control": "no-cache"})
 
-    app.mount("/", _BuiltFiles(directory=directory, check_dir=False), name="frontend")
-
-
-class _BuiltFiles(StaticFiles):
-    """What is not there is not found: so too all of it, as long as nothing was built."""
-
-    async def check_config(self) -> None:
-        """Starlette's own fails without a directory."""
+    app.mount("/", BuiltFiles(directory=directory, check_dir=False), name="frontend")

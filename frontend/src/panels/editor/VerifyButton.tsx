@@ -2,7 +2,7 @@ import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { Icon } from "../../ui/Icon";
 import type { Pou } from "../../wire/types";
-import { verifyHere } from "./verifyAction";
+import { verifyHere } from "./verifyHere";
 
 /** What runs can be verified. */
 const VERIFIED: readonly Pou["kind"][] = ["program", "function_block", "function", "method"];
