@@ -202,6 +202,22 @@ class Trace:
         """Another name; the record goes on."""
         self.definition, self.by = replace(self.definition, name=name), by
 
+    def choose(self, definition: TraceDefinition, program: Program, scan: int, by: str) -> None:
+        """Other signals, and nothing else: what was recorded of those that stay is kept, and goes on. Already checked."""
+        before = self.definition.signals
+        of = [before.index(text) if text in before else None for text in definition.signals]
+        self.definition, self.by = definition, by
+        found = resolve_signals(program, definition.signals)
+        types = [
+            self.buffer.types[column] if column is not None else each.type if isinstance(each, Signal) else BOOL
+            for column, each in zip(of, found, strict=True)
+        ]
+        self._types = {text: type for text, type in self._types.items() if text in definition.signals}
+        shown = self.buffer.with_columns(types, of)
+        self._current = shown if self._current is self.buffer else self._current.with_columns(types, of)
+        self._show(shown, self.triggered)
+        self.aim(program, scan)
+
     def start(self, program: Program, scan: int) -> None:
         """Records from `scan` on, armed where there is a trigger. What was recorded before is forgotten. `BadTrace`."""
         self.aim(program, scan, fresh=True)
@@ -250,10 +266,11 @@ class Trace:
         self._aim_trigger(program, scan)
 
     def _aim(self, found: "list[Signal | BadCondition]") -> None:
+        before = {signal.text: signal for signal in self.signals}
         signals = []
-        for text, each, before in zip(self.definition.signals, found, _padded(self.signals, len(found)), strict=False):
+        for text, each in zip(self.definition.signals, found, strict=True):
             if isinstance(each, BadCondition):
-                known = before if before is not None and before.text == text else TraceSignal(text)
+                known = before.get(text, TraceSignal(text))
                 signals.append(TraceSignal(text, known.type, known.kind, known.size, known.values, each.message))
             else:
                 self._types[text] = each.type
@@ -379,10 +396,6 @@ def described(signal: Signal) -> TraceSignal:
 
 def _kind(type: Elementary) -> str:
     return Kind(type.kind).value
-
-
-def _padded(signals: tuple[TraceSignal, ...], count: int) -> "list[TraceSignal | None]":
-    return [*signals, *[None] * (count - len(signals))]
 
 
 def total_bytes(traces: Mapping[int, Trace]) -> int:

@@ -103,6 +103,16 @@ class _Block:
         self.valid = np.zeros(BLOCK, dtype=np.uint64)
         self.values = [np.zeros(BLOCK, dtype=_RAW[type.size]) for type in types]
 
+    def with_columns(self, types: Sequence[Elementary], of: Sequence[int | None]) -> "_Block":
+        made = _Block(types)
+        made.scans = self.scans
+        for at, column in enumerate(of):
+            if column is not None:
+                made.values[at] = self.values[column]
+                made.valid |= (self.valid >> np.uint64(column) & np.uint64(1)) << np.uint64(at)
+        made.count = self.count
+        return made
+
     def append(self, rows: Words) -> None:
         """Takes rows that there is room for."""
         begin, end = self.count, self.count + len(rows)
@@ -137,6 +147,13 @@ class TraceBuffer:
             return 0, 0
         (first, begin, _), (last, _, end) = parts[0], parts[-1]
         return int(first.scans[begin]), int(last.scans[end - 1]) + 1
+
+    def with_columns(self, types: Sequence[Elementary], of: Sequence[int | None]) -> "TraceBuffer":
+        """The same rows with other columns, which take this buffer's place: `of` names the column that each was, None one that
+        has no values in these rows."""
+        made = TraceBuffer(types, self.capacity)
+        made._blocks = tuple(block.with_columns(types, of) for block in self._blocks)
+        return made
 
     def append(self, rows: Words) -> None:
         """Takes rows as a `Sampling` has them."""

@@ -37,7 +37,8 @@ async def on_new_trace(bench: Bench, request: Request, instance: Id, new: wire.D
 async def on_define_trace(
     bench: Bench, request: Request, instance: Id, trace: Id, changed: wire.DefineTrace
 ) -> wire.TraceInfo:
-    """Another definition for a trace; what was recorded is forgotten, unless only the name changed."""
+    """Another definition for a trace; what was recorded is forgotten. Without `start`, other signals leave what was recorded
+    of those that stay, and another name leaves everything."""
     tracing, author = bench.session(instance).tracing, user_of(request).name
     return translate_trace.info(await tracing.define(trace, translate_trace.wanted(changed), author, changed.start))
 

@@ -51,6 +51,11 @@ class Bench:
         self.trace.aim(self.plc.program, self.scan)
         self.plc.samplings = self.trace.samplings
 
+    def choose(self, *signals: str) -> None:
+        """Other signals, as the host takes them over."""
+        self.trace.choose(replace(self.trace.definition, signals=signals), self.plc.program, self.scan, "Ada")
+        self.plc.samplings = self.trace.samplings
+
     def scans(self) -> list[int]:
         found: list[int] = self.trace.buffer.read(0, 1 << 40).scans.tolist()
         return found
@@ -212,6 +217,43 @@ def test_what_the_program_does_not_know(definition: TraceDefinition, word: str) 
     trace = Trace(1, definition, "Ada")
     with pytest.raises(BadTrace, match=word):
         trace.define(definition, plc(SOURCE).program, "Ada")
+
+
+def test_other_signals_leave_what_was_recorded_of_those_that_stay() -> None:
+    bench = Bench(PLAIN)
+    bench.start()
+    bench.run(30)
+    before = bench.trace.buffer.read(0, 1000)
+    bench.choose("Main.a", "Main.r", "Main.n")
+    bench.run(20)
+    found = bench.trace.buffer.read(0, 1000)
+    assert found.scans.tolist() == list(range(50))
+    assert found.valid.tolist() == [0b110] * 30 + [0b111] * 20
+    assert found.values[0].tolist()[30:] == list(range(31, 51))
+    assert found.values[1].tolist()[:30] == before.values[2].tolist()
+    assert found.values[2].tolist() == list(range(1, 51))
+    assert [each.text for each in bench.trace.signals] == ["Main.a", "Main.r", "Main.n"]
+    assert bench.trace.state == "recording"
+    bench.trace.stop()
+    bench.choose("Main.n", "Main.on")
+    assert bench.trace.state == "stopped"
+    assert bench.trace.buffer.read(0, 1000).valid.tolist() == [0b01] * 50
+
+
+def test_other_signals_leave_the_trigger_and_the_record_that_is_shown() -> None:
+    bench = Bench(triggered("Main.a", "rises", "50", scans=40, repeat=True))
+    bench.start()
+    bench.run(110)
+    assert (bench.trace.state, bench.trace.hits, bench.trace.triggered) == ("armed", 1, 49)
+    shown = bench.scans()
+    bench.choose("Main.n", "Main.a")
+    assert (bench.trace.state, bench.trace.hits, bench.trace.triggered) == ("armed", 1, 49)
+    assert bench.scans() == shown
+    bench.run(60)
+    assert (bench.trace.hits, bench.trace.triggered) == (2, 149)
+    found = bench.trace.buffer.read(0, 1000)
+    assert found.scans.tolist() == list(range(129, 169))
+    assert found.values[1].tolist() == [(scan + 1) % 100 for scan in range(129, 169)]
 
 
 def test_a_change_while_it_is_triggered_does_not_end_a_repeating_trace() -> None:

@@ -129,8 +129,15 @@ export function onTraces(traces: readonly TraceInfo[]): void {
   const first = traces[0];
   set({ traces, source: gone ? (first ? { kind: "trace", id: first.id } : null) : source, records });
   const now = shownOf(get());
-  if (now && before && now.source.id === before.source.id && now.generation !== before.generation) rewind(now);
+  if (now && before && now.source.id === before.source.id && now.generation !== before.generation && !goesOn(before, now))
+    rewind(now);
   else if (now && !before) rewind(now);
+}
+
+/** Other signals of the same record: what is looked at stays. */
+function goesOn(before: Shown, now: Shown): boolean {
+  const texts = (shown: Shown) => shown.signals.map(({ text }) => text).join("\n");
+  return texts(now) !== texts(before) && now.first < Math.min(before.end, now.end);
 }
 
 /** Another record is shown: a live one is followed, of one that is complete all is shown. */
@@ -181,6 +188,7 @@ const PLAIN: Omit<TraceDefinition, "name" | "signals"> = {
 async function define(id: number | null, wanted: DefineTrace, add?: string): Promise<boolean> {
   const instance = instanceId();
   if (instance === null) return false;
+  const before = shownOf(get());
   try {
     const made = await wire.define(instance, id, wanted);
     set(({ traces }) => ({
@@ -192,7 +200,7 @@ async function define(id: number | null, wanted: DefineTrace, add?: string): Pro
       trouble: null,
     }));
     const now = shownOf(get());
-    if (now) rewind(now);
+    if (now && !(before?.source.id === id && goesOn(before, now))) rewind(now);
     return true;
   } catch (error) {
     fail(error, add);
@@ -241,8 +249,9 @@ export function removeSignal(text: string): void {
 export async function change(part: Partial<TraceDefinition>, add?: string): Promise<boolean> {
   const trace = shownOf(get())?.trace;
   if (!trace) return false;
-  const renamed = Object.keys(part).every((key) => key === "name");
-  return define(trace.id, { ...trace.definition, ...part, start: !renamed }, add);
+  // Another name, other signals: what was recorded stays, and a trace that is recorded goes on.
+  const keeps = Object.keys(part).every((key) => key === "name" || key === "signals");
+  return define(trace.id, { ...trace.definition, ...part, start: !keeps }, add);
 }
 
 export async function drive(action: "start" | "stop"): Promise<void> {

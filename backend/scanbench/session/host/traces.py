@@ -97,6 +97,10 @@ class Traces:
         tried = Trace(wanted.id, wanted.definition, wanted.author)
         tried.define(wanted.definition, program, wanted.author)
         self._refuse_large(wanted.id, tried)
+        same = replace(trace.definition, name=wanted.definition.name, signals=wanted.definition.signals)
+        if not fresh and not wanted.start and wanted.definition == same:
+            trace.choose(wanted.definition, program, self._timeline.live_scan, wanted.author)
+            return f"trace {wanted.definition.name} changed"
         run = wanted.start or trace.running
         trace.define(wanted.definition, program, wanted.author)
         self._traces[wanted.id] = trace
