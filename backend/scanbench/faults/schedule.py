@@ -7,6 +7,7 @@ from scanbench.check.program import Program
 from scanbench.engines.observe import MakeObserved, Observed
 from scanbench.faults.arm import ARMED, Disarm, Lane, Lanes, Missed, unmeant
 from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.lasting import returning
 from scanbench.faults.lines import find_line
 from scanbench.faults.shapes import Wanted
 from scanbench.runtime.agenda import NOTHING, Met, Waits
@@ -29,7 +30,11 @@ class Schedule:
         self._flaws: dict[tuple[Wanted, bool], Refusal | None] = {}
 
     def due(self, view: View, met: Met) -> Command | None:
-        """The first step that is due, in the order in which the faults were armed."""
+        """What a restart cut off and must be there again; the first step that is due, in the order in which the faults were
+        armed."""
+        again = returning(view)
+        if again is not None:
+            return again
         lanes = view.derived(ARMED)
         if not lanes:
             return None

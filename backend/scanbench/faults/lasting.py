@@ -1,0 +1,55 @@
+"""Errors whose cause outlives a restart: a battery is as flat after power was off as before.
+
+A restart leaves no error in the memory. What the simulator raised and whose cause lasts is raised again in the same seam
+(`schedule.py` asks for it), whatever the order of the commands there; so the journal and the log show it, and a replay knows it.
+"""
+
+from collections.abc import Mapping
+from dataclasses import dataclass
+
+from scanbench.faults.arm import ARMED, Lanes
+from scanbench.faults.inject import ACTIVE, Active, Generate, Raised, Recover
+from scanbench.runtime.command import Entry, Refusal, View
+from scanbench.runtime.journal import Fold
+
+
+@dataclass(frozen=True, slots=True)
+class CutOff:
+    """What a restart ended."""
+
+    present: Mapping[str, Active]
+    lanes: Lanes
+    gone: tuple[Raised, ...]
+    """Raised at the simulator, cut off by a restart, and neither raised nor recovered since."""
+
+
+def _step(known: CutOff, entry: Entry) -> CutOff:
+    present, lanes, gone = ACTIVE.step(known.present, entry), ARMED.step(known.lanes, entry), known.gone
+    command = entry.command
+    if entry.plan.starts_anew:
+        # a fault that comes and goes by itself ends with the restart
+        passing = {id for lane in known.lanes.values() if lane.wanted.shape.kind != "stay" for id in lane.present}
+        before = (each for active in known.present.values() for each in active.raised)
+        gone = (*gone, *(each for each in before if each.origin == "simulator" and each.ref.id not in passing))
+    elif gone and isinstance(command, Generate):
+        gone = tuple(each for each in gone if all(each.ref.id != ref.id for ref in command.errors))
+    elif gone and isinstance(command, Recover):
+        gone = tuple(each for each in gone if command.ids is not None and each.ref.id not in command.ids)
+    if present is known.present and lanes is known.lanes and gone is known.gone:
+        return known
+    return CutOff(present, lanes, gone)
+
+
+CUT_OFF: Fold[CutOff] = Fold(CutOff({}, {}, ()), _step)
+
+
+def returning(view: View) -> Generate | None:
+    """The first error that a restart cut off and whose cause is still there."""
+    for raised in view.derived(CUT_OFF).gone:
+        error = view.model.error(raised.ref.id)
+        if error is None or not error.lasting:
+            continue
+        command = Generate(raised.by, (raised.ref,))
+        if not isinstance(command.plan(view), Refusal):
+            return command
+    return None
