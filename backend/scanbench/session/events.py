@@ -278,8 +278,9 @@ class VerificationStatus:
     """Verified last."""
     compared: int = 0
     skipped: int = 0
+    """Scans of which nothing was compared: left out, not in a trace, or the program stood still."""
     stretches: tuple[tuple[int, int], ...] = ()
-    """The skipped scans, the last ones, both ends included."""
+    """Those scans, the last ones, both ends included."""
     differing: int = 0
     first_difference: Mismatch | None = None
     first_scan: int | None = None
@@ -287,6 +288,8 @@ class VerificationStatus:
     forgotten: int = 0
     used: int = 0
     generation: int = 0
+    note: str = ""
+    """What is not quite as it was asked for."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -29,6 +29,7 @@ from scanbench.session.verify_protocol import (
     VerifyStep,
 )
 from scanbench.session.verify_rows import Rows
+from scanbench.verify.report import stretched
 from scanbench.verify.verified import Memory
 
 BEHIND = 256
@@ -39,6 +40,7 @@ AT_ONCE = 200
 """Scans that are asked for at once: so soon it can be stopped, or take another pace."""
 STRETCHES = 100
 _RUNS = ("running",)
+_TRAPPED = "the PLC is stopped by a run-time error: restart it to go on"
 
 
 @dataclass(frozen=True, slots=True)
@@ -49,6 +51,15 @@ class TraceSource:
     name: str
     mapping: str
     """JSON of `verify.mapping.TraceMapping`."""
+
+
+@dataclass(frozen=True, slots=True)
+class _Cut:
+    """A scan that a run-time error ended. When the program is restarted in it, more of it follows."""
+
+    scan: int
+    rows: int
+    """So many were told."""
 
 
 class Verification:
@@ -79,11 +90,14 @@ class Verification:
         """Of a stretch of the past that is gone through step by step: the statement that is next."""
         self._stepping = 0
         """The statement of the step that is under way; -1: it is the seam; 0: whole scans are."""
+        self._until = 0
+        """Scans in front of this one were over as scans were asked for."""
         self._halt = 0
         self.held = False
         """Whether the PLC ran when this verification had it wait."""
         self._owed = 0
         """Scans that somebody may still go on by, with pace `scan`."""
+        self._cut: _Cut | None = None
         self._tasks: set[asyncio.Task[None]] = set()
 
     # ---- life -----------------------------------------------------------------------------------------------------
@@ -100,7 +114,7 @@ class Verification:
                 )
             )
         else:
-            if wanted.first is not None and not wanted.first < live:
+            if wanted.first is not None and not wanted.first < self._live_end:
                 raise Refused(f"scan {wanted.first:,} is not over yet: the PLC is at scan {live:,}")
             if wanted.first is not None and wanted.last is not None and wanted.last < wanted.first:
                 raise Refused(f"scans {wanted.first:,} to {wanted.last:,} are none")
@@ -110,16 +124,22 @@ class Verification:
             raise Refused(answer.message, answer.near)
         assert isinstance(answer, VerifyBegun)
         last: int | None = None
+        notes = [answer.note]
         if self._trace is not None:
             first, last = answer.first, answer.end - 1
         elif wanted.first is not None:
-            last = live - 1 if wanted.last is None else min(wanted.last, live - 1)
+            last = answer.end - 1 if wanted.last is None else min(wanted.last, answer.end - 1)
+            if wanted.last is not None and last < wanted.last:
+                notes.append(
+                    f"Scans {wanted.first:,} to {wanted.last:,} were wanted, and {last:,} is the last that is over: "
+                    f"what comes after it is not compared."
+                )
         elif self.status.source == "live":
             first = self._live_scan  # it took a while until now
         self._next = first
         self._change(
             title=answer.title, instances=answer.instances, first=first, last=last, version=answer.version,
-            interval_ns=answer.interval_ns, message=answer.note, state="waiting" if self.status.pace != "free" else "verifying",
+            interval_ns=answer.interval_ns, note=" ".join(filter(None, notes)), state="waiting" if self.status.pace != "free" else "verifying",
         )  # fmt: skip
         session.listen(self._on_event)
         if self.status.pace != "free" and self.status.source == "live":
@@ -139,6 +159,22 @@ class Verification:
         await asyncio.gather(*self._tasks, return_exceptions=True)
         await self._job.end()
         self._give_up("the verification was ended")
+
+    @property
+    def over(self) -> bool:
+        """Whether it has come to its end."""
+        return self.status.state in ("done", "failed")
+
+    @property
+    def runs(self) -> bool:
+        """Whether it has a process."""
+        return not self._gone
+
+    async def release(self) -> None:
+        """Ends the process of one that is over; its rows stay, and can be looked at and kept."""
+        self._gone = True
+        await self._job.end()
+        self._give_up("its process was ended as others began: begin another verification")
 
     # ---- what users want ------------------------------------------------------------------------------------------
 
@@ -210,6 +246,13 @@ class Verification:
         state = self.session.state
         return state.live_scan if state.past_by else state.scan
 
+    @property
+    def _live_end(self) -> int:
+        """Scans in front of this one are over. One that a run-time error ended is, though time stands."""
+        state = self.session.state
+        trapped = state.trap is not None and not state.past_by and state.trap.scan == state.scan
+        return self._live_scan + (trapped or (self._cut is not None and self._cut.scan == self._live_scan))
+
     def _on_event(self, event: Event) -> None:
         if isinstance(event, StateChanged):
             if event.state.state == "running":  # somebody lets it run: it does not wait because of this any more
@@ -219,6 +262,11 @@ class Verification:
     def _poke(self) -> None:
         """Asks for what is to be verified now, unless something is."""
         status, live = self.status, self._live_scan
+        if self._cut is not None and self._cut.scan < live and self._busy is None:
+            if live - self._cut.scan <= BEHIND:  # the program was restarted in it
+                self._next = min(self._next, self._cut.scan)
+            else:
+                self._cut = None
         if status.state in ("starting", "stopped", "done", "failed"):
             return
         if status.source != "trace" and self.session.runs != self._run:
@@ -229,15 +277,17 @@ class Verification:
             self._poke_past(live)
         elif status.pace == "step":
             self._poke_halt(live)
-        elif self._next < live:
+        elif self._next < self._live_end:
             if status.pace == "free" and live - self._next > BEHIND:
                 self._skip(live - CAUGHT_UP)
-            self._scans(self._next, live - 1, live)
+            self._scans(self._next, self._live_end - 1, live)
 
     def _poke_past(self, live: int) -> None:
         status = self.status
         assert status.last is not None
-        until = live if status.source == "past" else status.last + 1
+        until = (
+            live if status.source == "past" else status.last + 1
+        )  # a scan that a run-time error ended is known by itself
         if self._next > status.last:
             self._change(state="done", message="")
         elif status.pace == "free":
@@ -254,6 +304,9 @@ class Verification:
 
     def _poke_halt(self, live: int) -> None:
         halt = self.session.state.halt
+        if halt is None and self._next < self._live_end and self._live_end > live:  # the last step was a run-time error
+            self._scans(self._next, live, live)
+            return
         if halt is None or halt.past or halt.number == self._halt:
             return
         if self._next < halt.scan:  # those that are over by now are compared as a whole
@@ -269,7 +322,7 @@ class Verification:
         self._busy = self._send(lambda ref: VerifyStep(ref, scan, count, until))
 
     def _scans(self, first: int, last: int, until: int) -> None:
-        self._stepping = 0
+        self._stepping, self._until = 0, until
         last = min(last, first + AT_ONCE - 1)
         self._busy = self._send(lambda ref: VerifyScans(ref, first, last, until))
         if self.status.state != "verifying":
@@ -280,7 +333,7 @@ class Verification:
         skipped = to - self._next
         if skipped <= 0:
             return
-        stretches = (*self.status.stretches, (self._next, to - 1))[-STRETCHES:]
+        stretches = _with_stretches(self.status.stretches, ((self._next, to - 1),))
         self._next = to
         self._change(skipped=self.status.skipped + skipped, stretches=stretches)
 
@@ -312,6 +365,8 @@ class Verification:
             return
         if session.state.past_by:
             raise Refused("the past is shown: return to live first")
+        if self._live_end > self._live_scan:
+            raise Refused(_TRAPPED)
         if status.pace == "scan":
             ack = await session.drive("scan", None, author)
         else:
@@ -362,6 +417,7 @@ class Verification:
         status = self.status
         if status.state == "failed":  # what comes behind it may be of another run
             return
+        came = self._without_known(came)
         self.rows.add(came)
         over = not self._stepping or (self._stepping > 0 and bool(came.rows) and came.rows[-1].count == 0)
         if over:
@@ -373,18 +429,34 @@ class Verification:
         going = status.state in ("verifying", "waiting", "starting")
         state = "failed" if came.failed else status.state
         if going and came.done and not came.failed:
-            state = "waiting" if status.pace != "free" or self._next >= self._live_scan else "verifying"
+            state = "waiting" if status.pace != "free" or self._next >= self._live_end else "verifying"
         self._change(
-            state=state, message=came.message, scan=came.scan if came.scan >= 0 else status.scan,
-            compared=status.compared + came.compared, differing=status.differing + sum(row.first is not None for row in came.rows),
+            state=state, message=came.message or (_TRAPPED if self._cut is not None else ""), scan=came.scan if came.scan >= 0 else status.scan,
+            compared=status.compared + came.compared, skipped=status.skipped + _count(came.skipped),
+            stretches=_with_stretches(status.stretches, came.skipped), differing=status.differing + sum(row.first is not None for row in came.rows),
             first_difference=first or (None if new is None else new.first),
             first_scan=status.first_scan if first is not None or new is None else new.scan,
             rows=self.rows.count, forgotten=self.rows.first, used=max(status.used, came.used),
         )  # fmt: skip
         if came.done and not came.failed:
-            if status.auto and status.pace != "free" and going:
+            # whole scans that are compared on the way to a halt are no step: the halt is compared next
+            stepped = status.pace == "scan" or status.source != "live" or self._stepping != 0
+            if status.auto and status.pace != "free" and going and stepped:
                 self._soon()
             self._poke()
+
+    def _without_known(self, came: ScansVerified) -> ScansVerified:
+        """Of a scan that a run-time error ended, and in which the program was restarted, the rows that are new."""
+        cut = self._cut
+        if self._stepping or self.status.source != "live":
+            return came
+        if cut is not None and any(row.scan == cut.scan for row in came.rows):
+            old = [row for row in came.rows if row.scan == cut.scan][: cut.rows]
+            self._cut = None
+            came = replace(came, rows=tuple(row for row in came.rows if row not in old), compared=came.compared - 1)
+        if came.scan == self._until:  # it was asked for though time stands there: a run-time error ended it
+            self._cut = _Cut(came.scan, sum(row.scan == came.scan for row in came.rows))
+        return came
 
     def _on_end(self, _job: Job) -> None:
         """It died, or was ended."""
@@ -413,6 +485,19 @@ class Verification:
     def _change(self, **changes: object) -> None:
         self.status = replace(self.status, **changes)  # type: ignore[arg-type]  # names and types are the status' own
         self._on_change(self)
+
+
+def _count(stretches: tuple[tuple[int, int], ...]) -> int:
+    return sum(last - first + 1 for first, last in stretches)
+
+
+def _with_stretches(
+    known: tuple[tuple[int, int], ...], more: tuple[tuple[int, int], ...]
+) -> tuple[tuple[int, int], ...]:  # fmt: skip
+    made = list(known)
+    for first, last in more:
+        stretched(made, first, last)
+    return tuple(made[-STRETCHES:])
 
 
 def _acked(answer: object) -> protocol.Ack:

@@ -25,7 +25,9 @@ from scanbench.verify.table_csv import to_csv
 from scanbench.verify.verified import Memory, Range
 
 MOST = 10
-"""Verifications at a time: each is a process."""
+"""Verifications that go on at a time: each is a process."""
+MOST_OPEN = 30
+"""With those that are over: their rows are kept in memory."""
 SUFFIX = ".rows"
 _TELL_NS = 200_000_000
 Format = Literal["csv", "json", "html"]
@@ -104,9 +106,7 @@ class Verifications:
     async def _begin(
         self, session: Session, wanted: VerifyWish, trace: TraceSource | None, author: str
     ) -> VerificationStatus:  # fmt: skip
-        if len(self._all) >= MOST:
-            told = ", ".join(f"{each.status.title} at {each.session.name}" for each in self._all.values())
-            raise Refused(f"{MOST} verifications are open, and there can be no more: close one of them first ({told})")
+        await self._make_room()
         id, self._next = self._next, self._next + 1
         made = self._all[id] = Verification(
             id, session, wanted, trace, author, self._cache, self._on_change, self._hand_over
@@ -118,6 +118,21 @@ class Verifications:
             raise
         session.told(author, f"verification {id} begins: {made.status.title}")
         return made.status
+
+    async def _make_room(self) -> None:
+        """Those that are over give way, the oldest first: their processes at once, their rows when there are many of them."""
+        running = [each for each in self._all.values() if each.runs]
+        over = [each for each in running if each.over]
+        if len(running) >= MOST and not over:
+            told = ", ".join(f"{each.status.title} at {each.session.name}" for each in running)
+            raise Refused(f"{MOST} verifications go on, and there can be no more: end one of them first ({told})")
+        if len(running) >= MOST:
+            await over[0].release()
+        old = [each for each in self._all.values() if each.over]
+        if len(self._all) >= MOST_OPEN and old:
+            status = old[0].status
+            old[0].session.told(status.by, f"verification {status.id} is forgotten, as others began: {status.title}")
+            await self._drop(status.id)
 
     async def drive(
         self, id: int, pace: VerifyPace | None, auto: bool | None, memory: Memory | None, action: str | None, author: str
@@ -281,7 +296,7 @@ def _head(status: VerificationStatus, project: str, instance: str, model: str, w
         project, instance, model, status.by, when, status.version, status.title, status.source, status.first,
         status.first if status.scan is None else status.scan, status.compared, status.skipped, status.differing,
         f"Scanbench {__version__}", status.trace, status.interval_ns, status.forgotten, status.wanted.limit,
-        status.stretches, status.message,
+        status.stretches, " ".join(filter(None, (status.note, status.message))),
     )  # fmt: skip
 
 

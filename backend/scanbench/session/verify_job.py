@@ -28,6 +28,7 @@ from scanbench.session.verify_protocol import (
 )
 from scanbench.verify.engines import native
 from scanbench.verify.mapping import BadMapping
+from scanbench.verify.report import stretched
 from scanbench.verify.trace_run import TraceVerifier, open_trace
 from scanbench.verify.trace_table import BadTraceFile
 from scanbench.verify.value_text import value_text
@@ -69,7 +70,7 @@ class VerifyJob:
             case VerifyStep():
                 verifier = self._begun()
                 verifier.follow(request.until)
-                self._tell(request.ref, [verifier.step(request.scan, request.count)], done=True, scans=0)
+                self._tell(request.ref, [verifier.step(request.scan, request.count)], done=True, whole=False)
             case SetInputs():
                 rows = self._begun().set_inputs(request.edits)
                 packed = tuple(map(_packed, rows))
@@ -136,15 +137,22 @@ class VerifyJob:
         self._tell(ask.ref, batch, done=True)
 
     def _tell(
-        self, ref: int, batch: Sequence[ScanVerified], *, done: bool, failed: str = "", scans: int | None = None
+        self, ref: int, batch: Sequence[ScanVerified], *, done: bool, failed: str = "", whole: bool = True
     ) -> None:  # fmt: skip
+        """`whole`: they are scans, and not steps of one."""
         rows = tuple(_packed(row) for each in batch for row in each.rows)
+        skipped: list[tuple[int, int]] = []
+        for each in batch if whole else ():
+            if not each.compared:
+                stretched(skipped, each.scan, each.scan)
+        compared = sum(each.compared for each in batch) if whole else 0
         self._say(
             ScansVerified(
-                ref, batch[-1].scan if batch else -1, len(batch) if scans is None else scans, rows, _columns(batch),
+                ref, batch[-1].scan if batch else -1, compared, rows, _columns(batch),
                 tuple(dict.fromkeys(name for each in batch for name in each.inputs)),
                 tuple(dict.fromkeys(name for each in batch for name in each.outputs)),
                 max((each.used for each in batch), default=0), done, failed, bool(failed),
+                tuple(skipped),
             )
         )  # fmt: skip
 

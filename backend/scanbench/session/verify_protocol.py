@@ -134,7 +134,7 @@ class ScansVerified:
     ref: int
     scan: int
     compared: int
-    """Scans since the last message."""
+    """Scans since the last message of which anything was compared."""
     rows: tuple[PackedRow, ...]
     columns: tuple[Column, ...]
     inputs: tuple[str, ...]
@@ -144,6 +144,8 @@ class ScansVerified:
     message: str = ""
     """Why it cannot go on, when it failed; or why there was nothing to do."""
     failed: bool = False
+    skipped: tuple[tuple[int, int], ...] = ()
+    """Scans since the last message of which nothing was compared, as stretches, both ends included."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -105,6 +105,9 @@ class VerifyRow(Wire):
     disturbances: list[str]
     used: int
     note: str
+    compared: bool = Field(
+        description="false: nothing was, as the program stood still, or the trace has no value here or is believed"
+    )
 
 
 class VerifyRows(Wire):
@@ -136,11 +139,11 @@ class VerificationInfo(Wire):
     first: int = Field(description="the first scan that is, or was, to be verified")
     last: int | None = Field(description="the last one; null: as long as it runs")
     scan: int | None = Field(description="verified last")
-    compared: int = Field(description="scans")
-    skipped: int
-    stretches: list[tuple[int, int]] = Field(
-        description="the skipped scans, the last 100 stretches, both ends included"
+    compared: int = Field(description="scans of which anything was compared")
+    skipped: int = Field(
+        description="scans of which nothing was: left out, not in the trace, or the program stood still"
     )
+    stretches: list[tuple[int, int]] = Field(description="those scans, the last 100 stretches, both ends included")
     differing: int = Field(description="rows that differ")
     first_difference: VerifyDifference | None
     first_scan: int | None = Field(description="scan of the first difference")

@@ -36,7 +36,7 @@ def info(of: VerificationStatus) -> wire.VerificationInfo:
                 "pou": stretch.pou, "file": stretch.file, "first": stretch.first, "last": stretch.last,
                 "instance": stretch.instance,
             },
-            "auto": of.auto, "memory": of.memory, "state": of.state, "message": of.message,
+            "auto": of.auto, "memory": of.memory, "state": of.state, "message": " ".join(filter(None, (of.note, of.message))),
             "instances": list(of.instances), "limit": of.wanted.limit, "first": of.first, "last": of.last,
             "scan": of.scan, "compared": of.compared, "skipped": of.skipped, "stretches": list(of.stretches),
             "differing": of.differing, "first_difference": None if first is None else difference(first),
@@ -84,7 +84,7 @@ def rows(of: RowsPage) -> wire.VerifyRows:
 def _row(index: int, of: verified.Row) -> wire.VerifyRow:
     return wire.VerifyRow(
         index=index, kind=of.kind, scan=of.scan, call=of.call, count=of.count, instance=of.instance,
-        place=place(of.place), used=of.used, note=of.note, disturbances=list(of.disturbances),
+        place=place(of.place), used=of.used, note=of.note, compared=of.compared, disturbances=list(of.disturbances),
         differences=list(map(difference, of.differences)),
         outputs={
             name: wire.VerifyOutput(control=_hex(each.control), monitor=_hex(each.monitor), set=_hex(each.set))

@@ -1,5 +1,7 @@
 """Verification through the whole house: REST and WebSocket, session, a job process, both engines."""
 
+import pytest
+
 from tests.web.server import Browser, Message, Server
 
 MODEL = "CJ1M-CPU63"
@@ -249,7 +251,9 @@ def test_a_trace_of_a_real_controller(server: Server) -> None:
         )
         assert begun.status_code == 201, begun.text
         stands = ended(browser, server, instance, begun.json()["id"])
-        assert (stands["source"], stands["compared"], stands["differing"], stands["first_scan"]) == ("trace", 8, 1, 5)
+        assert (stands["source"], stands["compared"], stands["differing"], stands["first_scan"]) == ("trace", 7, 1, 5)
+        assert (stands["skipped"], stands["stretches"]) == (1, [[1, 1]])  # it begins in the middle of a run
+        assert "taken over" in stands["message"]
         assert number(stands["first_difference"]["control"]) == 191
     again = server.http.post(
         f"/api/projects/{project}/traces", params={"name": "real2.csv"}, content="\n".join(lines)
@@ -301,3 +305,57 @@ def test_it_ends_with_its_run_and_lets_the_plc_go(server: Server) -> None:
         refused = server.http.patch(f"/api/verifications/{begun['id']}", json={"action": "go_on"})
         assert refused.status_code == 422
         assert "past" in refused.json()["message"]
+
+
+INDEXED = """\
+PROGRAM Main
+VAR ix, n : INT; arr : ARRAY[0..9] OF INT; END_VAR
+  ix := (ix + 1) MOD 10;
+  arr[ix] := arr[ix] + 1;
+  n := n + 1;
+END_PROGRAM
+"""
+
+
+@pytest.mark.parametrize("pace", ["free", "scan", "step"])
+def test_the_run_time_error_of_the_plc_is_the_difference(server: Server, pace: str) -> None:
+    instance = server.instance(f"traps {pace}", MODEL, main=INDEXED)
+    with server.browser(instance) as browser:
+        scans(browser, 2 if paused(browser) < 2 else 0)
+        scan = paused(browser)
+        begun = begin(server, instance, pace=pace)
+        path = f"/api/verifications/{begun['id']}"
+        for bit in (5, 6):  # 32 or 64 and more: outside whatever the index is
+            disturb(server, instance, kind="result", site="main.st:3", bit=bit, scan=scan + 1)
+        if pace == "free":
+            browser.ask(type="run", action="continue")
+        else:
+            assert server.http.patch(path, json={"auto": True, "action": "go_on"}).status_code == 200
+        browser.wait_state("trapped")
+        browser.wait(lambda: "run-time error" in info(server, instance, begun["id"])["message"], 30)
+        stands = info(server, instance, begun["id"])
+        assert (stands["state"], stands["scan"], stands["first_scan"]) == ("waiting", scan + 1, scan + 1)
+        told = [each for row in rows(server, begun["id"], differing=True)["rows"] for each in row["differences"]]
+        assert "trap" in {each["cause"] for each in told}
+        assert not [each["name"] for each in told if "header" in each["name"]]
+        refused = server.http.patch(path, json={"pace": "scan", "action": "go_on"})
+        assert (refused.status_code, "run-time error" in refused.text) == (422, True)
+        past = begin(server, instance, first=scan, last=scan + 9)
+        over = ended(browser, server, instance, past["id"])
+        assert (over["last"], over["compared"], over["first_scan"]) == (scan + 1, 2, scan + 1)
+        assert f"{scan + 1} is the last that is over" in over["message"].replace(",", "")
+        only = begin(server, instance, first=scan + 1)
+        assert ended(browser, server, instance, only["id"])["compared"] == 1
+        # what follows in the scan after a restart is compared, and nothing twice
+        before = info(server, instance, begun["id"])
+        assert server.http.patch(path, json={"pace": "free"}).status_code == 200
+        assert browser.ask(type="restart", kind="cold")["ok"]
+        paused(browser)
+        scans(browser, 2)
+        last = paused(browser)
+        browser.wait(lambda: info(server, instance, begun["id"])["scan"] == last - 1, 30)
+        stands = info(server, instance, begun["id"])
+        assert stands["compared"] == before["compared"] + last - scan - 2
+        assert stands["differing"] == before["differing"]
+        again = [row for row in rows(server, begun["id"])["rows"] if row["scan"] == scan + 1 and row["kind"] == "scan"]
+        assert len(again) == 2

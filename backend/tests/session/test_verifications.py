@@ -1,0 +1,78 @@
+"""How many verifications there can be, and which ones give way; without processes."""
+
+import asyncio
+from pathlib import Path
+from typing import Literal, cast
+
+import pytest
+
+from scanbench.session import verifications
+from scanbench.session.events import Event, VerificationStatus, VerifyWish
+from scanbench.session.refused import Refused
+from scanbench.session.session import Session
+from scanbench.session.verifications import Verifications
+from scanbench.store.store import Store
+from scanbench.verify.verified import Range
+
+
+class Plc:
+    """As much of a session as is needed."""
+
+    id, name = 1, "line"
+
+    def __init__(self) -> None:
+        self.log: list[str] = []
+
+    def told(self, _author: str, text: str) -> None:
+        self.log.append(text)
+
+    def tell(self, _event: Event) -> None:
+        pass
+
+
+class Fake:
+    """A verification that does nothing."""
+
+    def __init__(self, id: int, session: Plc, wanted: VerifyWish, *_: object) -> None:
+        self.session, self.runs, self.over = session, True, False
+        self.state: Literal["done", "verifying"] = "verifying"
+        self.status = VerificationStatus(id, 1, "Ada", wanted, "past", "free", title="whole")
+
+    async def begin(self) -> None:
+        pass
+
+    async def release(self) -> None:
+        assert self.over
+        self.runs = False
+
+    async def end(self) -> None:
+        self.runs = False
+
+
+def test_those_that_are_over_give_way_to_new_ones(monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
+    monkeypatch.setattr(verifications, "Verification", Fake)
+    plc = Plc()
+    session = cast(Session, plc)
+    all = Verifications(cast(Store, None), tmp_path, tmp_path)
+    made = cast(dict[int, Fake], all._all)  # what is in there is no part of its contract
+
+    async def begin() -> int:
+        return (await all.begin(session, VerifyWish(Range(), "free", 0), "Ada")).id
+
+    async def run() -> None:
+        for _ in range(verifications.MOST):
+            await begin()
+        with pytest.raises(Refused, match="end one of them first"):
+            await begin()
+        made[3].over = made[5].over = True
+        eleventh = await begin()
+        assert [id for id, each in made.items() if not each.runs] == [3]  # its rows are still there
+        made[5].over = made[eleventh].over = True
+        while len(made) < verifications.MOST_OPEN:
+            made[await begin()].over = True
+        assert sum(each.runs for each in made.values()) == verifications.MOST
+        await begin()
+        assert 3 not in made
+        assert "verification 3 is forgotten, as others began: whole" in plc.log
+
+    asyncio.run(run())
