@@ -62,7 +62,7 @@ def verify(
     """Run a program twice and compare: what ran (native code, or a real controller of which there is a trace) and the
     reference interpreter, on the same inputs.
 
-    Exit 0: no difference; 1: there is one; 2: wrong usage, or nothing can be verified; 130: interrupted, no difference so far.
+    Exit 0: no difference; 1: there is one; 2: wrong usage, or nothing could be compared; 130: interrupted, no difference so far.
     """
     options = Options(set, force, generate, clear, mode, restart)
     if html is not None:
@@ -93,6 +93,8 @@ def _end(report: Report, stopped: "_Stopped | None") -> NoReturn:
         typer.echo(f"scanbench: {stopped.message}", err=True)
     if report.head.differing:
         raise typer.Exit(1)
+    if stopped is None and not report.head.compared:
+        usage("nothing of these scans could be compared")
     raise typer.Exit(0 if stopped is None else stopped.code)
 
 
@@ -130,7 +132,7 @@ def _verified(
         usage(f"{kept}: scan {first} is none of them")
     stopped = None
     if last >= end:
-        if subject.source == "past" and not subject.note:
+        if not subject.trapped:
             usage(f"{kept}: scan {last} is none of them")
         last = end - 1
     try:

@@ -70,6 +70,8 @@ class Subject:
     source: Source
     trace: str = ""
     note: str = ""
+    trapped: bool = False
+    """Of a project: a run-time error ended the run, so scans that were wanted are not there; the note says so."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -102,7 +104,9 @@ def opened(given: Given, make: Make) -> Iterator[Subject]:
             program, note = _ran(given, path)
             with _run_file(path, make) as verifier:
                 name = given.path.resolve().name
-                yield Subject(verifier, name, "command line", program.layout.model.name, "past", note=note)
+                yield Subject(
+                    verifier, name, "command line", program.layout.model.name, "past", note=note, trapped=bool(note)
+                )
 
 
 def _refuse_what_says_nothing(given: Given) -> None:
@@ -182,7 +186,12 @@ def _ran(given: Given, path: Path) -> tuple[Program, str]:
     if result.refused:
         usage("nothing was verified, as the run is not the one that was asked for")
     trap = result.resource.trap
-    return program, "" if trap is None else f"The run ended by a trap in scan {trap.scan}: {trap.message}"
+    if trap is None:
+        return program, ""
+    return (
+        program,
+        f"The run ended by a trap in scan {trap.scan}: {trap.message}. No scan after it was run or compared.",
+    )
 
 
 # ---- traces --------------------------------------------------------------------------------------------------------

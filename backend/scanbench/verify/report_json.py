@@ -23,7 +23,7 @@ def report_object(report: Report) -> dict[str, Json]:
     return {
         "format": FORMAT,
         **_head(report.head),
-        "same": not report.head.differing,
+        "same": not report.head.differing if report.head.differing or report.head.compared else None,
         "columns": [_column(each, report) for each in report.ordered()],
         "differences": [_difference(row, each, report.columns) for row, each in report.differences()],
         "rows": [_row(row, columns) for row in report.rows],

@@ -156,6 +156,25 @@ def test_a_trace_is_taken_by_the_names_of_its_columns(project: Path, tmp_path: P
     assert (first["scan"], first["variable"], first["was"], first["is"]) == (3, "Main.out", "151", "150")
 
 
+def test_what_a_trace_does_not_have_is_not_said_to_be_the_same(project: Path, tmp_path: Path) -> None:
+    trace, mapping = tmp_path / "press.csv", tmp_path / "press.json"
+    trace.write_text("scan,wanted,out\r\n4,100,50\r\n9,100,75\r\n20,100,\r\n21,100,\r\n")
+    columns = [
+        {"column": name, "path": f"Main.{name}", "role": role}
+        for name, role in (("wanted", "input"), ("out", "output"))
+    ]
+    mapping.write_text(json.dumps({"axis": "scan", "unit": "scan", "gaps": "skip", "columns": columns}))
+    given = ("verify", str(project), "--trace", str(trace), "--map", str(mapping))
+    result = scanbench(*given)
+    assert result.returncode == 2, result
+    assert "0 compared, 18 not compared (4 to 21): nothing was compared" in result.stdout
+    told = json.loads(scanbench(*given, "--json").stdout)
+    assert (told["compared"], told["skipped"], told["skipped_stretches"]) == (0, 18, [[4, 21]])
+    assert told["same"] is None
+    further = scanbench(*given, "--scans", "4..90")
+    assert (further.returncode, "scan 90 is none of them" in further.stderr) == (2, True)
+
+
 def test_a_trace_of_a_run_files_program_with_a_mapping(run: str, tmp_path: Path) -> None:
     trace, mapping = tmp_path / "press.csv", tmp_path / "press.json"
     trace.write_text(TRACE.replace("wanted", "Soll").replace("out", "Ist"))
@@ -234,3 +253,6 @@ def test_a_run_that_traps_is_verified_up_to_there(project: Path) -> None:
     assert "trap" in told["note"]
     assert told["same"] is True
     assert told["last"] == 6
+    text = scanbench("verify", str(project)).stdout
+    assert "scan 6: ended by a run-time error" in text
+    assert "scans 0 to 6, 7 compared: no difference" in text

@@ -40,6 +40,7 @@ const row = (part: Partial<VerifyRow>): VerifyRow => ({
   disturbances: [],
   used: 1,
   note: "",
+  compared: true,
   ...part,
 });
 

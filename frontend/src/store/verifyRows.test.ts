@@ -59,6 +59,7 @@ const rowAt = (index: number): VerifyRow => ({
   disturbances: [],
   used: 1,
   note: "",
+  compared: true,
 });
 
 const asked: [number, number, boolean][] = [];

@@ -5833,7 +5833,7 @@ export interface components {
             by: string;
             /**
              * Compared
-             * @description scans
+             * @description scans of which anything was compared
              */
             compared: number;
             /**
@@ -5893,7 +5893,10 @@ export interface components {
              * @description verified last
              */
             scan: number | null;
-            /** Skipped */
+            /**
+             * Skipped
+             * @description scans of which nothing was: left out, not in the trace, or the program stood still
+             */
             skipped: number;
             /**
              * Source
@@ -5907,7 +5910,7 @@ export interface components {
             state: "starting" | "verifying" | "waiting" | "stopped" | "done" | "failed";
             /**
              * Stretches
-             * @description the skipped scans, the last 100 stretches, both ends included
+             * @description those scans, the last 100 stretches, both ends included
              */
             stretches: [
                 number,
@@ -6081,6 +6084,11 @@ export interface components {
         VerifyRow: {
             /** Call */
             call: number;
+            /**
+             * Compared
+             * @description false: nothing was, as the program stood still, or the trace has no value here or is believed
+             */
+            compared: boolean;
             /** Count */
             count: number;
             /** Differences */

@@ -108,12 +108,13 @@ function Stat({ value, word, id, bad = false }: StatProps) {
   );
 }
 
-/** Which scans were left out; each stretch can be verified afterwards. */
+/** Of which scans nothing was compared; what was left out of a run can be verified afterwards. */
 function Skipped({ info }: { info: VerificationInfo }) {
   if (info.skipped === 0) return <Stat value={0} word={t("verify.skipped")} id="skipped" />;
   const items = (): MenuItem[] =>
     stretchLines(info.stretches).map((label, at) => {
       const [first, last] = info.stretches[at] ?? [0, 0];
+      if (info.source === "trace") return { label, disabled: true, onSelect: () => {} }; // nothing is there to be verified
       return { label, hint: t("verify.skipped.verify"), onSelect: () => verifyStretch(first, last) };
     });
   return (

@@ -37,9 +37,9 @@ export function Facts({ shown, row, difference, at, onChoose }: Props) {
             <b>{t("verify.difference", { at: ordinal, of: grouped(differing.length) })}</b>
           </span>
         ) : (
-          <span className="st running">
-            <Icon name={row.kind === "none" ? "minus" : "check"} />
-            <b>{t(row.kind === "none" ? "verify.notrun" : "verify.same")}</b>
+          <span className={`st ${row.compared ? "running" : "stopped"}`}>
+            <Icon name={row.compared && row.kind !== "none" ? "check" : "minus"} />
+            <b>{t(!row.compared ? "verify.notcompared" : row.kind === "none" ? "verify.notrun" : "verify.same")}</b>
           </span>
         )}
         <span className="faint cut">{whereOf(row, difference)}</span>
@@ -59,7 +59,9 @@ export function Facts({ shown, row, difference, at, onChoose }: Props) {
           ))}
         </div>
       )}
-      {difference && <Sides shown={shown} row={row} difference={difference} />}
+      {difference && (difference.control !== "" || difference.monitor !== "") && (
+        <Sides shown={shown} row={row} difference={difference} />
+      )}
       <p className="muted">{difference ? difference.message : sayOf(row)}</p>
       {difference && <p className="muted">{t(`verify.cause.${difference.cause}`)}</p>}
       {row.disturbances.length > 0 && (
@@ -88,8 +90,11 @@ const whereOf = (row: VerifyRow, difference: VerifyDifference | null) =>
     .filter(Boolean)
     .join(", ");
 
-const sayOf = (row: VerifyRow) =>
-  row.kind === "none" ? t("verify.notrun.about") : t(isEdited(row) ? "verify.same.edited" : "verify.same.about");
+function sayOf(row: VerifyRow): string {
+  if (!row.compared) return t("verify.notcompared.about");
+  if (row.kind === "none") return t("verify.notrun.about");
+  return t(isEdited(row) ? "verify.same.edited" : "verify.same.about");
+}
 
 function Hint({ shown, count }: { shown: ShownVerification; count: number }) {
   return (

@@ -127,7 +127,7 @@ function cellOf(row: VerifyRow, track: Track, how: How): Cell {
     case "note":
       return {
         look: "faint",
-        shown: row.note || (row.kind === "none" ? t("verify.notrun") : ""),
+        shown: row.note || (row.compared ? (row.kind === "none" ? t("verify.notrun") : "") : t("verify.notcompared")),
         title: row.note || undefined,
       };
   }

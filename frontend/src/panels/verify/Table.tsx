@@ -198,7 +198,9 @@ function NoRows({ shown: { info }, only }: { shown: ShownVerification; only: boo
     info.state === "failed"
       ? info.message
       : only && info.rows > 0
-        ? t("verify.nodifference", { count: info.compared })
+        ? info.compared > 0
+          ? t("verify.nodifference", { count: info.compared })
+          : t("verify.hint.none")
         : t(isGoing(info) ? "verify.norows.yet" : "verify.norows");
   return (
     <p className="lonely faint vfnone" role="status">
