@@ -44,9 +44,8 @@ class Debugging:
 
         Of a breakpoint with id 0 the id is found: that of the same one before, so that its count goes on, or a new one.
         """
-        before = [each.breakpoint for each in self.verdicts if each.breakpoint.is_of(group, kind, file)]
-        named = [self._named(each, before) for each in wanted]
-        for gone in before:
+        named = self.named(group, kind, file, wanted)
+        for gone in self._of(group, kind, file):
             self._verdicts.pop(gone.id, None)
         for each in named:
             self._verdicts[each.id] = Verdict(each, False, NOT_YET)
@@ -70,13 +69,22 @@ class Debugging:
         if any(each.breakpoint.group == group for each in self.verdicts):
             await self.set_breakpoints(group, None, None, ())
 
+    def named(
+        self, group: str, kind: str | None, file: str | None, wanted: Sequence[Breakpoint]
+    ) -> list[Breakpoint]:  # fmt: skip
+        """These with the ids that `set_breakpoints` would give them: a halt may come before it has answered."""
+        before = self._of(group, kind, file)
+        return [self._named(each, before) for each in wanted]
+
+    def _of(self, group: str, kind: str | None, file: str | None) -> list[Breakpoint]:
+        return [each.breakpoint for each in self.verdicts if each.breakpoint.is_of(group, kind, file)]
+
     def _named(self, wanted: Breakpoint, before: list[Breakpoint]) -> Breakpoint:
         if wanted.id:
             return wanted
         same = next((each for each in before if replace(each, id=0, author=wanted.author) == wanted), None)
         if same is not None:
             before.remove(same)
-            self._verdicts.pop(same.id, None)
             return same
         id, self._next = self._next, self._next + 1
         return replace(wanted, id=id)

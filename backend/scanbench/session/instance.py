@@ -16,6 +16,7 @@ from pathlib import Path
 from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Command
+from scanbench.runtime.forces import ForcedValue
 from scanbench.session import protocol
 from scanbench.session.codec import LENGTH, BadMessage, pack, unpack
 from scanbench.session.debug_protocol import DebugAnswer, DebugRequest
@@ -224,6 +225,8 @@ class Instance:
                 self._on_message(message)
             case TraceRead():
                 self._answer(message.ref, message)
+            case protocol.ForcesAre() if message.ref is not None:
+                self._answer(message.ref, message)
             case protocol.Ack() | protocol.Found() | protocol.Previewed() | protocol.PreviewedErrors():
                 self._answer(message.ref, message)
             case _ if isinstance(message, DebugAnswer) and message.ref is not None:
@@ -273,6 +276,12 @@ class Instance:
         answer = await self._ask(lambda ref: protocol.Preview(ref, sources))
         assert isinstance(answer, protocol.Previewed)
         return answer
+
+    async def forces(self) -> tuple[ForcedValue, ...]:
+        """The forces, and what they did in the scan that ran last."""
+        answer = await self._ask(protocol.WantForces)
+        assert isinstance(answer, protocol.ForcesAre)
+        return answer.forces
 
     async def preview_errors(self, errors: tuple[ErrorRef, ...], again: bool) -> protocol.PreviewedErrors:
         """What raising these would write."""

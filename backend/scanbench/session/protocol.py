@@ -115,6 +115,13 @@ class PreviewErrors:
 
 
 @dataclass(frozen=True, slots=True)
+class WantForces:
+    """The forces as they are now; answered with `ForcesAre`."""
+
+    ref: int
+
+
+@dataclass(frozen=True, slots=True)
 class RollBack:
     """Swaps back in what ran before the last change of the program; answered with `Ack`."""
 
@@ -259,9 +266,10 @@ class Standing:
 
 @dataclass(frozen=True, slots=True)
 class ForcesAre:
-    """The forces that hold at the scan that is shown, and what they did in the scan before."""
+    """The forces that hold at the scan that is shown, and what they did in the scan before. `ref`: of who asked."""
 
     forces: tuple[ForcedValue, ...]
+    ref: int | None = None
 
 
 @dataclass(frozen=True, slots=True)

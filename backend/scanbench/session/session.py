@@ -170,7 +170,7 @@ class Session:
 
     @property
     def forces(self) -> tuple[ForcedValue, ...]:
-        """The forces that hold, in the order in which they were made."""
+        """The forces that hold, in the order in which they were made, as they were told last."""
         return self._forces
 
     @property
@@ -240,6 +240,13 @@ class Session:
     async def begin_anew(self, author: str, sources: protocol.Sources | None = None) -> protocol.Ack:
         """A new run from scan 0, of other sources if there are any; the old run file is kept aside."""
         return self._logged(await self._refusing(self._instance.begin_anew(sources)), author)
+
+    async def forces_now(self) -> tuple[ForcedValue, ...]:
+        """The forces, and what they did in the scan that ran last; of a PLC that is not there those that were told last."""
+        try:
+            return await self._instance.forces()
+        except Unavailable:
+            return self._forces
 
     async def preview_errors(self, errors: tuple[ErrorRef, ...], again: bool) -> protocol.PreviewedErrors:
         """What raising these would write now."""

@@ -104,6 +104,8 @@ class Services:
                 header = self._resource.header
                 frame = self._plan.snapshot(self._resource.memory, header.scan, self._time_ns)
                 self._link.post(protocol.Frame(frame, self._timeline.live_scan, message.to))
+            case protocol.WantForces():
+                self._link.post(protocol.ForcesAre(forced_values(self._resource.view), message.ref))
             case protocol.PreviewErrors():
                 self._preview(message)
             case protocol.Attend():

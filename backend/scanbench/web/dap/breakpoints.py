@@ -44,7 +44,7 @@ def _line(plc: Debuggee, file: str, wanted: shapes.SourceBreakpoint) -> Breakpoi
 async def on_set_function_breakpoints(plc: Debuggee, args: shapes.SetFunctionBreakpoints) -> Body:
     """At the first statement of POUs, by name."""
     places = await _first_statements(plc)
-    before, plc.functions = plc.functions, {}
+    wanted: dict[str, list[Breakpoint]] = {}
     asked: list[tuple[str, int] | str] = []
     for each in args.breakpoints:
         found = places.get(each.name.strip().casefold())
@@ -56,25 +56,30 @@ async def on_set_function_breakpoints(plc: Debuggee, args: shapes.SetFunctionBre
             line=place.line - (not plc.client.lines_start_at1),
             condition=each.condition, hit_condition=each.hit_condition, scanbench=each.scanbench,
         )  # fmt: skip
-        of_file = plc.functions.setdefault(file, [])
+        of_file = wanted.setdefault(file, [])
         asked.append((file, len(of_file)))
         of_file.append(replace(_line(plc, file, line), column=place.column))
     verdicts: dict[str, tuple[Verdict, ...]] = {}
-    for file in before.keys() | plc.functions.keys():
-        verdicts[file] = await _set_functions(plc, file, before.get(file, []))
+    for file in wanted.keys() | plc.functions.keys():
+        verdicts[file] = await _set_functions(plc, file, wanted.get(file, []))
     return {"breakpoints": [_function(plc, each, verdicts, places) for each in asked]}
 
 
-async def _set_functions(plc: Debuggee, file: str, before: Sequence[Breakpoint]) -> tuple[Verdict, ...]:
-    """Those of a file in place of earlier ones; the file's other breakpoints stay."""
-    gone = {each.id for each in before}
-    now = plc.functions.get(file, [])
-    others = [each for each in _group(plc) if each.kind == "line" and each.file == file and each.id not in gone]
-    verdicts = await plc.session.debugging.set_breakpoints(plc.group, "line", file, [*others, *now])
-    mine = verdicts[len(others) :]
-    if now:
-        plc.functions[file] = [verdict.breakpoint for verdict in mine]
-    return mine
+async def _set_functions(plc: Debuggee, file: str, wanted: Sequence[Breakpoint]) -> tuple[Verdict, ...]:
+    """Those of a file in place of earlier ones; the file's other breakpoints stay. A halt may come before the answer, at those
+    that go as well: what is a function breakpoint is known by then."""
+    gone = plc.functions.pop(file, [])
+    ids = {each.id for each in gone}
+    others = [each for each in _group(plc) if each.kind == "line" and each.file == file and each.id not in ids]
+    debugging = plc.session.debugging
+    named = debugging.named(plc.group, "line", file, [*others, *wanted])
+    if wanted:
+        plc.functions[file] = named[len(others) :]
+    plc.leaving += gone
+    try:
+        return (await debugging.set_breakpoints(plc.group, "line", file, named))[len(others) :]
+    finally:
+        plc.leaving = [each for each in plc.leaving if each not in gone]
 
 
 def _function(

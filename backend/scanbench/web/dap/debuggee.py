@@ -35,6 +35,8 @@ class Debuggee:
     """Breakpoints that the client was told of, as it was told."""
     functions: dict[str, list[Breakpoint]] = field(default_factory=dict)
     """File -> breakpoints that were set by the name of a POU: to the PLC they are lines."""
+    leaving: list[Breakpoint] = field(default_factory=list)
+    """Those of them that are being taken away: the PLC may halt there still."""
 
     async def ask(self, kind: type[A], make: Callable[[int], DebugRequest]) -> A:
         """The PLC's answer of this kind; `Refused` says why there is none."""

@@ -102,9 +102,10 @@ class Events:
         thread = plc.threads.id(halt.task)
         mine = {each.breakpoint.id for each in plc.session.debugging.verdicts if each.breakpoint.group == plc.group}
         hit = [id for id in halt.breakpoints if id in mine]
-        functions = {each.id for file in plc.functions.values() for each in file}
+        functions = {each.id for file in (*plc.functions.values(), plc.leaving) for each in file}
+        at = hit or halt.breakpoints
         return {
-            "reason": _reason(halt, bool(hit) and functions.issuperset(hit)), "description": _description(halt),
+            "reason": _reason(halt, bool(at) and functions.issuperset(at)), "description": _description(halt),
             "text": halt.text, "threadId": thread, "allThreadsStopped": True, "hitBreakpointIds": hit,
             "scanbench": {
                 "number": halt.number, "reason": halt.reason, "by": halt.by, "scan": halt.scan, "count": halt.count,
