@@ -87,6 +87,9 @@ TABLE: dict[str, str] = {
     # W: works, but is probably not meant
     "W001": "statement without effect",
     "W002": "input or output without an address",
+    "W003": "bits copied, where other tools convert the number",
+    "W004": "bytes of a STRING that begin with its length",
+    "W005": "character number 0",
     # X: constructs that are known, and not supported
     "X001": "construct that is not supported",
     # M: model files

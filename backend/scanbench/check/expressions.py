@@ -1,18 +1,18 @@
 """Expressions -> checked expressions: names to places, operators to typed operations, conversions written out."""
 
+from dataclasses import replace
+
 from scanbench.check import fold
 from scanbench.check.operators import COMPARISONS, NUMERIC, OperatorChecker, conversion_hint
-from scanbench.check.places import INSTANCE
-from scanbench.check.program import Const, Expr, Intrinsic, Load, Place
+from scanbench.check.places import INSTANCE, character_of, harmless
+from scanbench.check.program import Assign, Const, Expr, Index, Intrinsic, Load, Place, Sequence, TrapKind
 from scanbench.check.scopes import SYSTEM, decode
 from scanbench.check.shown import shown
 from scanbench.check.types import (
     BOOL,
-    CHAR,
     LINT,
     LWORD,
     NULL,
-    WCHAR,
     Elementary,
     Enumeration,
     Kind,
@@ -185,11 +185,27 @@ class ExpressionChecker(OperatorChecker):
         """An element of an array; `text[1]` is one character of a string."""
         place, member = self.place(node.array)
         if isinstance(place.type, StringType) and len(node.indices) == 1:
-            index = fold.convert(LINT, self.index_value(node.indices[0]))
-            text = self.known(place, member) or Load(place)
-            return Intrinsic("CHAR_AT", CHAR if place.type.width == 1 else WCHAR, (text, index))
+            return self._character_at(place, place.type, node.indices[0])
         place, member = self.automatic(*self.elements(place, member, node), node)
         return self._value_at(place, member, node)
+
+    def _character_at(self, place: Place, type: StringType, node: tree.Expression) -> Expr:
+        """A character by its position: 0 beyond the current length, a trap beyond the declared one and below 1."""
+        index = self.character_index(node, type)
+        before: list[Assign] = []
+        if not harmless(index):
+            before.append(Assign(self.temporary(LINT, node.span), index, node.span))
+            index = Load(before[-1].target)
+        if not harmless(Load(place)):
+            before.append(Assign(self.temporary(type, node.span), Load(place), node.span))
+            place = before[-1].target
+        trap = self.trap(TrapKind.BOUNDS, node.span, f"the string has room for characters 1..{type.capacity}, not for this one")
+        one = Index(index, 1, type.capacity, type.width, trap)
+        kind = character_of(type)
+        here = Load(replace(place, type=kind, offset=place.offset + 2, indices=(*place.indices, one)))
+        length = Intrinsic("LEN", LINT, (Load(place),))
+        value = Intrinsic("SEL", kind, (fold.compare("le", BOOL, index, length), Const(kind, 0), here))
+        return Sequence(tuple(before), value) if before else value
 
     # ---- operators --------------------------------------------------------------------------------------
 

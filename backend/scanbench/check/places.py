@@ -6,16 +6,31 @@ from dataclasses import replace
 from scanbench.check import fold
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.embed import SubrangeChecker
-from scanbench.check.program import Base, Const, Expr, Index, Load, Place, TrapKind
+from scanbench.check.program import (
+    Base,
+    Binary,
+    Compare,
+    Const,
+    Convert,
+    Expr,
+    Index,
+    Intrinsic,
+    Load,
+    Place,
+    TrapKind,
+    Unary,
+)
 from scanbench.check.scopes import SYSTEM, decode, place_of
 from scanbench.check.shown import shown
 from scanbench.check.types import (
     BOOL,
+    CHAR,
     DINT,
     ELEMENTARY,
     LINT,
     SLOT_BYTES,
     ULINT,
+    WCHAR,
     ArrayType,
     Elementary,
     Kind,
@@ -199,10 +214,8 @@ class PlaceChecker(SubrangeChecker):
             moved = self.moved("add", Load(place), self.expr(indices[0]), node.span, of_target=True)
             return self.behind(moved, node.span, shown(node.array)), None
         while indices:
-            if isinstance(type, StringType):
-                raise self.report.reject(
-                    "T003", f"A character of a {type} can be read here, not written; use REPLACE.", node.span
-                )
+            if isinstance(type, StringType) and len(indices) == 1:
+                return self._character_place(replace(place, type=type), type, indices[0]), member
             if not isinstance(type, ArrayType | OpenArray):
                 raise self.report.reject("T010", f"{type} is not an array and has no index.", node.span)
             count = len(type.bounds) if isinstance(type, ArrayType) else type.dimensions
@@ -215,6 +228,34 @@ class PlaceChecker(SubrangeChecker):
                     place = self._open_index(place, type, dimension, index)
             type, indices = type.element, indices[count:]
         return replace(place, type=type), member
+
+    def character_index(self, node: tree.Expression, type: StringType) -> Expr:
+        """The position of a character, which counts from 1."""
+        index = fold.convert(LINT, self.index_value(node))
+        if isinstance(index, Const):
+            number = int(index.value)
+            if number == 0:
+                self.report.warn(
+                    "W005",
+                    "The first character is number 1; this traps. Tools that count from 0 mean the first character here.",
+                    node.span,
+                )
+            elif not 1 <= number <= type.capacity:
+                raise self.report.reject("T012", f"A {type} has no character {number}, only 1..{type.capacity}.", node.span)
+        return index
+
+    def _character_place(self, place: Place, type: StringType, node: tree.Expression) -> Place:
+        """A character that is there: what is beyond the current length cannot be written or referred to."""
+        index = self.character_index(node, type)
+        if not harmless(Load(place)):
+            raise self.report.reject(
+                "T003", "Only a string without calls in its own index has characters here; assign the index first.",
+                node.span,
+            )  # fmt: skip
+        trap = self.trap(TrapKind.BOUNDS, node.span, "the string has no character there: it is shorter, or the index below 1")
+        low, length = Const(LINT, 1), Intrinsic("LEN", LINT, (Load(place),))
+        one = Index(index, low, length, Const(LINT, type.width), trap)
+        return replace(place, type=character_of(type), offset=place.offset + 2, indices=(*place.indices, one))
 
     @abstractmethod
     def moved(self, op: str, pointer: Expr, by: Expr, span: Span, of_target: bool = False) -> Expr:
@@ -357,6 +398,30 @@ class PlaceChecker(SubrangeChecker):
                     raise self.report.reject(
                         "T011", f"{where} is read-only for the program on a {model.name}; it can only be read.", span
                     )
+
+
+def character_of(type: StringType) -> Elementary:
+    """The type of a character of such a string."""
+    return CHAR if type.width == 1 else WCHAR
+
+
+def harmless(expr: Expr) -> bool:
+    """Whether it only reads: it may be evaluated any number of times."""
+    match expr:
+        case Const():
+            return True
+        case Load(place):
+            inner = [part for index in place.indices for part in (index.value, index.low, index.high, index.stride)]
+            inner += [place.reference] if place.reference is not None else []
+            inner += [Load(place.slot)] if place.slot is not None else []
+            return all(isinstance(part, int) or harmless(part) for part in inner)
+        case Unary(operand=operand) | Convert(operand=operand):
+            return harmless(operand)
+        case Binary(left=left, right=right) | Compare(left=left, right=right):
+            return harmless(left) and harmless(right)
+        case Intrinsic(args=args):
+            return all(map(harmless, args))
+    return False
 
 
 def inside(place: Place, record: Record, member: Member) -> Place:

@@ -19,6 +19,7 @@ from scanbench.check.types import (
     OpenArray,
     Record,
     Reference,
+    StringType,
     Type,
     is_derived,
 )
@@ -98,6 +99,14 @@ class ReferenceChecker(PlaceChecker):
         if isinstance(expr, Const) and expr.type == ANY_INT and expr.value == 0:
             return Const(NULL, 0)
         if isinstance(expr.type, Reference) and self.fits_reference(expr.type, type):
+            source = expr.type.target
+            if isinstance(source, StringType) and type.target is not None and not isinstance(type.target, StringType):
+                self.report.warn(
+                    "W004",
+                    f"A {source} begins with its length, in two bytes; its characters follow. In other tools the first byte "
+                    "behind this pointer is the first character.",
+                    span,
+                )
             return expr
         return self.as_interface(expr, type, span)
 
