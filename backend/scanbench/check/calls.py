@@ -1,6 +1,7 @@
 """Calls -> checked calls: of functions, methods and blocks, with EN and ENO."""
 
 from collections.abc import Container
+from contextlib import nullcontext
 from dataclasses import dataclass, replace
 
 from scanbench.check import fold
@@ -202,6 +203,10 @@ class CallChecker(GenericChecker):
 
     def _enabled(self, apart: Enabling, wanted: Type | None) -> tuple[list[Stmt], Expr | None]:
         """A call with EN or ENO: what runs, and where its result is."""
+        with self.explicitly(apart.call):
+            return self._enabled_call(apart, wanted)
+
+    def _enabled_call(self, apart: Enabling, wanted: Type | None) -> tuple[list[Stmt], Expr | None]:
         node, span = apart.call, apart.call.span
         condition = self._condition_of(apart.en)
         ok = self.temporary(BOOL, span) if apart.eno is not None else None
@@ -279,7 +284,9 @@ class CallChecker(GenericChecker):
             for key, section in (("EN", Section.INPUT), ("ENO", Section.OUTPUT))
             if (member := record.members.get(key)) is not None and member.section is section and member.type == BOOL
         }
-        statements = self._block_statements(given_enable(apart, told), instance, callee, name)
+        given = given_enable(apart, told)
+        with self.explicitly(given) if apart.en is not None or apart.eno is not None else nullcontext():
+            statements = self._block_statements(given, instance, callee, name)
         if apart.eno is not None:
             ok: Expr = Load(told["ENO"]) if "ENO" in told else Const(BOOL, 1)
             statements.append(self._store_eno(ok, apart.eno))

@@ -5,6 +5,8 @@ with what it may count on. What can be proven needless is listed, but not run; `
 """
 
 from abc import abstractmethod
+from collections.abc import Iterator
+from contextlib import contextmanager
 from dataclasses import replace
 
 from scanbench.check.checker import PouChecker
@@ -23,7 +25,7 @@ from scanbench.check.program import (
     Violates,
 )
 from scanbench.check.shown import shown
-from scanbench.check.types import BOOL, Elementary, Kind, Subrange, base_of
+from scanbench.check.types import BOOL, Elementary, Kind, Member, Subrange, base_of
 from scanbench.check.untyped import bounds
 from scanbench.problems import Span
 from scanbench.syntax import tree
@@ -32,6 +34,9 @@ WHOLE = (Kind.INT, Kind.UINT, Kind.BITS)
 
 
 class SubrangeChecker(PouChecker):
+    explicit: tuple[tree.Expression, ...] = ()
+    """Arguments of calls with EN or ENO that are being checked."""
+
     def read(self, place: Place, span: Span, variable: str) -> Expr:
         """The value of a variable; that of a subrange variable is checked, and has the base type."""
         if not isinstance(place.type, Subrange):
@@ -79,19 +84,33 @@ class SubrangeChecker(PouChecker):
             eno = self.coerce(self.expr(value, BOOL), BOOL, value.span, "`ENO`")
             number = self.report.check(CheckSite(node.span, self.scope.pou, "EN_CHECK", 1, 1))
             return Violates(BOOL, eno, 1, 1, number)
-        place = self.raw_value(value)
+        place, member = self.place(value)
         if not isinstance(place.type, Subrange):
             raise self.report.reject(
                 "T002",
                 f"`SUBRANGE_ERROR` needs a variable with a subrange; `{shown(value)}` is {place.type}.",
                 node.span,
             )
-        type = place.type
-        return Violates(BOOL, Load(place), type.low, type.high, 0)
+        return Violates(BOOL, self.as_written(place, member), place.type.low, place.type.high, 0)
+
+    @contextmanager
+    def explicitly(self, node: tree.Call) -> Iterator[None]:
+        """The variables that this call takes, which has EN or ENO, are read as they were written meanwhile."""
+        before = self.explicit
+        self.explicit = (*before, *(each.value for each in node.arguments if each.value is not None and not each.output))
+        try:
+            yield
+        finally:
+            self.explicit = before
+
+    def as_written(self, place: Place, member: Member | None) -> Expr:
+        """The value of a subrange variable before any check limits it, as one of the base type."""
+        assert isinstance(place.type, Subrange)
+        return Load(replace(place, type=base_of(place.type)))
 
     @abstractmethod
-    def raw_value(self, node: tree.Expression) -> Place:
-        """The variable itself, not its checked value; see `PlaceChecker`."""
+    def place(self, node: tree.Expression) -> tuple[Place, Member | None]:
+        """The variable itself; see `PlaceChecker`."""
 
 
 def _proof(expr: Expr, type: Subrange) -> str:

@@ -3,8 +3,9 @@
 from dataclasses import replace
 
 from scanbench.check import fold
+from scanbench.check.harmless import harmless
 from scanbench.check.operators import COMPARISONS, NUMERIC, OperatorChecker, conversion_hint
-from scanbench.check.places import INSTANCE, character_of, harmless
+from scanbench.check.places import INSTANCE, character_of
 from scanbench.check.program import Assign, Const, Expr, Index, Intrinsic, Load, Place, Sequence, TrapKind
 from scanbench.check.scopes import SYSTEM, decode
 from scanbench.check.shown import shown
@@ -152,6 +153,8 @@ class ExpressionChecker(OperatorChecker):
             return known
         if not isinstance(place.type, Subrange):
             return Load(place)
+        if any(node is each for each in self.explicit):
+            return self.as_written(place, member)
         return self.read(place, node.span, shown(node))
 
     def known(self, place: Place, member: Member | None) -> Const | None:

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 from scanbench.check import conversions
 from scanbench.check.context import Rejected, did_you_mean
+from scanbench.check.expressions import FORMS
 from scanbench.check.il_flow import BROKEN, NOTHING, Current, Flow, Label
 from scanbench.check.program import Assign, Blocks, Const, If, Jump, Pou, Return, Stmt, TrapKind
 from scanbench.check.standard.functions import FUNCTIONS
@@ -372,8 +373,14 @@ class InstructionList:
         self._run(tree.ExpressionStatement(call, node.span))
 
     def _function(self, node: tree.IlInstruction) -> None:
-        """A function's name as operator: the current result is its first argument, unless the call is formal."""
+        """A function's name as operator: the current result is its first argument, unless the call is formal.
+
+        What takes a variable and not a value, as SUBRANGE_ERROR, has it as operand."""
         pou = self._called(node)
+        if node.operator in FORMS and node.operator != "EN_CHECK" and pou is None:
+            operand = () if node.operand is None else (tree.Argument(None, False, node.operand, node.operand.span),)
+            self._set(tree.Call(_callee(node), (*operand, *node.arguments), node.span), node.span, self._wanted)
+            return
         formal = any(argument.name is not None for argument in node.arguments)
         arguments = node.arguments
         if not formal and self._takes(node, pou):
@@ -408,7 +415,7 @@ class InstructionList:
         mark = self._report.mark()
         pou = checker.called(_callee(node))
         self._report.undo(mark)
-        if pou is None and not (name in FUNCTIONS or "_" in name or "." in name or conversions.parse_name(name)):
+        if pou is None and not (name in FUNCTIONS or name in FORMS or "_" in name or "." in name or conversions.parse_name(name)):
             hint = did_you_mean(
                 name, [*MNEMONICS, *(each.name for each in checker.pous.functions.values()), *FUNCTIONS]
             )

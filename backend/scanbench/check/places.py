@@ -6,20 +6,8 @@ from dataclasses import replace
 from scanbench.check import fold
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.embed import SubrangeChecker
-from scanbench.check.program import (
-    Base,
-    Binary,
-    Compare,
-    Const,
-    Convert,
-    Expr,
-    Index,
-    Intrinsic,
-    Load,
-    Place,
-    TrapKind,
-    Unary,
-)
+from scanbench.check.harmless import harmless
+from scanbench.check.program import Base, Const, Expr, Index, Intrinsic, Load, Place, TrapKind
 from scanbench.check.scopes import SYSTEM, decode, place_of
 from scanbench.check.shown import shown
 from scanbench.check.types import (
@@ -91,9 +79,6 @@ class PlaceChecker(SubrangeChecker):
                 offset, bit = self.declarations.place_of(text, type, span)
                 return Place(type, Base.IMAGE, offset, bit=bit, variable="@"), None
         raise self.report.reject("T010", "A variable is needed here.", node.span)
-
-    def raw_value(self, node: tree.Expression) -> Place:
-        return self.place(node)[0]
 
     def _width(self, text: str) -> Elementary:
         """The type of an address that stands in a statement: as wide as the model says."""
@@ -403,25 +388,6 @@ class PlaceChecker(SubrangeChecker):
 def character_of(type: StringType) -> Elementary:
     """The type of a character of such a string."""
     return CHAR if type.width == 1 else WCHAR
-
-
-def harmless(expr: Expr) -> bool:
-    """Whether it only reads: it may be evaluated any number of times."""
-    match expr:
-        case Const():
-            return True
-        case Load(place):
-            inner = [part for index in place.indices for part in (index.value, index.low, index.high, index.stride)]
-            inner += [place.reference] if place.reference is not None else []
-            inner += [Load(place.slot)] if place.slot is not None else []
-            return all(isinstance(part, int) or harmless(part) for part in inner)
-        case Unary(operand=operand) | Convert(operand=operand):
-            return harmless(operand)
-        case Binary(left=left, right=right) | Compare(left=left, right=right):
-            return harmless(left) and harmless(right)
-        case Intrinsic(args=args):
-            return all(map(harmless, args))
-    return False
 
 
 def inside(place: Place, record: Record, member: Member) -> Place:
