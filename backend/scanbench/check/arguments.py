@@ -3,7 +3,7 @@
 from dataclasses import dataclass, field, replace
 
 from scanbench.check import fold
-from scanbench.check.context import did_you_mean
+from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.program import (
     Assign,
     CallFunction,
@@ -81,8 +81,8 @@ def together(statements: list[Stmt], span: Span) -> Stmt:
 class ArgumentChecker(StandardCallChecker):
     """Binds arguments to formals, by position or by name."""
 
-    def given(self, node: tree.Call, formals: list[Member], callee: str) -> dict[str, tree.Argument]:
-        """Arguments by upper-case formal name; positional ones go to inputs and in-outs in order."""
+    def given(self, node: tree.Call, formals: list[Member], owner: Record, callee: str) -> dict[str, tree.Argument]:
+        """Arguments by upper-case formal name; positional ones go to inputs and in-outs in order. `owner` has the formals."""
         formals = [each for each in formals if not each.hidden]
         given: dict[str, tree.Argument] = {}
         named = False
@@ -92,20 +92,24 @@ class ArgumentChecker(StandardCallChecker):
                 if named:
                     raise self.report.reject("T004", "Arguments by position come before those by name.", argument.span)
                 if index >= len(positions):
+                    if owner.open or any(name == owner.name.upper() for name, _ in self.declarations.broken):
+                        raise Rejected
                     raise self.report.reject(
                         "T004", f"`{callee}` takes {_count(len(positions))}, not {len(node.arguments)}.", argument.span
                     )
                 given[positions[index].name.upper()] = argument
                 continue
             named = True
-            member = self._formal(argument, argument.name, formals, callee)
+            member = self._formal(argument, argument.name, formals, owner, callee)
             if member.name.upper() in given:
                 raise self.report.reject("T004", f"`{argument.name}` is given twice.", argument.span)
             given[member.name.upper()] = argument
         return given
 
-    def _formal(self, argument: tree.Argument, name: str, formals: list[Member], callee: str) -> Member:
+    def _formal(self, argument: tree.Argument, name: str, formals: list[Member], owner: Record, callee: str) -> Member:
         member = next((each for each in formals if each.name.upper() == name.upper()), None)
+        if member is None and (owner.open or self.is_broken(owner, name)):
+            raise Rejected
         if member is None:
             hint = did_you_mean(name, [each.name for each in formals])
             raise self.report.reject("T004", f"`{callee}` has no argument `{name}`.{hint}", argument.span)
@@ -121,7 +125,7 @@ class ArgumentChecker(StandardCallChecker):
     def invoke(self, node: tree.Call, callee: Pou, name: str, this: Place | None, eno: Place | None) -> Invocation:
         """The call of a FUNCTION or method. `eno` receives its ENO, where it has one."""
         members = [callee.frame.members[key] for key in callee.parameters]
-        given = self.given(node, members, name)
+        given = self.given(node, members, callee.frame, name)
         bound = Bindings()
         for member in members:
             if not member.hidden:
@@ -139,10 +143,12 @@ class ArgumentChecker(StandardCallChecker):
 
     def as_value(self, made: Invocation, span: Span) -> Expr:
         """The call as an expression."""
-        if not made.before and not made.after:
-            return made.call
+        if made.call.type is None and made.call.pou.frame.open:
+            raise Rejected  # the type of its result was refused
         if made.call.type is None:
             raise self.report.reject("T010", f"`{made.call.pou.name}` has no result; call it as a statement.", span)
+        if not made.before and not made.after:
+            return made.call
         if not made.after:
             return Sequence(tuple(made.before), made.call)
         result = self.temporary(made.call.type, span)

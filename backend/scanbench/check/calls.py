@@ -166,7 +166,7 @@ class CallChecker(GenericChecker):
         if self._hides(name):
             self._no_value(node.callee)
         declared = self.declarations.block_trees.get(key)
-        if declared is not None and declared.kind == "program":
+        if declared is not None and declared.kind == "program" and not in_library(node.span):  # which means its own
             raise self.report.reject(
                 "X001",
                 f"`{name}` is a PROGRAM, which a task runs and nobody calls. Make it a FUNCTION_BLOCK, and declare an "
@@ -181,7 +181,7 @@ class CallChecker(GenericChecker):
         if self.declarations.find_type(name, node.span) in self.declarations.block_trees:
             hint = f" `{name}` is a FUNCTION_BLOCK: declare an instance in VAR and call that."
         untyped = {(self.scope.pou.upper(), key), ("GLOBAL", key)} & self.declarations.broken
-        if key in self.pous.broken or untyped:
+        if key in self.pous.broken or untyped or (self.scope.instance is not None and self.scope.instance.open):
             raise Rejected
         if self.scope.find(name) is not None:
             raise self.report.reject("T010", f"`{name}` is a variable; it cannot be called.", node.span)
@@ -308,6 +308,8 @@ class CallChecker(GenericChecker):
             raise self.report.reject("T003", f"`{member.name}` is CONSTANT, so it cannot run.", node.span)
         owner = receiver.owner
         callee = self._body_of(receiver, owner)
+        if callee is None and owner.open:
+            raise Rejected  # it may be of a kind that has one
         if callee is None:
             raise self.report.reject(
                 "T010", f"`{owner.name}` has no body that could be called; call one of its methods.", node.span
@@ -331,7 +333,7 @@ class CallChecker(GenericChecker):
     def _block_statements(self, node: tree.Call, instance: Place, callee: Pou, name: str) -> list[Stmt]:
         record = callee.instance
         formals = list(record.members.values())
-        given = self.given(node, [each for each in formals if each.section is not Section.VAR], name)
+        given = self.given(node, [each for each in formals if each.section is not Section.VAR], record, name)
         before: list[Stmt] = []
         in_outs, bound = [], {}
         for each in formals:

@@ -58,7 +58,7 @@ def _check_method(method: Method, report: Report) -> None:
             report.error("X001", f"VAR_INST is not supported; declare the variable in `{owner.name}`.", section.span)
     above = next((found for each in owner.ancestors() if (found := each.methods.get(method.key))), None)
     if above is None:
-        if "OVERRIDE" in modifiers:
+        if "OVERRIDE" in modifiers and not owner.open:
             known = [each.declaration.name for parent in owner.ancestors() for each in parent.methods.values()]
             hint = did_you_mean(declaration.name, known)
             report.error("D014", f"`{method.name}` has nothing to OVERRIDE.{hint}", declaration.span)
@@ -85,7 +85,7 @@ def _check_complete(owner: Class, report: Report) -> None:
                 missing.setdefault(key, method)
             elif found is not None and found.owner is not owner and parent.kind == "interface":
                 _check_signature(found, method, report, owner.declaration.span)
-    if missing:
+    if missing and not owner.open:
         names = ", ".join(f"`{_half(each)}{each.name}`" for each in missing.values())
         report.error("D014", f"`{owner.name}` has no body for {names}; write it, or declare `{owner.name}` ABSTRACT.",
                      owner.declaration.span)  # fmt: skip

@@ -51,6 +51,8 @@ class Class:
     """Those that extend or implement it directly."""
     methods: dict[str, Method] = field(default_factory=dict)
     """Its own, by key."""
+    refused: bool = False
+    """Something that it extends or implements was refused."""
 
     @property
     def kind(self) -> str:
@@ -64,6 +66,11 @@ class Class:
     def polymorphic(self) -> bool:
         """Whether a reference to it may refer to an instance of something else."""
         return self.kind == "interface" or bool(self.base or self.heirs or self.interfaces)
+
+    @property
+    def open(self) -> bool:
+        """As `Record.open`."""
+        return self.refused or any(each.refused for each in self.ancestors())
 
     def ancestors(self) -> Iterator["Class"]:
         """What it extends and implements, the nearest first; not itself."""
@@ -155,6 +162,7 @@ def _link(owner: Class, classes: Classes, declarations: Declarations) -> None:
         try:
             parent = _parent(name, keyword, owner, classes, declarations)
         except Rejected:
+            owner.refused = True
             continue
         if parent.kind == "interface":
             owner.interfaces.append(parent)
@@ -210,7 +218,7 @@ def _cut_circle(owner: Class, declarations: Declarations) -> None:
             for parent in (owner.base, *owner.interfaces):
                 if parent is not None:
                     parent.heirs.remove(owner)
-            owner.base, owner.interfaces = None, []
+            owner.base, owner.interfaces, owner.refused = None, [], True
             return
         if each not in seen:
             seen.add(each)
@@ -226,7 +234,7 @@ class _Inherit:
 
     def __call__(self, record: Record, declaration: tree.PouDeclaration) -> None:
         owner = self.classes.by_key[record.name.upper()]
-        owner.record = record
+        owner.record, record.open = record, owner.open
         if not owner.polymorphic:
             return
         record.interfaces = tuple(each for parent in owner.interfaces if (each := self._record(parent)) is not None)

@@ -248,6 +248,8 @@ class Declarations:
         made = ArrayType(tuple(bounds), self._element(spec.element))
         if made.size > MAX_BYTES:
             raise self.report.reject("D012", f"This array takes {made.size} bytes; at most {MAX_BYTES}.", spec.span)
+        if made.count > MAX_BYTES:  # of what takes no room
+            raise self.report.reject("D012", f"This array has {made.count} elements; at most {MAX_BYTES}.", spec.span)
         return made
 
     def _block_type(self, declaration: tree.PouDeclaration) -> Type:
@@ -357,7 +359,8 @@ class Declarations:
                 result.initial = self._default(declaration.result, result.type)
                 record.place(result)
             except Rejected:
-                pass
+                record.open = True
+                self.broken.add((record.name.upper(), declaration.name.upper()))
         record.close()
         return record
 

@@ -3,6 +3,7 @@
 from dataclasses import replace
 
 from scanbench.check import fold
+from scanbench.check.context import Rejected
 from scanbench.check.harmless import harmless
 from scanbench.check.operators import COMPARISONS, NUMERIC, OperatorChecker, conversion_hint
 from scanbench.check.places import INSTANCE, character_of
@@ -70,6 +71,8 @@ class ExpressionChecker(OperatorChecker):
                 return expr
             assert isinstance(type, Elementary)
             return fold.convert(type, expr)
+        if isinstance(source, Reference) and isinstance(source.target, Record) and source.target.open:
+            raise Rejected  # who knows what it is derived from
         said = "nothing" if source is None else str(settle(expr).type)
         raise self.report.reject("T002", f"{what} is {type}, but this is {said}.{_hint(source, type)}", span)
 
@@ -163,6 +166,8 @@ class ExpressionChecker(OperatorChecker):
             return None
         if member.section is Section.IN_OUT or member.home == SYSTEM.name or place.type is not member.type:
             return None
+        if not member.initial and isinstance(place.type, Elementary | StringType):
+            raise Rejected  # its value was refused where it is declared, so nobody knows it
         return decode(place.type, member.initial)
 
     def _part_value(self, node: tree.PartialAccess) -> Expr:

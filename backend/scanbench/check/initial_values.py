@@ -4,7 +4,7 @@ import math
 import struct
 from typing import TYPE_CHECKING
 
-from scanbench.check.context import did_you_mean
+from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.fold import round_real
 from scanbench.check.program import Const
 from scanbench.check.types import ArrayType, Elementary, Kind, Record, Section, StringType, Type, initial_of
@@ -33,7 +33,7 @@ def _array(declared: "Declarations", value: tree.ArrayInit, type: Type) -> bytes
     element = type.element
     if len(type.bounds) > 1 and any(isinstance(item, tree.ArrayInit) for _, item in value.items):
         element = ArrayType(type.bounds[1:], type.element)
-    total, given = type.size // element.size, 0
+    total, given = type.count if element is type.element else type.bounds[0][1] - type.bounds[0][0] + 1, 0
     image = bytearray()
     for count_tree, item in value.items:
         count = 1 if count_tree is None else declared.constant_of(count_tree, None).value
@@ -55,6 +55,8 @@ def _record(declared: "Declarations", value: tree.StructInit, type: Type) -> byt
     for name, item, span in value.members:
         member = type.members.get(name.upper())
         if member is None or member.section in (Section.IN_OUT, Section.OUTPUT) or member.located:
+            if type.open or (type.name.upper(), name.upper()) in declared.broken:
+                raise Rejected
             hint = did_you_mean(name, [each.name for each in type.members.values()])
             raise declared.report.reject("D004", f"`{type.name}` has no `{name}` to initialise.{hint}", span)
         data = initial_image(declared, item, member.type)

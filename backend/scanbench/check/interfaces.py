@@ -1,6 +1,7 @@
 """Variables of an interface: what may be assigned to them, and the assignment attempt."""
 
 from scanbench.check.arguments import together
+from scanbench.check.context import Rejected
 from scanbench.check.dispatch import type_number
 from scanbench.check.methods import MethodChecker
 from scanbench.check.program import Assign, Base, Case, Compare, Const, Expr, If, Load, Place, RefOf, Stmt, TrapKind
@@ -17,6 +18,8 @@ class InterfaceChecker(MethodChecker):
         place, target = expr.place, type.target
         assert isinstance(target, Record)
         if not is_derived(expr.place.type, target):
+            if expr.place.type.open:
+                raise Rejected
             raise self.report.reject(
                 "T002", f"`{expr.place.type.name}` does not implement the interface `{target.name}`.", span
             )

@@ -50,6 +50,8 @@ class MethodChecker(ObjectChecker):
             record = receiver.owner.record
             if half or (record is not None and node.name.upper() in record.members):
                 return None
+            if record is not None and (record.open or self.is_broken(record, node.name)):
+                raise Rejected
             known = [each.declaration.name for parent in (receiver.owner, *receiver.owner.ancestors())
                      for each in parent.methods.values()]  # fmt: skip
             raise self.report.reject(

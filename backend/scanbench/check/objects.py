@@ -4,7 +4,7 @@ from dataclasses import replace
 
 from scanbench.check.arguments import ArgumentChecker
 from scanbench.check.classes import Class
-from scanbench.check.context import Rejected, did_you_mean
+from scanbench.check.context import Rejected
 from scanbench.check.program import Base, Place, TrapKind, TrapSite
 from scanbench.check.types import Member, Record, Section
 from scanbench.problems import Span
@@ -39,6 +39,8 @@ class ObjectChecker(ArgumentChecker):
             raise self.report.reject("T010", f"{name} is the instance that runs; a FUNCTION has none.", span)
         record = owner.record
         if name.upper() == "SUPER":
+            if record.open and owner.base is None:
+                raise Rejected
             if owner.base is None or owner.base.record is None:
                 raise self.report.reject("T010", f"`{owner.name}` extends nothing, so it has no SUPER.", span)
             record = owner.base.record
@@ -89,8 +91,7 @@ class ObjectChecker(ArgumentChecker):
         assert isinstance(record, Record)
         member = record.members.get(node.name.upper())
         if member is None or member.hidden:
-            hint = did_you_mean(node.name, [each.name for each in record.members.values() if not each.hidden])
-            raise self.report.reject("T001", f"`{record.name}` has no member `{node.name}`.{hint}", node.span)
+            raise self.no_member(record, node)
         scope, self.scope = self.scope, replace(self.scope, frame=None, instance=record, externals={})
         try:
             return self._named(node.name, node.span)
@@ -117,7 +118,10 @@ class ObjectChecker(ArgumentChecker):
 
     def unknown(self, name: str, span: Span) -> Rejected:
         instance = self.scope.instance
-        if instance is not None and (instance.name.upper(), name.upper()) in self.declarations.broken:
+        result = (self.scope.pou.upper(), name.upper())
+        if result in self.declarations.broken:
+            return Rejected()
+        if instance is not None and (instance.open or self.is_broken(instance, name)):
             return Rejected()
         owner = self.own_class()
         if owner is not None and owner.find(name.upper()) is not None:

@@ -142,8 +142,7 @@ class PlaceChecker(SubrangeChecker):
             raise self.report.reject("T010", f"{record} has no members.{hint}", node.span)
         member = record.members.get(node.name.upper())
         if member is None or member.hidden:
-            hint = did_you_mean(node.name, [each.name for each in record.members.values() if not each.hidden])
-            raise self.report.reject("T001", f"`{record.name}` has no member `{node.name}`.{hint}", node.span)
+            raise self.no_member(record, node)
         self._may_use(record, member, node.span)
         inner = self.inside(place, record, member, node.span)
         if inner.slot is not place.slot or inner.reference is not place.reference:
@@ -152,6 +151,22 @@ class PlaceChecker(SubrangeChecker):
             )
         keep = outer is not None and (outer.constant or record.kind is not Kind.BLOCK)
         return inner, outer if keep else member
+
+    def no_member(self, record: Record, node: tree.MemberOf) -> Rejected:
+        """Reports a member that is not there, unless its declaration was reported."""
+        if record.open or self.is_broken(record, node.name):
+            return Rejected()
+        hint = did_you_mean(node.name, [each.name for each in record.members.values() if not each.hidden])
+        return self.report.reject("T001", f"`{record.name}` has no member `{node.name}`.{hint}", node.span)
+
+    def is_broken(self, record: Record, name: str) -> bool:
+        """Whether it, or what it extends, declares this, and was refused there."""
+        known: Record | None = record
+        while known is not None:
+            if (known.name.upper(), name.upper()) in self.declarations.broken:
+                return True
+            known = known.base
+        return False
 
     def inside(self, place: Place, record: Record, member: Member, span: Span) -> Place:
         """The place of a member of what lives at `place`."""

@@ -276,6 +276,8 @@ class Record:
     """What a block or class extends."""
     interfaces: tuple["Record", ...] = ()
     """What it implements; of an interface, those that it extends."""
+    open: bool = False
+    """What it extends was refused, so nobody knows all that it has: what it seems to lack is no mistake of its own."""
 
     def inherit(self, base: "Record") -> None:
         """Begins with the members of `base`, at the same offsets."""

@@ -68,7 +68,7 @@ USES = [
     ("T010", 2, "`own` is internal of G", "", "x := g.own;"),
     ("T010", 2, "can only be read", "", "g.ro := 3;"),
     ("T010", 2, "can only be assigned", "", "x := g.wo;"),
-    ("T002", 2, "this is nothing", "", "x := g.plain(x);"),
+    ("T010", 2, "`G.plain` has no result; call it as a statement.", "", "x := g.plain(x);"),
     ("T005", 2, "must be connected", "", "g.plain();"),
     ("T010", 2, "extends nothing", "", "SUPER.m();"),
     ("T001", 2, "There is no function `K.m`", "", "x := K.m();"),
