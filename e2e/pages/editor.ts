@@ -1,4 +1,5 @@
 import { expect, type Locator, type Page } from '@playwright/test';
+import type { Server } from '../fixtures/server';
 
 /** The text of one file, with its save and build. */
 export class Editor {
@@ -107,6 +108,18 @@ export class Editor {
 
   async save(): Promise<void> {
     await this.saveButton.click();
+  }
+
+  /** The list of completions, while it is open. */
+  get suggestions(): Locator {
+    return this.page.locator('.suggest-widget.visible');
+  }
+
+  /** Saves, and says what the server has now. */
+  async stored(server: Server): Promise<string> {
+    await this.save();
+    await expect(this.saveButton).toBeDisabled();
+    return (await server.get<{ text: string }>(`/projects/1/files/${this.file}`)).text;
   }
 
   async build(): Promise<void> {

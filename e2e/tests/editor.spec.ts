@@ -72,3 +72,71 @@ test('a syntax error is shown while typing, refuses the build, and does not stop
     expect(await mika.top.scan()).toBeGreaterThan(before);
   });
 });
+
+const TYPED = `FUNCTION_BLOCK Fill (* a tank *)
+VAR_IN_OUT
+  tank : ARRAY[0..3] OF INT;
+END_VAR
+VAR
+  t : TON; // a 'timer'
+END_VAR
+
+IF tank[0] > 3 THEN
+  t(IN := TRUE,
+    PT := T#5s);
+ELSE
+  tank[1] := t.E;
+END_IF;
+END_FUNCTION_BLOCK
+`;
+
+test('what is typed is the text, at any pace, Enter after a keyword included', async ({ openAs, server }) => {
+  const mika = await openAs('Mika');
+  await mika.runs();
+  const late: (() => void)[] = [];
+  const answer = () => {
+    for (const go of late.splice(0)) go();
+  };
+  await mika.page.route(/\/api\/instances\/\d+\/(symbols|instances-of)/, async (route) => {
+    await new Promise<void>((answered) => late.push(answered));
+    await route.continue();
+  });
+  const main = mika.editor('Main.st');
+  for (const delay of [25, 110]) {
+    await test.step(`${delay} ms a key`, async () => {
+      const typed = TYPED.replace('Fill', `Fill${delay}`);
+      await main.replaceWith('');
+      for (const line of typed.trimEnd().split('\n')) {
+        await mika.page.keyboard.type(line, { delay });
+        // The list of what was typed before comes while Enter is pressed.
+        answer();
+        await mika.page.keyboard.press('Enter', { delay });
+      }
+      answer();
+      expect(await main.stored(server)).toBe(typed);
+    });
+  }
+});
+
+test('a completion is taken when it is chosen, with an arrow and Enter or with Tab', async ({ openAs, server }) => {
+  const mika = await openAs('Mika');
+  await mika.runs();
+  const main = mika.editor('Main.st');
+  const { keyboard } = mika.page;
+  await main.caretAfter('uptime := TIME();');
+  await keyboard.press('Enter');
+  await keyboard.press('Tab');
+  await main.type('heartb');
+  await expect(main.suggestions).toContainText('heartbeat');
+  await keyboard.press('Tab');
+  await main.type(' := NOT beat.');
+  await expect(main.suggestions).toContainText('Q');
+  await keyboard.press('ArrowDown');
+  await keyboard.press('Enter');
+  await main.type(';');
+  await keyboard.press('Enter');
+  await main.type('upt');
+  await expect(main.suggestions).toContainText('uptime');
+  await keyboard.press('Enter');
+  expect(await main.stored(server)).toContain('TIME();\n  heartbeat := NOT beat.ET;\nupt\n');
+});

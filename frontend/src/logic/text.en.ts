@@ -51,6 +51,8 @@ export const english = {
   "diagnostics.times": "Times",
   "diagnostics.what": "What happened",
   "diagnostics.where": "Place",
+  "editor.firstsuggestion": "Take the first suggestion",
+  "editor.indent": "Indent the line as its block",
   "editor.loading": "Loading the editor",
   "editor.of": "Editor, {path}",
   "editor.refused": "{path} cannot be shown: {message}",

@@ -51,6 +51,8 @@ export const japanese: Record<TextKey, string> = {
   "diagnostics.times": "回数",
   "diagnostics.what": "内容",
   "diagnostics.where": "場所",
+  "editor.firstsuggestion": "最初の候補を挿入",
+  "editor.indent": "ブロックに合わせて字下げ",
   "editor.loading": "エディタを読み込み中",
   "editor.of": "エディタ {path}",
   "editor.refused": "{path} を表示できません: {message}",

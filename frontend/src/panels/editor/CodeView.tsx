@@ -21,6 +21,7 @@ import { showInlineValues } from "./inlineValues";
 import { modelOf } from "./models";
 import { editor, KeyCode, KeyMod, monospaceFont, options } from "./monaco";
 import { markReaction } from "./reaction";
+import { addTabActions } from "./tab";
 import { markTrap } from "./trap";
 import { addVerifyAction } from "./verifyAction";
 import { addWatchAction, dragToWatch } from "./watchAction";
@@ -44,6 +45,7 @@ export default function CodeView({ path }: { path: string }) {
     });
     view.current = code;
     addActions(code, path);
+    addTabActions(code);
     addWatchAction(code, path);
     addWriterAction(code, path);
     const noDrag = dragToWatch(code, host.current, path);

@@ -96,6 +96,12 @@ export const options: editor.IStandaloneEditorConstructionOptions = {
   wordBasedSuggestions: "off",
   quickSuggestions: { other: true, comments: false, strings: false },
   acceptSuggestionOnCommitCharacter: false,
+  // What is typed is what the text says: nothing is completed, closed or indented before somebody asks for it (`tab.ts`).
+  suggest: { selectionMode: "never" },
+  autoClosingBrackets: "never",
+  autoClosingQuotes: "never",
+  autoClosingComments: "never",
+  autoIndent: "none",
   minimap: { enabled: false },
   stickyScroll: { enabled: false },
   fontSize: 12.5,

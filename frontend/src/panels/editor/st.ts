@@ -77,7 +77,8 @@ export const tokenizer: languages.IMonarchLanguage = {
   },
 };
 
-const opens =
+/** A line after which the text is one level deeper. */
+export const opens =
   /^\s*(IF|CASE|FOR|WHILE|REPEAT|PROGRAM|FUNCTION(_BLOCK)?|CLASS|INTERFACE|METHOD|PROPERTY|NAMESPACE|TYPE|VAR(_\w+)?|CONFIGURATION|RESOURCE)\b(?!.*\bEND_\w+)|:\s*STRUCT\s*$|^\s*(ELSE|ELSIF)\b/i;
 const closes = /^\s*(END_\w+|ELSE|ELSIF|UNTIL)\b/i;
 
@@ -86,12 +87,6 @@ export const configuration: languages.LanguageConfiguration = {
   brackets: [
     ["(", ")"],
     ["[", "]"],
-  ],
-  autoClosingPairs: [
-    { open: "(", close: ")" },
-    { open: "[", close: "]" },
-    { open: "'", close: "'", notIn: ["string", "comment"] },
-    { open: "(*", close: " *)", notIn: ["string"] },
   ],
   surroundingPairs: [
     { open: "(", close: ")" },
