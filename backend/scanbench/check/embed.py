@@ -97,7 +97,10 @@ class SubrangeChecker(PouChecker):
     def explicitly(self, node: tree.Call) -> Iterator[None]:
         """The variables that this call takes, which has EN or ENO, are read as they were written meanwhile."""
         before = self.explicit
-        self.explicit = (*before, *(each.value for each in node.arguments if each.value is not None and not each.output))
+        self.explicit = (
+            *before,
+            *(each.value for each in node.arguments if each.value is not None and not each.output),
+        )
         try:
             yield
         finally:

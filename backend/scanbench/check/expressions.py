@@ -207,7 +207,9 @@ class ExpressionChecker(OperatorChecker):
         if not harmless(Load(place)):
             before.append(Assign(self.temporary(type, node.span), Load(place), node.span))
             place = before[-1].target
-        trap = self.trap(TrapKind.BOUNDS, node.span, f"the string has room for characters 1..{type.capacity}, not for this one")
+        trap = self.trap(
+            TrapKind.BOUNDS, node.span, f"the string has room for characters 1..{type.capacity}, not for this one"
+        )
         one = Index(index, 1, type.capacity, type.width, trap)
         kind = character_of(type)
         here = Load(replace(place, type=kind, offset=place.offset + 2, indices=(*place.indices, one)))

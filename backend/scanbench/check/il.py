@@ -415,7 +415,9 @@ class InstructionList:
         mark = self._report.mark()
         pou = checker.called(_callee(node))
         self._report.undo(mark)
-        if pou is None and not (name in FUNCTIONS or name in FORMS or "_" in name or "." in name or conversions.parse_name(name)):
+        if pou is None and not (
+            name in FUNCTIONS or name in FORMS or "_" in name or "." in name or conversions.parse_name(name)
+        ):
             hint = did_you_mean(
                 name, [*MNEMONICS, *(each.name for each in checker.pous.functions.values()), *FUNCTIONS]
             )

@@ -241,7 +241,9 @@ class PlaceChecker(SubrangeChecker):
                     node.span,
                 )
             elif not 1 <= number <= type.capacity:
-                raise self.report.reject("T012", f"A {type} has no character {number}, only 1..{type.capacity}.", node.span)
+                raise self.report.reject(
+                    "T012", f"A {type} has no character {number}, only 1..{type.capacity}.", node.span
+                )
         return index
 
     def _character_place(self, place: Place, type: StringType, node: tree.Expression) -> Place:
@@ -252,7 +254,9 @@ class PlaceChecker(SubrangeChecker):
                 "T003", "Only a string without calls in its own index has characters here; assign the index first.",
                 node.span,
             )  # fmt: skip
-        trap = self.trap(TrapKind.BOUNDS, node.span, "the string has no character there: it is shorter, or the index below 1")
+        trap = self.trap(
+            TrapKind.BOUNDS, node.span, "the string has no character there: it is shorter, or the index below 1"
+        )
         low, length = Const(LINT, 1), Intrinsic("LEN", LINT, (Load(place),))
         one = Index(index, low, length, Const(LINT, type.width), trap)
         return replace(place, type=character_of(type), offset=place.offset + 2, indices=(*place.indices, one))

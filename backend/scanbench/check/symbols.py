@@ -453,7 +453,9 @@ def instance_at(program: Program, offset: int, pou: str) -> str:
     """The path of the instance of this POU (or of a block derived from it) that begins at a byte of the image.
 
     `pou` may be a method, too: `Tank.Fill`, `Tank.Level.get`."""
-    blocks = [each for each in starting_at(program, offset) if isinstance(each.type, Record) and each.type.kind is Kind.BLOCK]
+    blocks = [
+        each for each in starting_at(program, offset) if isinstance(each.type, Record) and each.type.kind is Kind.BLOCK
+    ]
     name = pou.upper()
     while name:
         for each in blocks:

@@ -36,6 +36,7 @@ from scanbench.web import (
 )
 from scanbench.web.auth import Gate, Guard
 from scanbench.web.built_files import BuiltFiles
+from scanbench.web.headers import SafeHeaders
 from scanbench.web.pages import frontend_directory, not_built_page
 
 _STATUS: dict[type[Exception], int] = {
@@ -57,6 +58,7 @@ def create_app(config: Config) -> FastAPI:
     @asynccontextmanager
     async def lifespan(app: FastAPI) -> AsyncIterator[None]:
         app.state.bench = config.bench
+        app.state.public_url = "" if config.gate.public is None else config.gate.public.origin
         try:
             await config.bench.start()
             yield
@@ -66,6 +68,7 @@ def create_app(config: Config) -> FastAPI:
     app = bare_app()
     app.router.lifespan_context = lifespan
     app.add_middleware(Guard, gate=config.gate)
+    app.add_middleware(SafeHeaders)  # around the guard, too
     return app
 
 

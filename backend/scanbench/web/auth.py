@@ -1,8 +1,8 @@
 """Who may speak to this server: token, Host and Origin, checked before any route is reached.
 
 The token is in the address printed at the start; opening it sets a cookie. Whoever comes without it gets a page with
-a field for it. Host must be an address or a name of this machine, so that no foreign name can be pointed here (DNS
-rebinding); Origin must be the page this server gave out.
+a field for it. Host must be an address or a name of this machine, or that of the public address that was given, so that
+no foreign name can be pointed here (DNS rebinding); Origin must be the page this server gave out.
 """
 
 import hmac
@@ -21,6 +21,7 @@ from starlette.websockets import WebSocketClose
 
 from scanbench.session.events import User
 from scanbench.web.pages import sign_in_page
+from scanbench.web.public_url import PublicUrl
 
 USER = "scanbench_user"
 _SAFE = {"GET", "HEAD", "OPTIONS"}
@@ -39,6 +40,8 @@ class Gate:
     hosts: frozenset[str]
     next_guest: Callable[[], str]
     """A name for somebody who gave none; never the same twice."""
+    public: PublicUrl | None = None
+    """Where people reach the server, when that is another address than its own."""
 
     @property
     def cookie(self) -> str:
@@ -91,28 +94,38 @@ class Guard:
         """Why this comes from a page that is not ours, or None."""
         headers = Headers(scope=scope)
         host = headers.get("host", "")
-        if not self._is_ours(host):
-            return f"Host {host!r} is not a name of this server: use localhost, its address, or --host"
+        if not self._is_ours(host, scope):
+            return (
+                f"Host {host!r} is not an address of this server: use the address that was printed when it started, or start "
+                "the server with --public-url and the address that people open (SCANBENCH_PUBLIC_URL)"
+            )
         origin = headers.get("origin")
         must_match = scope["type"] == "websocket" or scope["method"] not in _SAFE
-        if origin is not None and must_match and urlsplit(origin).netloc.lower() != host.lower():
+        if origin is not None and must_match and not self._is_our_page(origin, host):
             return f"Origin {origin!r} is another page than this server's"
         if must_match and headers.get("sec-fetch-site", "same-origin") not in ("same-origin", "none"):
             return "the request comes from another site"
         return None
 
-    def _is_ours(self, host: str) -> bool:
+    def _is_our_page(self, origin: str, host: str) -> bool:
+        if (
+            self._gate.public is not None and origin.lower() == self._gate.public.origin
+        ):  # a proxy may pass on a Host of its own
+            return True
+        return urlsplit(origin).netloc.lower() == host.lower()
+
+    def _is_ours(self, host: str, scope: Scope) -> bool:
         try:
             name = urlsplit(f"//{host}").hostname or ""
         except ValueError:
             return False
-        if name in self._gate.hosts:
+        if name in self._gate.hosts or (self._gate.public is not None and name == self._gate.public.host):
             return True
-        try:
-            ipaddress.ip_address(name)
-        except ValueError:
+        address = _address(name)
+        if address is None:
             return False
-        return True
+        own = scope.get("server")
+        return not address.is_global or (own is not None and address == _address(own[0]))
 
     def _knows_token(self, connection: HTTPConnection) -> bool:
         kind, _, bearer = connection.headers.get("authorization", "").partition(" ")
@@ -146,6 +159,15 @@ class Guard:
             name = user_of(connection).name if USER in query else self._gate.next_guest()
             response.set_cookie(USER, quote(name), samesite="lax", path="/", max_age=_REMEMBERED)
         return response
+
+
+def _address(text: str) -> ipaddress.IPv4Address | ipaddress.IPv6Address | None:
+    try:
+        address = ipaddress.ip_address(text)
+    except ValueError:
+        return None
+    mapped = address.ipv4_mapped if isinstance(address, ipaddress.IPv6Address) else None
+    return address if mapped is None else mapped
 
 
 def is_page(path: str) -> bool:

@@ -378,6 +378,9 @@ class User(Wire):
 
 class AppInfo(Wire):
     version: str
+    public_url: str = Field(
+        description="what links that are passed on begin with; empty: the address of the page itself"
+    )
     you: User
     projects: list[Project]
     instances: list[Instance]

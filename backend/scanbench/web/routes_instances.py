@@ -29,6 +29,7 @@ async def on_app(bench: Bench, request: Request) -> wire.AppInfo:
     projects = {row.id: row for row in await bench.projects.all()}
     return wire.AppInfo(
         version=__version__,
+        public_url=request.app.state.public_url,
         you=translate.user(user_of(request)),
         projects=[translate.project(row) for row in projects.values()],
         instances=[translate.instance(session, projects[session.project_id]) for session in bench.sessions],

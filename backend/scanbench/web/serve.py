@@ -17,6 +17,7 @@ from scanbench.web.auth import Gate, known_hosts
 from scanbench.web.claim import InUse, claimed
 from scanbench.web.kept_guests import kept_guests
 from scanbench.web.kept_token import kept_token
+from scanbench.web.public_url import PublicUrl
 
 DEFAULT_PORT = 8700
 
@@ -26,15 +27,19 @@ class CannotServe(Exception):
 
 
 def serve(
-    host: str, port: int | None, data_dir: Path, announce: Callable[[str], None], token: str | None = None
-) -> None:
-    """Serves until it is told to stop. `port` None: 8700, or a free one if that is taken; 0: any free one."""
+    host: str, port: int | None, data_dir: Path, announce: Callable[[str], None], token: str | None = None,
+    public: PublicUrl | None = None,
+) -> None:  # fmt: skip
+    """Serves until it is told to stop. `port` None: 8700, or a free one if that is taken; 0: any free one.
+
+    `public` is the address that people open, where it is not the one that the server listens on.
+    """
     with _bind(host, port, announce) as sock:
         try:
             data_dir.mkdir(parents=True, exist_ok=True)
             with claimed(data_dir), closing(Store(database_url(data_dir))) as store:
                 port = sock.getsockname()[1]
-                gate = Gate(token or kept_token(data_dir), port, known_hosts([host]), kept_guests(data_dir))
+                gate = Gate(token or kept_token(data_dir), port, known_hosts([host]), kept_guests(data_dir), public)
                 _run(sock, host, Workbench(store, data_dir), gate, announce)
         except (InUse, StoreError, NoModels) as error:
             raise CannotServe(str(error)) from error
@@ -42,7 +47,6 @@ def serve(
 
 def _run(sock: socket.socket, host: str, bench: Workbench, gate: Gate, announce: Callable[[str], None]) -> None:
     port = gate.port
-    shown = "localhost" if host in ("0.0.0.0", "::") else f"[{host}]" if ":" in host else host
     config = uvicorn.Config(
         create_app(Config(bench, gate)),
         host=host,
@@ -56,10 +60,18 @@ def _run(sock: socket.socket, host: str, bench: Workbench, gate: Gate, announce:
         server_header=False,
         timeout_graceful_shutdown=3,
     )
-    server = _Server(config, lambda: announce(f"Scanbench is ready: http://{shown}:{port}/?token={gate.token}"))
+    server = _Server(config, lambda: announce(f"Scanbench is ready: {shown_address(host, gate)}/?token={gate.token}"))
     # uvicorn ends everything in order at Ctrl-C, and then raises it again.
     with suppress(KeyboardInterrupt):
         server.run([sock])
+
+
+def shown_address(host: str, gate: Gate) -> str:
+    """What people open."""
+    if gate.public is not None:
+        return gate.public.origin
+    shown = "localhost" if host in ("0.0.0.0", "::") else f"[{host}]" if ":" in host else host
+    return f"http://{shown}:{gate.port}"
 
 
 class _Server(uvicorn.Server):

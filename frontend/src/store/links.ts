@@ -64,12 +64,15 @@ export const putAwayLinkTrouble = () => set({ trouble: null });
 /** The absolute address of a scan of the instance that is looked at; empty without one. */
 export function scanLink(scan: number | null, panel: string | null = null): string {
   const instance = useBench.getState().instance?.id;
-  return instance === undefined ? "" : location.origin + linkPath({ instance, scan, panel });
+  return instance === undefined ? "" : linkOrigin() + linkPath({ instance, scan, panel });
 }
+
+/** What links that are passed on begin with: the public address of the server, else that of this page. */
+export const linkOrigin = () => useBench.getState().app?.public_url || location.origin;
 
 /** What a button that copies a link says before and after: for whom the link works. */
 export function linkWords(): { title: string; done: string } {
-  const host = location.hostname;
+  const host = new URL(linkOrigin()).hostname;
   return isOwnComputer(host)
     ? { title: t("link.copy.hint.here", { host }), done: t("link.copied.here") }
     : { title: t("link.copy.hint"), done: t("link.copied") };

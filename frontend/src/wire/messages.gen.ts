@@ -2135,6 +2135,11 @@ export interface components {
             instances: components["schemas"]["Instance"][];
             /** Projects */
             projects: components["schemas"]["Project"][];
+            /**
+             * Public Url
+             * @description what links that are passed on begin with; empty: the address of the page itself
+             */
+            public_url: string;
             /** Version */
             version: string;
             you: components["schemas"]["User"];
