@@ -72,9 +72,7 @@ class _Plc:
             sources,
             run_path(directory, number),
             Limits(),
-            speed=1.0,
-            paused=True,
-            scan=0,
+            protocol.Driven(paused=True),
         )
         self.instance = Instance(memory, self._on_state, lambda _: None, directory / "cache")
 

@@ -90,6 +90,11 @@ class Debugger:
         return self._live_halt is not None
 
     @property
+    def stepping(self) -> bool:
+        """Whether the PLC runs, and is to halt where a step ends."""
+        return self._goal is not None and not self._timeline.past
+
+    @property
     def moving(self) -> bool:
         """Whether a step goes on in the past: `move` is to be called."""
         return self._past.moving

@@ -5,7 +5,8 @@ PROGRAM    u32 version, digest (64 characters), the sources as they were given; 
 ENTRY      an entry of the journal, as the codec packs it
 KEYFRAME   u32 program version, the state before `scan`; the entries in front of it in the file are in it
 DELTA      the same, xor the state of the last keyframe before it
-MARK       nothing: only its scan, the last that is known to have been reached
+MARK       nothing: only its scan, the last that is known to have been reached; or how the PLC is driven from there on (its
+           speed, whether it is paused, ...), as its keeper gave it
 
 Entries in front of the first keyframe are what is left of a part that was dropped: nobody can go back there, but forces
 and errors that still hold were entered there.
@@ -30,7 +31,7 @@ from scanbench.runtime.thinning import Checkpoint
 
 _VERSION = Struct("<I")
 _DIGEST = 64
-_ABOUT_MOST = 1 << 16
+_ABOUT_MOST = _DRIVEN_MOST = 1 << 16
 _UNPACKED = 1 << 28
 """Bytes of all programs and entries together: they are in memory as long as the run is open."""
 
@@ -97,6 +98,8 @@ class Contents:
     checkpoints: list[Checkpoint] = field(default_factory=list)
     entries: list[Entry] = field(default_factory=list)
     last_scan: int = 0
+    driven: bytes = b""
+    """How the PLC was driven last; empty where the file does not say."""
 
 
 def keyframe(version: int, state: bytes) -> bytes:
@@ -178,7 +181,8 @@ class Reader:
             case Kind.DELTA if self._base is not None:
                 self._checkpoint(block, self._base)
             case Kind.MARK:
-                pass
+                if block.length:
+                    found.driven = self._file.payload(block, _DRIVEN_MOST)
             case _:
                 raise self._file.unreadable(block, "nothing of this kind can be here")
         if block.scan < self._scan:

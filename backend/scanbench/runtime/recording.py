@@ -33,7 +33,16 @@ from scanbench.runtime.errands import Errands
 from scanbench.runtime.fingerprints import libm_fingerprint, program_digest
 from scanbench.runtime.header import Mode, fresh_image
 from scanbench.runtime.runfile import Block, Damage, Kind, RunFile, RunFileError
-from scanbench.runtime.smaller import Bounds, Seen, Smaller, Standing, make_smaller, refuse_existing, write_copy
+from scanbench.runtime.smaller import (
+    Bounds,
+    Seen,
+    Smaller,
+    Standing,
+    make_smaller,
+    part_of,
+    refuse_existing,
+    write_copy,
+)
 from scanbench.runtime.thinning import Checkpoint
 
 DEFAULT_LIMIT = 64 << 20
@@ -97,6 +106,8 @@ class Recording:
         """In order of their scans."""
         self.last_scan = found.last_scan
         """The last scan that the file knew of when it was opened, or that was noted since."""
+        self.driven = found.driven
+        """How the PLC is driven, as `drive` was told last."""
         self.damage, self.lost = damage, lost
         """What was found damaged; whether more than the last write was."""
         self.trouble = ""
@@ -115,18 +126,24 @@ class Recording:
     def begin(
         cls, path: Path, program: Program, version: int, sources: bytes, codec: Codec, by: str, limit: int = DEFAULT_LIMIT
     ) -> "Recording":  # fmt: skip
-        """A new run of a program from a cold start. `FileExistsError` when there is a file of this name; `OSError`."""
-        file = RunFile.create(path)
+        """A new run of a program from a cold start. `FileExistsError` when there is a file of this name; `OSError`.
+
+        The file has its name when it is one that can be gone on with: whoever is killed before leaves none.
+        """
+        refuse_existing(path)
+        file = RunFile.create(part_of(path))
         recording = cls(file, codec, Contents(About.of(program, by)), limit)
         try:
             file.append(Kind.ABOUT, 0, recording.about.packed())
             recording.program(version, sources, program_digest(program))
             state = bytes(fresh_image(program, Mode.MONITOR)[: program.layout.state_size])
             recording._keep(0, version, state)
+            os.replace(file.path, path)
         except OSError:
             recording.close()
-            path.unlink(missing_ok=True)
+            file.path.unlink(missing_ok=True)
             raise
+        file.path = path
         return recording
 
     @classmethod
@@ -232,6 +249,12 @@ class Recording:
                 raise
             self._owed.append(entry)
 
+    def drive(self, scan: int, driven: bytes) -> None:
+        """Keeps how the PLC is driven from `scan` on: a run that is gone on with goes on like that. `OSError`."""
+        self._pay()
+        self._append(Kind.MARK, scan, driven)
+        self.driven = driven
+
     def checkpoint(self, scan: int, version: int, state: bytes) -> bool:
         """Keeps the state before `scan`; false when it cannot be written now."""
         try:
@@ -276,6 +299,7 @@ class Recording:
             self._in_trouble(error)
             raise
         self.trouble = ""
+        self.last_scan = max(self.last_scan, scan)
         self._errands.sync_soon()
         return block
 
@@ -288,8 +312,8 @@ class Recording:
 
     def _in_trouble(self, error: OSError) -> None:
         self.trouble = (
-            f"{self.path.name} cannot be written: {error.strerror}. The PLC goes on, but commands are refused and "
-            "nothing is recorded until there is room: free some space on the disk"
+            f"{self.path.name} cannot be written: {error.strerror}. The PLC waits and commands are refused until there "
+            "is room: free some space on the disk"
         )
 
     # ---- reading --------------------------------------------------------------------------------------------------
@@ -385,24 +409,26 @@ class Recording:
 
     def _replace(self, made: Smaller) -> Trim | None:
         """The smaller file takes the place of the old one. Where that fails nothing is lost, and it is tried again later."""
-        old, new = self._file, made.rewritten.file
+        old, new, key = self._file, made.rewritten.file, self._key
+        gone = made.cut - len(made.heritage)
         try:
             made.rewritten.follow(old.end)
+            checkpoints = [
+                replace(each, block=block, base=base, entries=each.entries - gone)
+                for each in self.checkpoints
+                if (block := made.rewritten.moved(each.block)) and (base := made.rewritten.moved(each.base))
+            ]
+            moved = made.rewritten.moved(key.block) if key is not None else None
+            if self.driven:  # it may have been said in front of the cut
+                new.append(Kind.MARK, self.last_scan, self.driven)
             new.mark(self.last_scan)
             os.replace(new.path, old.path)
         except OSError:
             made.rewritten.abandon()
             return None
         new.path = old.path
-        gone = made.cut - len(made.heritage)
-        self.checkpoints[:] = [
-            replace(each, block=block, base=base, entries=each.entries - gone)
-            for each in self.checkpoints
-            if (block := made.rewritten.moved(each.block)) and (base := made.rewritten.moved(each.base))
-        ]
-        if self._key is not None:
-            block = made.rewritten.moved(self._key.block)
-            self._key = replace(self._key, block=block) if block is not None else None
+        self.checkpoints[:] = checkpoints
+        self._key = replace(key, block=moved) if key is not None and moved is not None else None
         self._written -= gone
         self._file, self.about = new, made.about
         self._errands.give(old.close)

@@ -426,7 +426,7 @@ class Resource:
             try:
                 self.recorder.entry(entry, must)
             except OSError as error:
-                return _not_kept(error)
+                return not_kept(error)
         self._apply(entry)
         return entry
 
@@ -484,9 +484,15 @@ class Stops:
             engine.stop_when(None, *conditions)
 
 
-def _not_kept(error: OSError) -> Refusal:
-    if error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG):
+def is_no_space(error: OSError) -> bool:
+    """Whether there is no room for what was to be written."""
+    return error.errno in (errno.ENOSPC, errno.EDQUOT, errno.EFBIG)
+
+
+def not_kept(error: OSError) -> Refusal:
+    """What is said of a command that cannot be kept."""
+    if is_no_space(error):
         return Refusal(
-            "the disk is full, so the run cannot be recorded, and nothing was changed: make room, then try again"
+            "no space: the disk is full, so the run cannot be recorded, and nothing was changed. Make room, then try again"
         )
     return Refusal(f"the run cannot be recorded ({error}), so nothing was changed")

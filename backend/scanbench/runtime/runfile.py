@@ -15,8 +15,8 @@ A block, little endian:
     20  u32       CRC-32 of bytes 0 to 19 and the payload
     24  payload
 
-Blocks are only ever appended, but for one: a mark (the last known scan) at the very end is overwritten by what comes
-next. So a write that did not come to its end costs the block that was written, and nothing before it.
+Blocks are only ever appended, but for one: a mark without a payload (the last known scan) at the very end is overwritten by
+what comes next. So a write that did not come to its end costs the block that was written, and nothing before it.
 """
 
 import os
@@ -221,7 +221,7 @@ class RunFile:
             yield good
             block, offset = good, good.end
         self.end, self._marked = offset, None
-        if block is not None and block.kind is Kind.MARK:
+        if block is not None and block.kind is Kind.MARK and not block.length:
             self.end, self._marked = block.offset, block.scan
 
     def cut(self, offset: int, aside: Path | None) -> None:

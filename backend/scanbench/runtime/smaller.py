@@ -80,7 +80,7 @@ def make_smaller(seen: Seen, limit: int, codec: Codec) -> Smaller | None:
     try:
         if cut is not None:
             kept = _heritage(file, cut, codec)
-        made = rewrite(file, seen.end, _part(file.path), about.packed(), keep)
+        made = rewrite(file, seen.end, part_of(file.path), about.packed(), keep)
     except (OSError, RunFileError, MemoryError):
         return None
     try:
@@ -116,9 +116,11 @@ def write_copy(seen: Seen, path: Path, standing: Standing) -> None:
     def keep(block: Block, in_front: int) -> bool:
         if block.kind is Kind.ENTRY:
             return in_front < standing.entries
+        if block.kind is Kind.MARK:  # how the original is driven
+            return False
         return block.kind is Kind.PROGRAM or (block.scan <= standing.scan and in_front <= standing.entries)
 
-    made = rewrite(seen.file, seen.end, _part(path), seen.about.packed(), keep)
+    made = rewrite(seen.file, seen.end, part_of(path), seen.about.packed(), keep)
     try:
         made.file.append(Kind.KEYFRAME, standing.scan, keyframe(standing.version, standing.state))
         os.fsync(made.file.fd)
@@ -135,7 +137,7 @@ def refuse_existing(path: Path) -> None:
         raise FileExistsError(errno.EEXIST, "there is a file of this name already", str(path))
 
 
-def _part(path: Path) -> Path:
+def part_of(path: Path) -> Path:
     """Where a file is written that gets this name in the end."""
     part = path.with_name(path.name + ".part")
     part.unlink(missing_ok=True)

@@ -7,6 +7,7 @@ that people see are those of then, through the same doors, and nothing but a ret
 
 from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, replace
 from operator import attrgetter
 from pathlib import Path
@@ -224,13 +225,21 @@ class Timeline:
         """From now on the live PLC has these sampled; made for the program that is live, else they do not count."""
         self.resource.samplings = samplings
 
+    def drive(self, driven: bytes) -> None:
+        """Keeps how the PLC is driven from here on, for who goes on with the run: `Recording.driven`. `OSError`."""
+        self.recording.drive(self.live_scan, driven)
+
     def note(self) -> None:
         """Marks where the run stands; keeps the file within its bounds. A few times a second is enough."""
         trim = self.recording.tidy()
         if trim is not None:
             self._forget(trim.kept, trim.cut)
-        if self.recording.trouble and self._live is None:
-            self._checkpoints.take(self.resource)  # is there room again?
+        if self.recording.trouble:  # is there room again?
+            if self._live is None and not self.resource.begun:
+                self._checkpoints.take(self.resource)
+            else:
+                with suppress(OSError):
+                    self.drive(self.recording.driven)
         self.recording.note(self.live_scan)
 
     def _forget(self, kept: tuple[int, ...], cut: int) -> None:

@@ -54,7 +54,7 @@ _CLASSES: dict[str, type] = {
         Active, ClearErrorLog, ClearErrors, ClearViolations, Entry, Force, Generate, Patch, Plan, ErrorRef, ProgramChange, Recover, Release, SetMode, Span, TrapInfo, Trapped,
         Violation, Violations, Write,
         Lost, RecordingInfo, Restart, Restarted, SetClock, Swapped,
-        protocol.Ack, protocol.Attend, protocol.Build, protocol.Copy, protocol.Diagnosed, protocol.Drive,
+        protocol.Ack, protocol.Attend, protocol.Build, protocol.Copy, protocol.Diagnosed, protocol.Drive, protocol.Driven,
         protocol.Entered, protocol.Found, protocol.Frame, protocol.HostState, protocol.Lookup, protocol.Preview,
         protocol.Previewed, protocol.Quit, protocol.Ready, protocol.NowRuns, protocol.RollBack, protocol.RunMark, protocol.RunMarks,
         protocol.SetLimits, protocol.Sources, protocol.Standing, protocol.Start, protocol.StartFailed,

@@ -30,6 +30,8 @@ log = logging.getLogger("scanbench")
 
 QUICK_DEATH_NS = 10_000_000_000
 _REACHED_S = 10
+_ROOM_S = 1
+"""How often it is tried to go on where there was no room."""
 QUICK_DEATHS = 4
 """So many deaths, each within `QUICK_DEATH_NS` of its start, and it is not started again."""
 
@@ -50,19 +52,16 @@ class Remembered:
     sources: protocol.Sources
     run: Path
     limits: Limits
-    speed: float = 1.0
-    paused: bool = False
+    driven: protocol.Driven | None = None
+    """How the next host is to drive it; None is as the run file says."""
     scan: int = 0
-    end: int | None = None
-    condition: str | None = None
-    halted: bool = False
 
     def start(self) -> protocol.Start:
         """The first message to a new host."""
         limits = self.limits
         return protocol.Start(
             self.name, self.sources, str(self.run), limits.run_mib, limits.memory_mib, limits.cpu_percent,
-            self.speed, self.paused, self.scan, self.end, self.condition, self.halted,
+            self.scan, self.driven,
         )  # fmt: skip
 
 
@@ -90,7 +89,7 @@ class Instance:
         self._deaths = 0
         self.runs = 0
         """New runs that began since the server started."""
-        self._stopping = False
+        self._stopping = self._paused = self._no_space = False
 
     @property
     def sources(self) -> protocol.Sources:
@@ -114,6 +113,7 @@ class Instance:
         if self.on:
             return
         self._stopping = False
+        self._deaths = 0  # somebody wants it, whatever was before
         self._set_state(state="starting", message="starting")
         self._task = asyncio.get_running_loop().create_task(self._supervise())
 
@@ -148,6 +148,12 @@ class Instance:
             failure = await self._live()
             if self._stopping:
                 return
+            if failure is not None and self._no_space:
+                self._set_state(state="no_space", message=failure, pid=None)
+                await asyncio.sleep(_ROOM_S)
+                if self._stopping:
+                    return
+                continue
             if failure is not None:
                 await asyncio.to_thread(bring_back, self._memory.run)
                 self._set_state(state="failed", message=failure, pid=None)
@@ -181,15 +187,16 @@ class Instance:
         self._connected.set()
         if self._stopping:  # while the process was on its way
             writer.write(pack(protocol.Quit()))
-        if self.state.state != "restarting":
+        if self.state.state not in ("restarting", "no_space"):
             self._set_state(state="starting", message="starting", pid=process.pid)
         failure: str | None = None
+        self._no_space = False
         try:
             while True:
                 (length,) = LENGTH.unpack(await reader.readexactly(LENGTH.size))
                 message = unpack(await reader.readexactly(length))
                 if isinstance(message, protocol.StartFailed):
-                    failure = message.message
+                    failure, self._no_space = message.message, message.no_space
                 else:
                     self._take(message)
         except (asyncio.IncompleteReadError, ConnectionError):
@@ -216,7 +223,7 @@ class Instance:
                 self._memory.scan = max(self._memory.scan, message.live_scan)
                 self._on_message(message)
             case protocol.Ready():
-                self._memory.sources = message.sources
+                self._memory.sources, self._memory.driven = message.sources, None  # its file says it from now on
                 if message.fresh:
                     self._memory.scan = 0
                 self._on_message(message)
@@ -235,8 +242,7 @@ class Instance:
                 self._on_message(message)
 
     def _see(self, state: protocol.HostState) -> None:
-        self._memory.speed, self._memory.paused = state.speed, state.paused
-        self._memory.end, self._memory.condition, self._memory.halted = state.end, state.until, state.halted
+        self._paused = state.paused
         self._memory.scan = state.live_scan
         pid = self._process.pid if self._process is not None else None
         self._set_state(
@@ -313,9 +319,8 @@ class Instance:
         memory = self._memory
         self.runs += 1
         memory.sources = sources or memory.sources
-        memory.scan = self._deaths = 0
-        memory.end = memory.condition = None
-        memory.halted = False
+        memory.scan = 0
+        memory.driven = protocol.Driven(self.state.speed, self._paused)
         self._set_state(
             scan=0, live_scan=0, time_ns=0, trap=None, past_by="", target="", version=memory.sources.version
         )

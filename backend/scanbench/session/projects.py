@@ -159,7 +159,8 @@ class Projects:
         if await asyncio.to_thread(self._store.last_build, project.id) != sources:
             return False
         return all(
-            session.state.version == project.version and session.state.state in ("running", "paused", "stopped")
+            session.state.version == project.version
+            and session.state.state in ("running", "paused", "stopped", "no_space")
             for session in sessions
         )
 

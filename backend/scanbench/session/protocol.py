@@ -34,6 +34,21 @@ class Sources:
 
 
 @dataclass(frozen=True, slots=True)
+class Driven:
+    """How a PLC is driven: kept in its run file, so that the next process drives it like that."""
+
+    speed: float = 1.0
+    """0 is as fast as possible."""
+    paused: bool = False
+    end: int | None = None
+    """The run was asked to end in front of this scan."""
+    condition: str | None = None
+    """The run was asked to end when this holds."""
+    halted: bool = False
+    """A debugger had halted it: it waits in front of that scan until somebody lets it go on."""
+
+
+@dataclass(frozen=True, slots=True)
 class Start:
     """Goes on with the run in the file `run`, up to scan `until` without waiting; begins one where there is none."""
 
@@ -44,15 +59,9 @@ class Start:
     run_mib: int | None
     memory_mib: int | None
     cpu_percent: int | None
-    speed: float
-    paused: bool
     until: int
-    end: int | None
-    """The run was asked to end in front of this scan."""
-    condition: str | None
-    """The run was asked to end when this holds."""
-    halted: bool = False
-    """A debugger had halted it: it waits in front of that scan until somebody lets it go on."""
+    driven: Driven | None
+    """How it is to be driven; None is as the run file says."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -214,6 +223,8 @@ class StartFailed:
     """The program cannot be run at all."""
 
     message: str
+    no_space: bool = False
+    """There is no room for its run: when there is, it can."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -237,10 +248,6 @@ class HostState:
     past_by: str
     """Who went to the past; empty when what is shown is live."""
     target: str
-    end: int | None
-    """Of a run that was asked to end: the scan."""
-    until: str | None
-    """Or the condition."""
     previous_version: int | None
     """What a roll back swaps in."""
     late_percent: float
@@ -251,8 +258,6 @@ class HostState:
     """Where a debugger halted it; then `state` is `halted` (`past` while that is in the past)."""
     flavour: str = ""
     """Which code runs, for people: empty is the ordinary one, `debug`, `probed`."""
-    halted: bool = False
-    """A debugger halted the PLC itself, whatever is shown."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -40,7 +40,7 @@ LISTED = 100
 """Entries of one moment that get a line each."""
 SPEEDS = 0.01, 1000.0
 _EVERYBODY = 0
-_LIVING = ("running", "paused", "halted", "stopped", "trapped", "fatal")
+_LIVING = ("running", "paused", "halted", "stopped", "trapped", "fatal", "no_space")
 """States that a host tells of itself, with the version that runs."""
 
 

@@ -11,7 +11,7 @@ from scanbench.session.instance import Remembered
 from scanbench.session.keeper import Keeper
 from scanbench.session.load import Loads
 from scanbench.session.nursery import nursery
-from scanbench.session.protocol import Sources
+from scanbench.session.protocol import Driven, Sources
 from scanbench.session.reactions import Reactions
 from scanbench.session.refused import Refused
 from scanbench.session.runs import run_path
@@ -52,7 +52,7 @@ class Solo:
             store = Store(f"sqlite:///{data / 'scanbench.db'}")
             row = store.create_instance(store.create_project(name, model.name).id, name)
             keeper, reactions = Keeper(store), Reactions(cache)
-            memory = Remembered(name, sources, run_path(data, row.id), row.limits, speed, paused=True)
+            memory = Remembered(name, sources, run_path(data, row.id), row.limits, Driven(speed, paused=True))
             session = Session(
                 row, model, memory, keeper, rows=(), lines=(), loads=Loads(), reactions=reactions, breakpoints=(),
                 traces={}, cache=cache,

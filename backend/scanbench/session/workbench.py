@@ -21,6 +21,7 @@ from scanbench.session.load import Loads
 from scanbench.session.nursery import nursery
 from scanbench.session.pasts import Pasts
 from scanbench.session.projects import Projects
+from scanbench.session.protocol import Driven
 from scanbench.session.reactions import Reactions
 from scanbench.session.records import Records
 from scanbench.session.refused import Refused
@@ -260,7 +261,9 @@ class Workbench:
             raise Refused(f"instance {row.name}: {project.name} has no accepted build on {project.model}")
         rows = [row_of(model, each) for each in await asyncio.to_thread(self._store.history, row.id)]
         lines = [line_of(each) for each in await asyncio.to_thread(self._store.log, row.id, LOG_LINES)]
-        memory = Remembered(row.name, sources, run_path(self._runs, row.id), row.limits, paused=paused)
+        memory = Remembered(row.name, sources, run_path(self._runs, row.id), row.limits)
+        if paused:
+            memory.driven = Driven(paused=True)
         kept = map(breakpoint_of, await asyncio.to_thread(self._store.breakpoints, row.id))
         breakpoints = [each for each in kept if each is not None]
         traces = await asyncio.to_thread(self._store.traces, row.id)

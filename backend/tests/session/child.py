@@ -20,9 +20,8 @@ class Child:
     """A host over its socket."""
 
     def __init__(
-        self, run: Path, source: str, cache: Path, paused: bool = False, speed: float = 1.0, until: int = 0,
-        halted: bool = False,
-    ) -> None:  # fmt: skip
+        self, run: Path, source: str, cache: Path, driven: protocol.Driven | None = None, until: int = 0
+    ) -> None:
         ours, theirs = socket.socketpair()
         self._socket, self._splitter = ours, Splitter()
         ours.settimeout(60)
@@ -32,9 +31,7 @@ class Child:
         self.messages: list[object] = []
         self._ref = 0
         sources = Sources(MODEL, {"main.st": source}, 10_000_000, 1)
-        self.send(
-            protocol.Start("plc", sources, str(run), None, None, None, speed, paused, until, None, None, halted)
-        )  # fmt: skip
+        self.send(protocol.Start("plc", sources, str(run), None, None, None, until, driven))
         self.wait(protocol.Ready)
         self.send(protocol.Attend(True))
 

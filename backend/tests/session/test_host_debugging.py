@@ -9,6 +9,7 @@ import pytest
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.runtime.write import Write
 from scanbench.session import debug_protocol, protocol
+from scanbench.session.protocol import Driven
 from tests.session.child import Child
 
 STATIONS = """FUNCTION_BLOCK Station
@@ -112,7 +113,7 @@ def test_a_plc_that_is_killed_while_halted_stands_in_front_of_that_scan(tmp_path
         halt = child.halted(halt.number)
         assert (halt.span and halt.span.line, child.value("up", 0)) == (6, "500")
         os.kill(child.process.pid, signal.SIGKILL)
-    with Child(run, STATIONS, cache, paused=True, until=halt.scan) as child:
+    with Child(run, STATIONS, cache, Driven(paused=True), until=halt.scan) as child:
         state = child.wait(protocol.HostState)
         assert (state.scan, state.halt) == (halt.scan, None)
         assert (int(child.value("Main.n")), int(child.value("Main.c.total"))) == (n - 1, total)
@@ -128,11 +129,11 @@ def test_a_plc_that_was_halted_comes_back_standing(tmp_path: Path, cache: Path) 
         halt = child.halted()
         assert child.step("back").ok
         state = child.wait(protocol.HostState, lambda state: state.halt is not None and state.halt.past)
-        assert (state.halted, state.live_scan) == (True, halt.scan), "the PLC itself, whatever is shown"
+        assert state.live_scan == halt.scan
         os.kill(child.process.pid, signal.SIGKILL)
-    with Child(run, STATIONS, cache, until=halt.scan, halted=True) as child:
+    with Child(run, STATIONS, cache) as child:
         state = child.wait(protocol.HostState)
-        assert (state.state, state.scan, state.halted) == ("halted", halt.scan, True)
+        assert (state.state, state.scan) == ("halted", halt.scan), "the PLC itself, whatever was shown"
         assert state.message == "halted: it was halted in this scan when its process ended"
         assert state.halt is not None
         assert (state.halt.count, state.halt.span) == (0, None)
@@ -156,7 +157,7 @@ def test_a_scan_on_in_the_past_leaves_the_statement_that_was_shown(tmp_path: Pat
         assert (halt.past, halt.count) == (True, 1)
         assert child.ask(lambda ref: protocol.Drive(ref, "scan", None, "Ann"), protocol.Ack).ok
         state = child.wait(protocol.HostState, lambda state: state.scan == 10)
-        assert (state.state, state.halt, state.halted) == ("past", None, True)
+        assert (state.state, state.halt) == ("past", None)
         refused = child.ask(debug_protocol.WantStack, protocol.Ack)
         assert "not halted" in refused.message
         assert child.step("continue").ok
@@ -178,7 +179,7 @@ def test_the_program_can_be_halted_where_it_traps(tmp_path: Path, cache: Path) -
 
 
 def test_a_logpoint_that_speaks_all_the_time_does_not_flood(tmp_path: Path, cache: Path) -> None:
-    with Child(tmp_path / "a.run", STATIONS, cache, speed=0) as child:
+    with Child(tmp_path / "a.run", STATIONS, cache, Driven(speed=0)) as child:
         set_breakpoints(child, at_line(10, log="n is {n}"))
         first = child.wait(debug_protocol.LogpointSaid)
         assert first.text.startswith("n is ")
@@ -200,7 +201,7 @@ def test_coverage_says_what_was_reached(tmp_path: Path, cache: Path) -> None:
 
 
 def test_a_plain_breakpoint_runs_on_fast_code_once_that_is_built(tmp_path: Path, cache: Path) -> None:
-    with Child(tmp_path / "a.run", STATIONS, cache, speed=0) as child:
+    with Child(tmp_path / "a.run", STATIONS, cache, Driven(speed=0)) as child:
         set_breakpoints(child, at_line(6, instance="", condition="total > 4000000 AND total < 0"))
         child.wait(protocol.HostState, lambda state: state.flavour == "probed")
         child.send(protocol.Drive(0, "speed", 1.0, "Ann"))
@@ -215,7 +216,7 @@ def test_back_to_the_last_write(tmp_path: Path, cache: Path) -> None:
     source = STATIONS.replace("VAR n :", "VAR mark, n :").replace(
         "  a(up := 1);", "  IF n = 1000 THEN\n    mark := 7;\n  END_IF;\n  a(up := 1);"
     )
-    with Child(tmp_path / "a.run", source, cache, speed=0) as child:
+    with Child(tmp_path / "a.run", source, cache, Driven(speed=0)) as child:
         child.wait(protocol.HostState, lambda state: state.scan > 100_000)
         assert child.step("reverse", path="Main.mark").ok
         halt = child.halted()

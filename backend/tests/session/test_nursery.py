@@ -42,11 +42,7 @@ class Talk:
         ours.settimeout(PATIENCE_S)
 
     def start(self, text: str = COUNTING, memory_mib: int | None = None) -> None:
-        self.sock.sendall(
-            pack(
-                protocol.Start("line", sources(text), str(self._run), None, memory_mib, None, 1.0, False, 0, None, None)
-            )
-        )
+        self.sock.sendall(pack(protocol.Start("line", sources(text), str(self._run), None, memory_mib, None, 0, None)))
 
     def say(self, message: object) -> None:
         self.sock.sendall(pack(message))

@@ -55,7 +55,7 @@ def test_entries_come_back_equal(command: object) -> None:
 
 
 def test_a_start_comes_back_equal_in_whatever_pieces() -> None:
-    memory = Remembered("line-1", SOURCES, Path("/data/1.run"), Limits(memory_mib=128), speed=0.5, paused=True, scan=99)
+    memory = Remembered("line-1", SOURCES, Path("/data/1.run"), Limits(memory_mib=128), protocol.Driven(0.5, True), 99)
     entered = [protocol.Entered(tuple(map(entry, COMMANDS)))]
     messages = [memory.start(), *entered, protocol.Quit(), protocol.Frame(b"x", 3)]
     stream = b"".join(map(pack, messages))

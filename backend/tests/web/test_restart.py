@@ -41,9 +41,13 @@ def test_a_restarted_server_goes_on_with_every_run(tmp_path: Path, kill: signal.
             browser.watch("Main.n")
             browser.wait(lambda: (browser.number("Main.n") or 0) > 100)
             count = browser.number("Main.n") or 0
+        paused = server.instance("paused", "CJ1M-CPU63", main=SOURCE)
+        drive = f"/api/instances/{paused}/run"
+        for wanted in ({"action": "pause", "speed": 0}, {"action": "scan"}):
+            scan = server.http.post(drive, json=wanted).json()["scan"]
         time.sleep(0.3)  # history is written behind the live path
         pids = [each["state"]["pid"] for each in server.http.get("/api/instances").json()]
-        assert len(pids) == 3  # the samples and this one
+        assert len(pids) == 4  # the samples and these
         assert all(map(alive, pids))
         os.kill(server.process.pid, kill)
         server.process.wait(10)
@@ -51,7 +55,7 @@ def test_a_restarted_server_goes_on_with_every_run(tmp_path: Path, kill: signal.
 
     with Server(tmp_path) as again:
         names = [each["name"] for each in again.http.get("/api/instances").json()]
-        assert names == ["line-1", "line-2", "kept"]
+        assert names == ["line-1", "line-2", "kept", "paused"]
         rows = {row["id"]: row for row in again.http.get(f"/api/instances/{instance}/errors").json()}
         row = rows["basic-io-error"]
         assert (row["status"], row["count"], row["by"]) == ("generated", 1, "Ada Lovelace")  # it is still present
@@ -63,6 +67,11 @@ def test_a_restarted_server_goes_on_with_every_run(tmp_path: Path, kill: signal.
             assert any("basic-io-error" in mark["text"] for each in known for mark in each["marks"])
             browser.wait(lambda: (browser.number("Main.n") or 0) >= count)
             assert browser.number("Main.basic") == 1
+        with again.browser(paused) as browser:
+            state = browser.hello["instance"]["state"]
+            if state["state"] == "starting":
+                state = browser.wait_state("paused")
+            assert (state["state"], state["scan"], state["speed"]) == ("paused", scan, 0)
 
 
 def test_a_plc_that_dies_again_and_again_is_given_up_and_can_be_revived(server: Server) -> None:

@@ -54,3 +54,17 @@ def test_a_data_directory_belongs_to_one_server(tmp_path: Path) -> None:
 
 def test_guests_go_on_counting_after_a_restart(tmp_path: Path) -> None:
     assert [kept_guests(tmp_path)(), kept_guests(tmp_path)()] == ["Guest 1", "Guest 2"]
+
+
+def test_guests_have_names_where_nothing_can_be_written(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    next_guest = kept_guests(tmp_path)
+    assert next_guest() == "Guest 1"
+
+    def full(*_: object) -> None:
+        raise OSError(28, "No space left on device")
+
+    with monkeypatch.context() as patch:
+        patch.setattr("scanbench.web.kept_guests._keep", full)
+        assert [next_guest(), next_guest()] == ["Guest 2", "Guest 3"]
+    assert next_guest() == "Guest 4"
+    assert kept_guests(tmp_path)() == "Guest 5"

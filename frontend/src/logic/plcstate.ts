@@ -40,6 +40,7 @@ const LOOKS: Record<RunState, { tone: Tone; icon: StateIcon }> = {
   failed: { tone: "fatal", icon: "error" },
   past: { tone: "past", icon: "past" },
   off: { tone: "stopped", icon: "off" },
+  no_space: { tone: "fatal", icon: "wait" },
 };
 
 export function showState(state: InstanceState | null, connected: boolean): ShownState {
@@ -74,6 +75,8 @@ function detailOf(state: InstanceState): string {
       return t("state.readonly", { scan: grouped(state.scan) });
     case "off":
       return t("state.switchedoff");
+    case "no_space":
+      return t("state.no_space.detail");
     default:
       return "";
   }

@@ -468,6 +468,8 @@ export const english = {
   "state.fatal": "Fatal error",
   "state.label": "PLC state",
   "state.loading": "loading the program",
+  "state.no_space": "No space",
+  "state.no_space.detail": "waits for room on the disk",
   "state.noconnection": "no connection",
   "state.none": "No PLC",
   "state.none.detail": "nothing runs this project",
@@ -690,7 +692,7 @@ export const english = {
   "permit.run": "Mode RUN: tools may only look. Change to MONITOR to write or force.",
   "permit.run.change": "Mode RUN: the program cannot be changed. Change to MONITOR first.",
   "recording.about":
-    "Nothing can be changed until it goes on, and what happens now cannot be gone back to. Make room on the disk: it is tried again by itself.",
+    "The PLC waits, and nothing can be changed. Make room on the disk: it goes on by itself.",
   "recording.title": "The run is not recorded:",
   "restart.cold": "Cold restart",
   "restart.cold.hint": "everything begins anew",

@@ -467,6 +467,8 @@ export const japanese: Record<TextKey, string> = {
   "state.fatal": "運転停止異常",
   "state.label": "PLC の状態",
   "state.loading": "プログラムを読み込み中",
+  "state.no_space": "空き容量なし",
+  "state.no_space.detail": "ディスクの空きを待っています",
   "state.noconnection": "接続なし",
   "state.none": "PLC なし",
   "state.none.detail": "このプロジェクトは未実行",
@@ -688,7 +690,7 @@ export const japanese: Record<TextKey, string> = {
   "permit.run": "RUN モード: ツールからは見るだけです。書き込みや強制は MONITOR に切り替えてください。",
   "permit.run.change": "RUN モード: プログラムは変更できません。先に MONITOR に切り替えてください。",
   "recording.about":
-    "再開するまで何も変更できず、今の動作には後で戻れません。ディスクに空きを作ってください。自動的に再試行します。",
+    "PLC は待機中で、何も変更できません。ディスクに空きを作ってください。自動的に再開します。",
   "recording.title": "実行が記録されていません:",
   "restart.cold": "コールドリスタート",
   "restart.cold.hint": "すべて初期化",

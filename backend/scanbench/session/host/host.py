@@ -18,7 +18,7 @@ from scanbench.session.host.limits import MemoryLimit, limit_files
 from scanbench.session.host.link import Link
 from scanbench.session.host.lookup import look_up
 from scanbench.session.host.loop import Loop
-from scanbench.session.host.opening import open_loop
+from scanbench.session.host.opening import NoSpace, open_loop
 from scanbench.session.trace_protocol import ReadTrace
 
 log = logging.getLogger("scanbench")
@@ -47,6 +47,7 @@ class Host:
         self._loop: Loop | None = None
         self._waiting: list[object] = []
         self._handover = threading.Lock()
+        self._no_space = False
 
     def run(self) -> int:
         """Runs the loop in the calling thread, which must be the main one."""
@@ -58,7 +59,7 @@ class Host:
         end_with_parent(self._parent)  # it has spoken, so it has adopted this process
         failure = self._lived(self._start)
         if failure is not None:
-            self._link.post(protocol.StartFailed(failure))
+            self._link.post(protocol.StartFailed(failure, self._no_space))
         self._link.close()
         thread.join()
         return 0 if failure is None else 1
@@ -80,6 +81,7 @@ class Host:
         except (BuildFailed, ValueError) as error:
             if self._loop is not None:
                 raise
+            self._no_space = isinstance(error, NoSpace)
             return str(error)
         return None
 

@@ -7,6 +7,7 @@ frames and state. Everything that touches the image is here, in one thread.
 import threading
 from collections import deque
 from collections.abc import Mapping
+from dataclasses import replace
 from pathlib import Path
 
 from scanbench.check.condition import Condition, compile_condition
@@ -17,11 +18,11 @@ from scanbench.faults.inject import ACTIVE, Active
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.header import Mode
 from scanbench.runtime.program_change import ProgramChange
-from scanbench.runtime.resource import Resource
+from scanbench.runtime.resource import Resource, not_kept
 from scanbench.runtime.rights import Right, may
 from scanbench.runtime.timeline import PAST, Timeline
 from scanbench.session import debug_protocol, protocol
-from scanbench.session.codec import pack_body
+from scanbench.session.codec import BadMessage, pack_body, unpack
 from scanbench.session.debug_protocol import DebugRequest
 from scanbench.session.host.course import MAX_SPEED, Course
 from scanbench.session.host.covering import Covering
@@ -50,11 +51,12 @@ class Loop:
         self._wake = threading.Event()
         self._tick = True
         self._quit = self._rested = False
-        self._course = Course(self.resource.program.interval_ns, start.speed, start.paused, start.cpu_percent)
-        self._go_on(start)
+        self._kept = driven = start.driven or driven_of(timeline)
+        self._course = Course(self.resource.program.interval_ns, driven.speed, driven.paused, start.cpu_percent)
+        self._go_on(driven)
         self.debugging = Debugging(timeline, link, Covering(timeline, programs.sources))
         self._debugger = self.debugging.debugger
-        if start.halted:
+        if driven.halted:
             self._debugger.stand("it was halted in this scan when its process ended")
         self._services = Services(timeline, self._course, link, note, tiers, programs.sources, self._debugger)
         self.traces = Traces(timeline, link)
@@ -64,16 +66,23 @@ class Loop:
         """What is shown: the PLC, or its past."""
         return self.timeline.resource
 
-    def _go_on(self, start: protocol.Start) -> None:
+    def _go_on(self, driven: protocol.Driven) -> None:
         """To where the last life of this PLC was asked to run."""
+        if driven.paused or (driven.end is None and driven.condition is None):
+            return
         scan, condition = self.resource.header.scan, None
-        if start.condition is not None:
-            compiled = compile_condition(self.resource.program, start.condition)
-            condition = compiled if isinstance(compiled, Condition) else None
-        left = None if start.end is None else start.end - scan
-        if not start.paused and (condition is not None or (left is not None and left > 0)):
-            self.timeline.stop_when(condition)
-            self._course.run_on(scan, left, condition)
+        if driven.condition is not None:
+            compiled = compile_condition(self.resource.program, driven.condition)
+            if not isinstance(compiled, Condition):
+                self._course.lose(f"paused: the program has no meaning for {driven.condition}")
+                return
+            condition = compiled
+        left = None if driven.end is None else driven.end - scan
+        if left is not None and left <= 0:
+            self._course.lose(f"stopped at scan {scan}, as asked for")
+            return
+        self.timeline.stop_when(condition)
+        self._course.run_on(scan, left, condition)
 
     # ---- from other threads ---------------------------------------------------------------------------------------
 
@@ -126,6 +135,7 @@ class Loop:
         while self._served():
             if self._tick:
                 self._tick = False
+                self._note_driven()
                 self._services.tick()
                 self.debugging.tick()
                 self.traces.tick()
@@ -143,11 +153,12 @@ class Loop:
                     self._rested = False
                     self._course.set_pace(self.resource.program.interval_ns)
                 self._run()
+        self._note_driven()
         self.timeline.close()
 
     def _stands(self) -> bool:
-        """Whether there is nothing to run."""
-        halted = self._debugger.halt is not None
+        """Whether there is nothing to run, or nothing may: what it does by itself could not be kept."""
+        halted = self._debugger.halt is not None or bool(self.timeline.recording.trouble)
         return self.timeline.past or halted or not self.resource.runnable or self._course.paused
 
     def _served(self) -> bool:
@@ -223,21 +234,54 @@ class Loop:
 
     # ---- pace -----------------------------------------------------------------------------------------------------
 
+    def _driven(self) -> protocol.Driven:
+        """How the PLC is driven now. A step that is under way ends in a halt."""
+        course, condition = self._course, self._course.condition
+        halted = self._debugger.stands or self._debugger.stepping
+        text = condition.text if condition is not None else None
+        return protocol.Driven(course.speed, course.paused, course.end, text, halted)
+
+    def _keep(self, driven: protocol.Driven) -> Refusal | None:
+        """Keeps how the PLC is to be driven, before it is."""
+        if driven != self._kept:
+            try:
+                self.timeline.drive(pack_body(driven))
+            except OSError as error:
+                return not_kept(error)
+            self._kept = driven
+        return None
+
+    def _note_driven(self) -> None:
+        """Keeps what it came to by itself: a halt, the end that was asked for. Where it cannot be kept, at the next tick."""
+        if not self.timeline.recording.trouble:
+            self._keep(self._driven())
+
+    def _no_room(self) -> Refusal | None:
+        """Why no scan may run now, if so."""
+        if self.timeline.recording.trouble:
+            self.timeline.note()
+        trouble = self.timeline.recording.trouble
+        return Refusal(f"no space: {trouble}") if trouble else None
+
     def _drive(self, drive: protocol.Drive) -> None:
-        said = self._drive_action(drive)
+        said = self._drive_action(drive, self._course.speed if drive.speed is None else drive.speed)
         if isinstance(said, Refusal):
             self._answer(drive.ref, said, "")
             return
         if drive.speed is not None and drive.speed != self._course.speed:
             self._course.speed = drive.speed
             self._course.set_pace(self.resource.program.interval_ns)
+        self.timeline.note()  # a scan that was run by hand is there again after whatever comes
         speed = "as fast as possible" if self._course.speed == MAX_SPEED else f"speed x{self._course.speed:g}"
         self._ack(drive.ref, True, f"{said}, {speed}" if said else speed)
 
-    def _drive_action(self, drive: protocol.Drive) -> str | Refusal:
+    def _drive_action(self, drive: protocol.Drive, speed: float) -> str | Refusal:
         if drive.action == "speed":
-            return ""
+            return self._keep(replace(self._driven(), speed=speed)) or ""
         if drive.action == "pause":
+            refusal = self._keep(protocol.Driven(speed, paused=True, halted=self._debugger.stands))
+            if refusal is not None:
+                return refusal
             self._course.pause()
             self._debugger.forget_step()
             return "pause"
@@ -248,13 +292,19 @@ class Loop:
         if not self.resource.runnable:
             return Refusal(f"the program is stopped: {self._services.state.message}")
         if drive.action == "scan":
-            return self._single(drive.author)
+            halted = self._debugger.stands
+            wanted = replace(self._driven(), speed=speed) if halted else protocol.Driven(speed, paused=True)
+            return self._no_room() or self._keep(wanted) or self._single(drive.author)
         condition: Condition | None = None
         if drive.until is not None:
             compiled = compile_condition(self.resource.program, drive.until)
             if not isinstance(compiled, Condition):
                 return Refusal(compiled.message, compiled.near)
             condition = compiled
+        end = None if drive.scans is None else self.resource.header.scan + drive.scans
+        refusal = self._no_room() or self._keep(protocol.Driven(speed, False, end, drive.until))
+        if refusal is not None:
+            return refusal
         self.timeline.stop_when(condition)
         self._course.run_on(self.resource.header.scan, drive.scans, condition)
         if self._debugger.halt is not None:
@@ -319,6 +369,12 @@ class Loop:
         debugger, course = self._debugger, self._course
         runs = not self._stands()
         action = step.action
+        if action not in ("back", "reverse") and not self.timeline.past:
+            wanted = replace(self._driven(), paused=False, halted=action != "continue")
+            refusal = self._no_room() or self._keep(wanted)
+            if refusal is not None:
+                self._answer(step.ref, refusal, "")
+                return
         if action in ("back", "reverse"):
             if runs:
                 course.pause()
@@ -407,3 +463,13 @@ class Loop:
     def _recode(self, recode: Recode) -> None:
         if recode.engine is not None:
             self.programs.recode(recode.program, recode.engine)
+
+
+def driven_of(timeline: Timeline) -> protocol.Driven:
+    """How the run file says that the PLC is driven; as usual where it does not say that."""
+    kept = timeline.recording.driven
+    try:
+        driven = unpack(kept) if kept else None
+    except BadMessage:
+        driven = None
+    return driven if isinstance(driven, protocol.Driven) else protocol.Driven()

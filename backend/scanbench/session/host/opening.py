@@ -1,5 +1,6 @@
 """How the process of a PLC begins: with the run that its file holds, or a new one."""
 
+import errno
 from collections.abc import Mapping
 from pathlib import Path
 
@@ -10,6 +11,7 @@ from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.joined import Joined
+from scanbench.runtime.resource import is_no_space
 from scanbench.runtime.runfile import RunFileError
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.timeline import Timeline
@@ -23,16 +25,25 @@ from scanbench.session.runs import run_limit, sources_in
 from scanbench.verify.disturb_schedule import DisturbanceSchedule
 
 
+class NoSpace(BuildFailed):
+    """There is no room for the run."""
+
+
 def open_loop(start: protocol.Start, builder: Builder, link: Link) -> Loop:
     """The loop of a PLC, ready to run; `BuildFailed` says why there can be none. Tells the parent what it goes on with."""
     path = Path(start.run)
     fresh = not path.exists()
     try:
         timeline, programs = _begun(start, path, builder) if fresh else _resumed(start, path, builder)
+        if start.driven is not None:
+            timeline.drive(pack_body(start.driven))
     except (RunFileError, LookupError) as error:
         raise BuildFailed(f"{error}. A new run can begin: the old file is kept aside") from error
     except OSError as error:
-        raise BuildFailed(f"the run file {path} cannot be used: {error.strerror or error}") from error
+        message = f"the run file {path} cannot be used: {error.strerror or error}"
+        if is_no_space(error):
+            raise NoSpace(f"{message}. The PLC goes on when there is room: free some space on the disk") from error
+        raise BuildFailed(message) from error
     link.post(protocol.Ready(builder.message, programs.sources(timeline.version), fresh))
     return Loop(timeline, programs, link, start, builder.message, builder.tiers)
 
@@ -45,8 +56,10 @@ def _begun(start: protocol.Start, path: Path, builder: Builder) -> tuple[Timelin
         _agenda(builder),
     )  # fmt: skip
     refusal = timeline.submit(SetClock("server", wall_time()))
-    if isinstance(refusal, Refusal):
-        raise OSError(refusal.message)
+    if isinstance(refusal, Refusal):  # a run that has not begun must not take the place of one that waits aside
+        timeline.recording.close()
+        path.unlink()
+        raise OSError(errno.ENOSPC, refusal.message)
     return timeline, programs
 
 

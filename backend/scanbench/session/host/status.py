@@ -34,6 +34,8 @@ def host_state(timeline: Timeline, course: Course, past_by: str, note: str, debu
     resource = timeline.resource
     header = resource.header
     state, message = _state(resource, course.paused, note)
+    if state == "running" and timeline.recording.trouble:
+        state, message = "no_space", timeline.recording.trouble
     halt = debugger.halt
     if halt is not None:
         state, message = "halted", _halted(halt)
@@ -55,15 +57,12 @@ def host_state(timeline: Timeline, course: Course, past_by: str, note: str, debu
         live_scan=timeline.live_scan,
         past_by=past_by,
         target=course.target,
-        end=course.end,
-        until=course.condition.text if course.condition is not None else None,
         previous_version=previous_version(timeline),
         late_percent=round(course.late_percent, 2),
         late_us=round(course.pace.late_ns / max(1, course.pace.scans) / 1000, 1),
         worst_us=round(course.pace.worst_ns / 1000, 1),
         halt=halt,
         flavour=debugger.flavour,
-        halted=debugger.stands,
     )
 
 

@@ -1,0 +1,107 @@
+"""However its process ends, a PLC is driven again as it was: with nothing but its run file to know it by."""
+
+import os
+import signal
+from collections.abc import Callable
+from pathlib import Path
+
+import pytest
+
+from scanbench.session import protocol
+from scanbench.session.protocol import Driven, HostState
+from tests.session.child import Child
+
+COUNTING = "PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"
+Ended = Callable[[Child], None]
+
+
+@pytest.fixture(scope="module")
+def cache(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return tmp_path_factory.mktemp("cache")
+
+
+def killed(child: Child) -> None:
+    os.kill(child.process.pid, signal.SIGKILL)
+    child.process.wait()
+
+
+def ended(child: Child) -> None:
+    child.send(protocol.Quit())
+    child.process.wait()
+
+
+def drive(child: Child, action: str, speed: float | None = None, **more: object) -> int:
+    ack = child.ask(lambda ref: protocol.Drive(ref, action, speed, "Ann", **more), protocol.Ack)  # type: ignore[arg-type]
+    assert ack.ok, ack.message
+    return ack.scan
+
+
+@pytest.mark.parametrize("end", [killed, ended])
+def test_paused_at_this_scan_at_this_speed(tmp_path: Path, cache: Path, end: Ended) -> None:
+    run = tmp_path / "a.run"
+    with Child(run, COUNTING, cache) as child:
+        drive(child, "pause", 0)
+        for _ in range(3):
+            scan = drive(child, "scan")
+        end(child)
+    for end_again in (killed, ended):
+        with Child(run, COUNTING, cache) as child:
+            state = child.wait(HostState)
+            assert (state.state, state.scan, state.speed) == ("paused", scan, 0)
+            end_again(child)
+
+
+@pytest.mark.parametrize("end", [killed, ended])
+def test_on_its_way_to_where_it_was_asked_to_end(tmp_path: Path, cache: Path, end: Ended) -> None:
+    run = tmp_path / "a.run"
+    with Child(run, COUNTING, cache, Driven(paused=True)) as child:
+        drive(child, "continue", 0.01, scans=10_000)
+        end(child)
+    with Child(run, COUNTING, cache) as child:
+        state = child.wait(HostState)
+        assert (state.state, state.speed, state.target) == ("running", 0.01, "scan 10000")
+        drive(child, "continue", 0, until="Main.n >= 10000")
+        paused = child.wait(HostState, lambda state: state.state == "paused")
+        assert paused.scan == 10_000
+        end(child)
+    with Child(run, COUNTING, cache) as child:
+        state = child.wait(HostState)
+        assert (state.state, state.scan, state.speed) == ("paused", 10_000, 0)
+
+
+@pytest.mark.parametrize("end", [killed, ended])
+def test_at_max_it_runs_on_at_max(tmp_path: Path, cache: Path, end: Ended) -> None:
+    run = tmp_path / "a.run"
+    with Child(run, COUNTING, cache) as child:
+        drive(child, "speed", 0)
+        end(child)
+    with Child(run, COUNTING, cache) as child:
+        state = child.wait(HostState)
+        assert (state.state, state.speed) == ("running", 0)
+
+
+def test_what_the_server_asks_for_is_kept_before_it_is_told(tmp_path: Path, cache: Path) -> None:
+    run = tmp_path / "a.run"
+    with Child(run, COUNTING, cache, Driven(speed=0.5, paused=True)) as child:
+        killed(child)
+    with Child(run, COUNTING, cache) as child:
+        state = child.wait(HostState)
+        assert (state.state, state.scan, state.speed) == ("paused", 0, 0.5)
+
+
+@pytest.mark.parametrize("end", [killed, ended])
+def test_halted_it_stands_there_again_also_after_a_step(tmp_path: Path, cache: Path, end: Ended) -> None:
+    run = tmp_path / "a.run"
+    with Child(run, COUNTING, cache) as child:
+        assert child.step("pause").ok
+        scan = child.halted().scan
+        child.step("scan")
+        end(child)
+    with Child(run, COUNTING, cache) as child:
+        state = child.wait(HostState)
+        assert state.state == "halted"
+        assert state.scan in (scan, scan + 1)
+        assert child.step("continue").ok
+        end(child)
+    with Child(run, COUNTING, cache) as child:
+        assert child.wait(HostState).state == "running"
