@@ -3,9 +3,11 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 
+from sqlalchemy import Engine
 from sqlalchemy.exc import DataError, InterfaceError, OperationalError
 from sqlalchemy.orm import Session
 
+from scanbench.store.claim import Claim
 from scanbench.store.database import WRITING, open_database
 from scanbench.store.records import NotFound, NotStorable, StoreError
 from scanbench.store.tables import Instance, Project
@@ -14,14 +16,33 @@ from scanbench.store.tables import Instance, Project
 class Connected:
     """Base of the parts of `Store`."""
 
-    def __init__(self, url: str) -> None:
-        """Opens it, and brings its tables up to date; `StoreError` says why it cannot."""
-        self._engine = open_database(url)
+    def __init__(self, url: str, server: str | None = None) -> None:
+        """Opens it, and brings its tables up to date; `StoreError` says why it cannot.
+
+        A `server` claims it for itself, under this name; `InUse` when another one has.
+        """
+        self._claim: Claim | None = None
+
+        def claim(engine: Engine) -> None:
+            if server is not None:
+                self._claim = Claim(engine, server)
+
+        try:
+            self._engine = open_database(url, claim)
+        except BaseException:
+            self._release()
+            raise
         self._writer = self._engine.execution_options(**WRITING)
 
     def close(self) -> None:
-        """Gives the connections back."""
+        """Gives the connections back, and the claim."""
+        self._release()
         self._engine.dispose()
+
+    def _release(self) -> None:
+        if self._claim is not None:
+            self._claim.release()
+            self._claim = None
 
     @contextmanager
     def _reading(self) -> Iterator[Session]:

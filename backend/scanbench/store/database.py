@@ -1,7 +1,7 @@
 """Opening a database: the engine, SQLite's settings, and the migrations, run at every opening."""
 
 import os
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from contextlib import contextmanager
 from pathlib import Path
 from sqlite3 import Connection as SqliteConnection
@@ -28,8 +28,8 @@ def database_url(data: Path) -> str:
     return named or f"sqlite:///{(data / 'scanbench.db').absolute()}"
 
 
-def open_database(url: str) -> Engine:
-    """An engine on a database that has today's tables."""
+def open_database(url: str, claim: Callable[[Engine], None] = lambda _: None) -> Engine:
+    """An engine on a database that has today's tables. `claim` comes first: the tables of another server stay as they are."""
     try:
         address = make_url(url)
         if address.drivername in ("postgres", "postgresql"):
@@ -43,6 +43,7 @@ def open_database(url: str) -> Engine:
     if engine.dialect.name == "sqlite":
         _prepare_sqlite(engine)
     try:
+        claim(engine)
         _migrate(engine)
     except (SQLAlchemyError, OSError) as error:
         engine.dispose()
@@ -52,6 +53,9 @@ def open_database(url: str) -> Engine:
         engine.dispose()
         message = f"the database {address.render_as_string()} was written by another version of Scanbench: {error}"
         raise StoreError(f"{message}. Use that version, or another database") from error
+    except StoreError:
+        engine.dispose()
+        raise
     return engine
 
 

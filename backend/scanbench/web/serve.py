@@ -1,5 +1,6 @@
 """Starts the server: binds, prints the address with its token when it is ready, serves until Ctrl-C."""
 
+import os
 import socket
 from collections.abc import Callable
 from contextlib import closing, suppress
@@ -37,12 +38,17 @@ def serve(
     with _bind(host, port, announce) as sock:
         try:
             data_dir.mkdir(parents=True, exist_ok=True)
-            with claimed(data_dir), closing(Store(database_url(data_dir))) as store:
+            with claimed(data_dir), closing(Store(database_url(data_dir), _name(data_dir))) as store:
                 port = sock.getsockname()[1]
                 gate = Gate(token or kept_token(data_dir), port, known_hosts([host]), kept_guests(data_dir), public)
                 _run(sock, host, Workbench(store, data_dir), gate, announce)
         except (InUse, StoreError, NoModels) as error:
             raise CannotServe(str(error)) from error
+
+
+def _name(data_dir: Path) -> str:
+    """What another server says of this one; PostgreSQL keeps 63 bytes of it."""
+    return f"{socket.gethostname()}, process {os.getpid()}, --data {data_dir.resolve()}"
 
 
 def _run(sock: socket.socket, host: str, bench: Workbench, gate: Gate, announce: Callable[[str], None]) -> None:

@@ -113,4 +113,3 @@ def _value(server: Server, instance: int, path: str) -> int:
 
 def _number(text: str) -> int:
     return int(text[3:], 16) if text.startswith("16#") else int(text)
-
