@@ -37,6 +37,16 @@ export class Editor {
     return this.region.locator('.view-line').filter({ hasText: new RegExp(pattern) });
   }
 
+  /** Above a text that ran in the past: which version it is. */
+  get pastNote(): Locator {
+    return this.region.getByRole('status').filter({ hasText: 'Program version' });
+  }
+
+  /** The live values of a name, as they are shown after the lines that mention it. */
+  inlineValue(name: string): Locator {
+    return this.region.locator('.inlinerow > span').filter({ hasText: new RegExp(`^${name}`) }).locator('b').first();
+  }
+
   get conflict(): Locator {
     return this.region.getByRole('region', { name: 'Save conflict' });
   }

@@ -190,5 +190,51 @@ test('the address of a scan is opened by a colleague', async ({ openAs }) => {
   });
 });
 
+test('the past before a build shows the text, the values and the version of its scan', async ({ openAs }) => {
+  const ann = await openAs('Ann');
+  await ann.runs();
+  await expect.poll(() => ann.top.scan()).toBeGreaterThan(20);
+  const main = ann.editor('Main.st');
+  await main.addBelow('uptime    : TIME;', '  extra     : DINT := 7;');
+  await main.addBelow('uptime := TIME();', '  extra := extra + 1;');
+  await main.build();
+  await expect(ann.statusBar).toContainText('Program version 2');
+  await ann.watch.add('Main.extra');
+  await ann.watch.add('Main.uptime');
+  await ann.watch.add('Main.parts.total');
+  await expect.poll(() => ann.watch.number('Main.extra')).toBeGreaterThan(7);
+  await expect(main.inlineValue('extra')).toBeVisible();
+  await main.caretAfter('extra := extra + 1;');
+  await main.type(' // mine');
+
+  await test.step('text, values and version are those of version 1, and nothing can be typed', async () => {
+    await ann.timeline.goTo(10);
+    await expect(ann.timeline.banner).toBeVisible();
+    await expect(ann.statusBar).toContainText('Program version 1');
+    await expect(ann.top.picker).toContainText('version 1');
+    await expect(main.pastNote).toContainText('Program version 1');
+    await expect(main.pastNote).toContainText('Your unsaved text is kept');
+    await expect(main.line('uptime := TIME();')).toBeVisible();
+    await expect(main.line('extra')).toHaveCount(0);
+    await expect(ann.watch.row('Main.extra')).toContainText('not in version 1');
+    await expect(main.inlineValue('uptime')).toHaveText((await ann.watch.value('Main.uptime').textContent()) ?? '');
+    await expect(main.inlineValue('extra')).toHaveCount(0);
+    await main.caretAfter('uptime := TIME();');
+    await main.type('typed');
+    await expect(main.line('typed')).toHaveCount(0);
+  });
+
+  await test.step('live again, the own text is back, with what is not saved', async () => {
+    await ann.timeline.returnToLive();
+    await expect(ann.statusBar).toContainText('Program version 2');
+    await expect(ann.top.picker).toContainText('version 2');
+    await expect(main.pastNote).toHaveCount(0);
+    await expect(main.line('extra := extra + 1; // mine')).toBeVisible();
+    await expect(main.saveButton).toBeEnabled();
+    await expect.poll(() => ann.watch.number('Main.extra')).toBeGreaterThan(7);
+    await expect(main.inlineValue('extra')).toBeVisible();
+  });
+});
+
 /** As the page writes it, with thin gaps. */
 const grouped = (scan: number) => String(scan).replace(/\B(?=(\d{3})+(?!\d))/g, '\u2009');

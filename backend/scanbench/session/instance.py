@@ -234,7 +234,13 @@ class Instance:
                 self._answer(message.ref, message)
             case protocol.ForcesAre() if message.ref is not None:
                 self._answer(message.ref, message)
-            case protocol.Ack() | protocol.Found() | protocol.Previewed() | protocol.PreviewedErrors():
+            case (
+                protocol.Ack()
+                | protocol.Found()
+                | protocol.SourcesOf()
+                | protocol.Previewed()
+                | protocol.PreviewedErrors()
+            ):
                 self._answer(message.ref, message)
             case _ if isinstance(message, DebugAnswer) and message.ref is not None:
                 self._answer(message.ref, message)
@@ -335,6 +341,12 @@ class Instance:
         """Members of a path, completions of a text."""
         answer = await self._ask(lambda ref: protocol.Lookup(ref, kind, text))
         assert isinstance(answer, protocol.Found)
+        return answer
+
+    async def sources_of(self, version: int) -> protocol.SourcesOf:
+        """What a version of the program was made of when it ran here."""
+        answer = await self._ask(lambda ref: protocol.WantSources(ref, version))
+        assert isinstance(answer, protocol.SourcesOf)
         return answer
 
     async def ask(self, make: Callable[[int], object]) -> object:

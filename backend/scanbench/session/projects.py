@@ -91,6 +91,10 @@ class Projects:
         sources = await self.sources(id) | dict(edited)
         return await self._checker.check(sources, self.model(project.model))
 
+    async def declared(self, sources: Sources) -> CheckOutcome:
+        """What sources declare that were built before."""
+        return await self._checker.check(sources.files, self.model(sources.model))
+
     async def built(self, id: int, version: int | None = None) -> Sources | None:
         """A build that was accepted: the last one, or that of a `version`."""
         project = await self.get(id)

@@ -194,6 +194,14 @@ class Lookup:
 
 
 @dataclass(frozen=True, slots=True)
+class WantSources:
+    """What a version of the program is made of, as it is kept in the run; answered with `SourcesOf`."""
+
+    ref: int
+    version: int
+
+
+@dataclass(frozen=True, slots=True)
 class Quit:
     """Ends the process."""
 
@@ -398,6 +406,15 @@ class Watching:
 
     ref: int | None
     items: tuple[WatchItem, ...]
+
+
+@dataclass(frozen=True, slots=True)
+class SourcesOf:
+    """Answer to `WantSources`; no sources: why."""
+
+    ref: int
+    sources: Sources | None
+    message: str = ""
 
 
 @dataclass(frozen=True, slots=True)

@@ -32,7 +32,7 @@ from scanbench.session.refused import Refused
 from scanbench.session.trace_protocol import TracesAre
 from scanbench.session.tracing import Tracing
 from scanbench.session.watches import Watches
-from scanbench.store.records import InstanceRow, Json
+from scanbench.store.records import InstanceRow, Json, NotFound
 from scanbench.verify.disturb import DisturbanceInfo
 
 LOG_LINES = 500
@@ -376,6 +376,13 @@ class Session:
     async def look_up(self, kind: str, text: str) -> protocol.Found:
         """`members` of a path, what `complete`s a text, or the `instances` of a POU."""
         return await self._instance.look_up(kind, text)
+
+    async def sources_of(self, version: int) -> protocol.Sources:
+        """What a version of the program was made of when it ran here; `NotFound` when it never did."""
+        found = await self._instance.sources_of(version)
+        if found.sources is None:
+            raise NotFound(found.message)
+        return found.sources
 
     def _unwatch(self, ids: Sequence[int]) -> None:
         if ids:

@@ -112,6 +112,14 @@ class CheckResult(Wire):
     checks: list[EmbeddedCheck] = Field(description="none while there are errors")
 
 
+class ProgramText(Wire):
+    """A version of the program as it ran in an instance, whatever the files of the project say since."""
+
+    version: int
+    files: dict[str, str] = Field(description="path -> text")
+    pous: list[Pou]
+
+
 class LostVariable(Wire):
     """A variable that an online change cannot keep: it begins with its initial value."""
 

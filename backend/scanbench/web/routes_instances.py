@@ -14,7 +14,7 @@ from scanbench.store.records import Limits, NotFound
 from scanbench.web import messages as wire
 from scanbench.web import translate
 from scanbench.web.auth import user_of
-from scanbench.web.messages_base import Id, Scan
+from scanbench.web.messages_base import Id, Scan, Version
 from scanbench.web.messages_errors import ErrorHistoryRow
 from scanbench.web.reach import Bench, SocketBench
 from scanbench.web.socket import Client
@@ -133,6 +133,14 @@ async def on_instances_of(bench: Bench, instance: Id, pou: str) -> list[wire.Sym
     """The instances of a POU in the running program, at most 1,000."""
     found = await bench.session(instance).look_up("instances", pou)
     return list(map(translate.symbol, found.symbols))
+
+
+@router.get("/instances/{instance}/program")
+async def on_program(bench: Bench, instance: Id, version: Version) -> wire.ProgramText:
+    """The text of a program version that ran here: in the past the text is that of the scan."""
+    sources = await bench.session(instance).sources_of(version)
+    found = await bench.projects.declared(sources)
+    return wire.ProgramText(version=version, files=sources.files, pous=list(map(translate.pou, found.pous)))
 
 
 @router.get("/instances/{instance}/errors")

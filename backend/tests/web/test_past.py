@@ -45,6 +45,25 @@ def test_who_wrote_it_and_what_changed(server: Server) -> None:
         assert server.http.get(f"{path}/changes", params={"first": 1, "last": 800}).status_code == 422
 
 
+def test_the_text_of_a_version_is_what_ran(server: Server) -> None:
+    instance = server.instance("told", MODEL, main=PROGRAM)
+    project = server.http.get(f"/api/instances/{instance}").json()["project"]["id"]
+    newer = PROGRAM.replace("level : INT;", "level : INT; extra : INT;")
+    file = server.http.get(f"/api/projects/{project}/files/main.st").json()
+    saved = {"text": newer, "version": file["version"]}
+    assert server.http.put(f"/api/projects/{project}/files/main.st", json=saved).status_code == 200
+    with server.browser(instance) as browser:
+        paused(browser)
+        built = server.http.post(f"/api/projects/{project}/build", json={"agreed": True}).json()
+        assert built["ok"], built
+        version = built["project"]["version"]
+        path = f"/api/instances/{instance}/program"
+        told = [server.http.get(path, params={"version": each}).json() for each in (version - 1, version)]
+        assert [each["files"]["main.st"] for each in told] == [PROGRAM, newer]
+        assert [each["pous"][0]["name"] for each in told] == ["Main", "Main"]
+        assert server.http.get(path, params={"version": version + 1}).status_code == 404
+
+
 def test_a_replay_with_another_error_is_compared(server: Server) -> None:
     instance = server.instance("what if", MODEL, main=PROGRAM)
     path = f"/api/instances/{instance}"

@@ -538,6 +538,7 @@ export const english = {
   "watch.label": "Watch",
   "watch.members": "{count} members",
   "watch.noinstance": "No virtual PLC is chosen. Choose one at the top left to see its values.",
+  "watch.notinversion": "not in version {version}",
   "watch.notfound": "not known",
   "watch.offers": "Matching variables and addresses",
   "watch.readonly": "read-only",

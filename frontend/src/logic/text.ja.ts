@@ -536,6 +536,7 @@ export const japanese: Record<TextKey, string> = {
   "watch.label": "ウォッチ",
   "watch.members": "メンバ {count}",
   "watch.noinstance": "仮想 PLC が選ばれていません。左上で選んでください。",
+  "watch.notinversion": "バージョン {version} にはありません",
   "watch.notfound": "不明",
   "watch.offers": "該当する変数とアドレス",
   "watch.readonly": "読出し専用",

@@ -138,4 +138,11 @@ export const pastEnglish = {
   "writer.task": "Task",
   "writer.title": "Who last wrote {path}",
   "writer.value": "Value behind it",
+  "past.text": "Program version {version}, as it ran in this scan: read-only.",
+  "past.text.kept": "The text of now comes back with the live scan.",
+  "past.text.unsaved": "Your unsaved text is kept, and comes back with the live scan.",
+  "past.text.loading": "Program version {version}: its text is being fetched.",
+  "past.text.none": "Program version {version} has no file {path}.",
+  "past.text.refused": "The text of program version {version} cannot be shown: {message}",
+  "past.text.readonly": "This is what ran in the past. Return to live to edit the text.",
 } as const;

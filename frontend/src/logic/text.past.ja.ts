@@ -137,4 +137,11 @@ export const pastJapanese: Record<keyof typeof pastEnglish, string> = {
   "writer.task": "タスク",
   "writer.title": "{path} に最後に書いたもの",
   "writer.value": "書込み後の値",
+  "past.text": "プログラムバージョン {version}（このスキャンで実行されたもの）: 読み取り専用。",
+  "past.text.kept": "ライブに戻ると現在のテキストが表示されます。",
+  "past.text.unsaved": "未保存のテキストは保持されており、ライブに戻ると表示されます。",
+  "past.text.loading": "プログラムバージョン {version} のテキストを取得中。",
+  "past.text.none": "プログラムバージョン {version} にファイル {path} はありません。",
+  "past.text.refused": "プログラムバージョン {version} のテキストを表示できません: {message}",
+  "past.text.readonly": "これは過去に実行されたテキストです。編集するにはライブに戻ってください。",
 };

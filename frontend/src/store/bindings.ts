@@ -6,6 +6,7 @@ import { useBench } from "./bench";
 import { messageOf } from "./documents";
 import { useForces } from "./forces";
 import { isAway } from "./members";
+import { usePlc } from "./plc";
 
 const AGAIN = 2000;
 
@@ -70,6 +71,13 @@ async function ask(path: string): Promise<void> {
 
 useBench.subscribe((now, before) => {
   if (now.instance?.id !== before.instance?.id) useBindings.setState({ of: new Map() });
+});
+
+// In the past each scan has bindings of its own.
+usePlc.subscribe(({ state: now }, { state: before }) => {
+  if (now?.program_version !== before?.program_version) useBindings.setState({ of: new Map() });
+  const moved = now?.past ? now.scan !== before?.scan : before?.past;
+  if (moved) want(looking.keys());
 });
 
 useForces.subscribe((now, before) => {

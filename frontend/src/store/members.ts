@@ -18,6 +18,11 @@ export function resetMembers(instance: number | null): void {
   useMembers.setState({ instance, of: new Map(), refused: new Map() });
 }
 
+// Also when the past is shown: what was fetched are the variables of another program.
+usePlc.subscribe(({ state: now }, { state: before }) => {
+  if (now && before && now.program_version !== before.program_version) resetMembers(useMembers.getState().instance);
+});
+
 /** Whether the PLC cannot tell its variables now: before it runs, and while it is switched off. */
 export function isAway(): boolean {
   const { state } = usePlc.getState();

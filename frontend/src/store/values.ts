@@ -82,6 +82,16 @@ export function forgetIds(): void {
   byId.clear();
 }
 
+/** The program that is shown has no such variable: what was read of it before is no value of it. */
+export function forgetValue(path: string): void {
+  const entry = entries.get(path);
+  if (!entry) return;
+  entry.known = false;
+  entry.symbol = null;
+  dirty.add(entry);
+  schedule();
+}
+
 /** Nobody here watches this path any more. Others may: their frames still name its id, and its slot may be another's by then. */
 export function drop(path: string, id: number): void {
   const entry = entries.get(path);

@@ -3,7 +3,7 @@ import { create } from "zustand";
 import { newRef } from "../wire/send";
 import { link } from "../wire/socket";
 import type { PlcSymbol, Refusal, Watched } from "../wire/types";
-import { assign, drop, forgetIds } from "./values";
+import { assign, drop, forgetIds, forgetValue } from "./values";
 
 interface Watches {
   symbols: ReadonlyMap<string, PlcSymbol>;
@@ -80,6 +80,7 @@ export function onWatching(items: readonly Watched[], moved: boolean): void {
     else symbols.delete(path);
     if (refusal) refusals.set(path, refusal);
     else refusals.delete(path);
+    if (!symbol) forgetValue(path);
     if (id !== null && symbol) {
       ids.set(path, id);
       assign(path, id, symbol);

@@ -11,6 +11,7 @@ import { type Answer, send } from "../wire/send";
 import type { WatchEntry } from "../wire/types";
 import { keep, recall } from "./keep";
 import { loadMembers, useMembers } from "./members";
+import { usePlc } from "./plc";
 import { changeMark, currentText } from "./values";
 import { useWatches, watch } from "./watches";
 import { editList, loadWatchLists, told, undoEdit, useWatchLists } from "./watchlists";
@@ -87,6 +88,10 @@ export async function refreshMembers(): Promise<void> {
   const paths = [...get().open].sort((a, b) => a.length - b.length);
   for (const path of paths) await loadMembers(path);
 }
+
+usePlc.subscribe(({ state: now }, { state: before }) => {
+  if (now && before && now.program_version !== before.program_version) void refreshMembers();
+});
 
 // ---- what is watched --------------------------------------------------------------------------------------------------
 

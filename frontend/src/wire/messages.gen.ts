@@ -705,6 +705,26 @@ export interface paths {
         patch?: never;
         trace?: never;
     };
+    "/api/instances/{instance}/program": {
+        parameters: {
+            query?: never;
+            header?: never;
+            path?: never;
+            cookie?: never;
+        };
+        /**
+         * On Program
+         * @description The text of a program version that ran here: in the past the text is that of the scan.
+         */
+        get: operations["on_program_api_instances__instance__program_get"];
+        put?: never;
+        post?: never;
+        delete?: never;
+        options?: never;
+        head?: never;
+        patch?: never;
+        trace?: never;
+    };
     "/api/instances/{instance}/record": {
         parameters: {
             query?: never;
@@ -4210,6 +4230,23 @@ export interface components {
             project: number;
             /** Scan */
             scan: number;
+        };
+        /**
+         * ProgramText
+         * @description A version of the program as it ran in an instance, whatever the files of the project say since.
+         */
+        ProgramText: {
+            /**
+             * Files
+             * @description path -> text
+             */
+            files: {
+                [key: string]: string;
+            };
+            /** Pous */
+            pous: components["schemas"]["Pou"][];
+            /** Version */
+            version: number;
         };
         /** Project */
         Project: {
@@ -7725,6 +7762,39 @@ export interface operations {
                 };
                 content: {
                     "application/json": components["schemas"]["ModelInfo"];
+                };
+            };
+        };
+    };
+    on_program_api_instances__instance__program_get: {
+        parameters: {
+            query: {
+                version: number;
+            };
+            header?: never;
+            path: {
+                instance: number;
+            };
+            cookie?: never;
+        };
+        requestBody?: never;
+        responses: {
+            /** @description Client Error */
+            "4XX": {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["Refusal"];
+                };
+            };
+            /** @description Successful Response */
+            200: {
+                headers: {
+                    [name: string]: unknown;
+                };
+                content: {
+                    "application/json": components["schemas"]["ProgramText"];
                 };
             };
         };

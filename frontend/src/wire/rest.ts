@@ -20,6 +20,7 @@ import type {
   PlcSymbol,
   PreviewedErrors,
   ProgramState,
+  ProgramText,
   Project,
   Reaction,
   RecordInfo,
@@ -216,6 +217,9 @@ export const rest = {
 
   symbols: (instance: number, path: string) =>
     json<PlcSymbol[]>("GET", `/instances/${instance}/symbols?path=${encodeURIComponent(path)}`),
+  /** A version of the program as it ran in the instance. */
+  programText: (instance: number, version: number) =>
+    json<ProgramText>("GET", `/instances/${instance}/program?version=${version}`),
   /** The instances of a POU in the program that runs. */
   instancesOf: (instance: number, pou: string) =>
     json<PlcSymbol[]>("GET", `/instances/${instance}/instances-of?pou=${encodeURIComponent(pou)}`),

@@ -87,6 +87,7 @@ export type Accepted = Shapes["Accepted"];
 export type CellRef = Shapes["CellRef"];
 export type NewSweep = Required<Shapes["NewSweep"]>;
 export type ProgramState = Shapes["ProgramState"];
+export type ProgramText = Shapes["ProgramText"];
 export type Reaction = Shapes["Reaction"];
 export type ReactionState = Shapes["ReactionState"];
 export type Sweep = Shapes["Sweep"];

@@ -129,6 +129,8 @@ class Host:
                 self._loop.traces.read(message)
             case protocol.Lookup():
                 self._link.post(look_up(self._loop.resource.program, message))
+            case protocol.WantSources():
+                self._link.post(self._loop.programs.told(message))
             case protocol.Submit(command=Arm(wanted=Wanted(start=Start(kind="line")))):
                 self._builds.observe(message, self._loop)
             case protocol.Build() | protocol.Preview() | protocol.RollBack():

@@ -7,7 +7,7 @@ from scanbench.check.program import Program
 from scanbench.engines.engine import Engine
 from scanbench.runtime.programs import Loaded, NoProgram
 from scanbench.session.host.build import Builder, BuildFailed
-from scanbench.session.protocol import Sources
+from scanbench.session.protocol import Sources, SourcesOf, WantSources
 
 _KEPT = 3
 """Programs that stay ready: the one that runs, and those that were run or looked at last."""
@@ -41,6 +41,13 @@ class HostPrograms:
         if version not in self._sources:
             raise NoProgram(f"there is no program version {version} in this run")
         return self._sources[version]
+
+    def told(self, wanted: WantSources) -> SourcesOf:
+        """What a version is made of, for the parent; in any thread."""
+        try:
+            return SourcesOf(wanted.ref, self.sources(wanted.version))
+        except NoProgram as error:
+            return SourcesOf(wanted.ref, None, str(error))
 
     def get(self, version: int) -> Loaded:
         """The program of a version, ready to run."""

@@ -5,6 +5,7 @@ import { t } from "../../logic/text";
 import { editBreakpoint, useDebug } from "../../store/debug";
 import { build, save, useDocuments } from "../../store/documents";
 import { useNavigation } from "../../store/navigate";
+import { shownText } from "../../store/shownProgram";
 import { Menu, type MenuItem } from "../../ui/Menu";
 import { BreakpointForm } from "./BreakpointForm";
 import "./checks";
@@ -18,7 +19,7 @@ import { lineMenu } from "./gutterMenu";
 import { markHalt } from "./halt";
 import "./hover";
 import { showInlineValues } from "./inlineValues";
-import { modelOf } from "./models";
+import { modelOf, pastModel } from "./models";
 import { editor, KeyCode, KeyMod, monospaceFont, options } from "./monaco";
 import { markReaction } from "./reaction";
 import { addTabActions } from "./tab";
@@ -28,22 +29,30 @@ import { addWatchAction, dragToWatch } from "./watchAction";
 import { addWriterAction } from "./writerAction";
 import { openZone, type Zone } from "./zone";
 
-/** The text of one file in Monaco. */
-export default function CodeView({ path }: { path: string }) {
+/** Where one was in a text before the past took its place. */
+const left = new Map<string, editor.ICodeEditorViewState | null>();
+
+/** The text of one file in Monaco; `past` is its text as it ran, which cannot be edited. */
+export default function CodeView({ path, past }: { path: string; past: string | null }) {
   const host = useRef<HTMLDivElement>(null);
   const view = useRef<editor.IStandaloneCodeEditor | null>(null);
   const [menu, setMenu] = useState<{ items: readonly MenuItem[]; at: { x: number; y: number } } | null>(null);
 
   useEffect(() => {
     const document = useDocuments.getState().open[path];
-    if (!host.current || !document) return;
+    if (!host.current || (past === null && !document)) return;
+    const ran = past === null ? null : pastModel(path, past);
     const code = editor.create(host.current, {
       ...options,
       fontFamily: monospaceFont(),
-      model: modelOf(path, document.text),
+      model: ran ?? modelOf(path, document?.text ?? ""),
+      readOnly: ran !== null,
+      readOnlyMessage: { value: t("past.text.readonly") },
       ariaLabel: t("editor.of", { path }),
     });
     view.current = code;
+    if (ran === null && left.has(path)) code.restoreViewState(left.get(path) ?? null);
+    if (ran === null) left.delete(path);
     addActions(code, path);
     addTabActions(code);
     addWatchAction(code, path);
@@ -83,10 +92,12 @@ export default function CodeView({ path }: { path: string }) {
       hideValues();
       noDrag();
       breakpoints.dispose();
+      if (ran === null) left.set(path, code.saveViewState());
       code.dispose();
+      ran?.dispose();
       view.current = null;
     };
-  }, [path]);
+  }, [path, past]);
 
   return (
     <>
@@ -111,8 +122,8 @@ function Editing({ path, view }: { path: string; view: { current: editor.IStanda
     };
   }, [editing, view]);
   if (!editing || !zone) return null;
-  const { pous, open } = useDocuments.getState();
-  const pou = pouAt(pous, path, editing.line, open[path]?.text);
+  const { pous, text } = shownText(path);
+  const pou = pouAt(pous, path, editing.line, text);
   const close = () => {
     editBreakpoint(null);
     view.current?.focus();

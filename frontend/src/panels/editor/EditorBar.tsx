@@ -8,6 +8,7 @@ import { showPanel } from "../../store/navigate";
 import { useForbidden, useLost, usePlc } from "../../store/plc";
 import { toggleChecks, usePrefs } from "../../store/prefs";
 import { rollBack } from "../../store/run";
+import { shownText, useShownProgram } from "../../store/shownProgram";
 import { Icon } from "../../ui/Icon";
 import { StateWord } from "../../ui/StateWord";
 import type { Pou } from "../../wire/types";
@@ -21,7 +22,8 @@ const INSTANCED: readonly Pou["kind"][] = ["program", "function_block", "class"]
 
 /** Above the text: what it declares, what the last build said, save and build. */
 export function EditorBar({ path }: { path: string }) {
-  const pous = useDocuments((documents) => documents.pous);
+  useDocuments((documents) => documents.pous);
+  useShownProgram();
   const cursor = useDocuments((documents) => (documents.active === path ? documents.cursor : null));
   const dirty = useDocuments((documents) => isDirty(documents.open[path]));
   const building = useDocuments((documents) => documents.build.phase === "running");
@@ -29,7 +31,7 @@ export function EditorBar({ path }: { path: string }) {
   const forbidden = useForbidden("build");
   const unbuildable = lost ? t("lost.nobuild") : forbidden;
   // Not a subscription: the caret moves with every change of the text.
-  const text = useDocuments.getState().open[path]?.text;
+  const { text, pous } = shownText(path);
   const line = useLooked(path, cursor);
   const found = pouAt(pous, path, line, text) ?? firstOf(pous, path);
   // A global variable is one line of the file, not what the file is about.

@@ -1,6 +1,7 @@
 import { lazy, Suspense, useEffect, useRef, useState } from "react";
 import { t } from "../../logic/text";
-import { messageOf, openDocument, useDocuments } from "../../store/documents";
+import { isDirty, messageOf, openDocument, useDocuments } from "../../store/documents";
+import { useShownProgram } from "../../store/shownProgram";
 import { Icon } from "../../ui/Icon";
 import { Conflict } from "./Conflict";
 import { EditorBar } from "./EditorBar";
@@ -8,12 +9,42 @@ import { EditorBar } from "./EditorBar";
 // Monaco is 4 MB: it comes after the page stands.
 const CodeView = lazy(() => import("./CodeView"));
 
+const Code = (props: { path: string; past: string | null }) => (
+  <Suspense fallback={<p className="lonely faint">{t("editor.loading")}</p>}>
+    <CodeView {...props} />
+  </Suspense>
+);
+
+/** Which version is shown, and what is kept meanwhile; or why there is nothing to be shown. */
+function PastNote({ path, version }: { path: string; version: number }) {
+  const { program, refused } = useShownProgram();
+  const dirty = useDocuments((documents) => isDirty(documents.open[path]));
+  const says =
+    refused !== null
+      ? t("past.text.refused", { version, message: refused })
+      : program === null
+        ? t("past.text.loading", { version })
+        : program.files[path] === undefined
+          ? t("past.text.none", { version, path })
+          : t("past.text", { version });
+  return (
+    <p className="trouble st past" role="status">
+      <Icon name="past" small />
+      <span>
+        <b>{says}</b> {t(dirty ? "past.text.unsaved" : "past.text.kept")}
+      </span>
+    </p>
+  );
+}
+
 /** The editor of one file. */
 export function EditorPanel({ path }: { path: string }) {
   const project = useDocuments((documents) => documents.project);
   const loaded = useDocuments((documents) => documents.open[path] !== undefined);
   const conflict = useDocuments((documents) => documents.open[path]?.conflict ?? null);
   const deletedBy = useDocuments((documents) => documents.open[path]?.deletedBy ?? null);
+  const version = useShownProgram((shown) => shown.version);
+  const ran = useShownProgram((shown) => shown.program?.files[path]);
   const [refused, setRefused] = useState<string | null>(null);
 
   const of = useRef<number | null>(null);
@@ -30,7 +61,7 @@ export function EditorPanel({ path }: { path: string }) {
   return (
     <section className="pane flexcol" aria-label={t("editor.of", { path })} data-pane="editor">
       <EditorBar path={path} />
-      {refused !== null && (
+      {refused !== null && version === null && (
         <p className="lonely">
           <Icon name="error" />
           {t("editor.refused", { path, message: refused })}
@@ -45,12 +76,11 @@ export function EditorPanel({ path }: { path: string }) {
           </span>
         </p>
       )}
-      {loaded && (
-        <Suspense fallback={<p className="lonely faint">{t("editor.loading")}</p>}>
-          <CodeView path={path} />
-        </Suspense>
-      )}
-      {conflict && <Conflict path={path} theirs={conflict} />}
+      {version !== null && <PastNote path={path} version={version} />}
+      {version === null
+        ? loaded && <Code path={path} past={null} />
+        : ran !== undefined && <Code path={path} past={ran} />}
+      {conflict && version === null && <Conflict path={path} theirs={conflict} />}
     </section>
   );
 }

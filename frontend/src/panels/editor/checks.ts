@@ -3,6 +3,7 @@ import { t } from "../../logic/text";
 import { useDocuments } from "../../store/documents";
 import { usePrefs } from "../../store/prefs";
 import type { EmbeddedCheck } from "../../wire/types";
+import { PAST } from "./models";
 import { Emitter, type editor, languages } from "./monaco";
 import { LANGUAGE } from "./st";
 
@@ -12,6 +13,8 @@ languages.registerInlayHintsProvider(LANGUAGE, {
   onDidChangeInlayHints: changed.event,
   provideInlayHints: (model: editor.ITextModel, range) => {
     if (!usePrefs.getState().checks) return { hints: [], dispose: () => undefined };
+    // They are told of the texts as they are edited, not of what ran in the past.
+    if (model.uri.scheme === PAST) return { hints: [], dispose: () => undefined };
     const path = model.uri.path.slice(1);
     const here = useDocuments.getState().checks.filter((check) => check.file === path);
     const seen = here.filter((check) => range.startLineNumber <= check.line && check.line <= range.endLineNumber);

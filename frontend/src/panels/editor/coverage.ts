@@ -3,7 +3,7 @@
 import { lineIn } from "../../logic/breakpoints";
 import { linesOf, sitesIn } from "../../logic/coverage";
 import { useCoverage } from "../../store/coverage";
-import { useDocuments } from "../../store/documents";
+import { shownText } from "../../store/shownProgram";
 import type { editor } from "./monaco";
 
 /** Marks them in this editor while coverage is on. Returns how to stop. */
@@ -11,8 +11,8 @@ export function markCoverage(code: editor.IStandaloneCodeEditor, path: string): 
   const marks = code.createDecorationsCollection();
   const mark = () => {
     const { coverage } = useCoverage.getState();
-    const document = useDocuments.getState().open[path];
-    const shown = (line: number) => (document ? lineIn(document.savedText, document.text, line) : line);
+    const { built, text } = shownText(path);
+    const shown = (line: number) => lineIn(built, text, line);
     const lines = coverage?.on ? linesOf(sitesIn(coverage, path)) : [];
     marks.set(lines.map(({ line, look, says }) => bar(shown(line), look, says)));
   };

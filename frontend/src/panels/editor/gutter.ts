@@ -3,6 +3,7 @@ import { isShared, lineIn, lineOf, sayBreakpoint, shapeOf } from "../../logic/br
 import { t } from "../../logic/text";
 import { moveBreakpoints, removeBreakpoints, toggleBreakpoint, useDebug } from "../../store/debug";
 import { isDirty, useDocuments } from "../../store/documents";
+import { shownText } from "../../store/shownProgram";
 import type { BreakpointInfo } from "../../wire/types";
 import { editor } from "./monaco";
 
@@ -38,7 +39,8 @@ export function showBreakpoints(code: editor.IStandaloneCodeEditor, path: string
   function mark(): void {
     const next = groupsOf(path);
     const lines = next.map(lineNow);
-    const edited = isDirty(useDocuments.getState().open[path]);
+    const { built, text } = shownText(path);
+    const edited = text !== built;
     groups = next;
     marks.set(next.map((group, index) => decoration(group, lines[index] ?? group.line, edited)));
   }
@@ -111,13 +113,13 @@ function groupsOf(path: string): Group[] {
 }
 
 function shownLine(path: string, line: number): number {
-  const document = useDocuments.getState().open[path];
-  return document ? lineIn(document.savedText, document.text, line) : line;
+  const { built, text } = shownText(path);
+  return lineIn(built, text, line);
 }
 
 export function builtLine(path: string, line: number): number {
-  const document = useDocuments.getState().open[path];
-  return document ? lineIn(document.text, document.savedText, line) : line;
+  const { built, text } = shownText(path);
+  return lineIn(text, built, line);
 }
 
 function decoration({ line, all }: Group, shown: number, edited: boolean): editor.IModelDeltaDecoration {

@@ -2,8 +2,8 @@
 import { lineIn } from "../../logic/breakpoints";
 import { t } from "../../logic/text";
 import { breakpointsAt, useDebug } from "../../store/debug";
-import { useDocuments } from "../../store/documents";
 import { usePlc } from "../../store/plc";
+import { shownText } from "../../store/shownProgram";
 import { frameNow, useStack } from "../../store/stack";
 import type { editor } from "./monaco";
 
@@ -35,8 +35,8 @@ export function markHalt(code: editor.IStandaloneCodeEditor, path: string): () =
 
 /** The program runs the built text; the one that is shown may have been edited since. */
 export function shownLine(path: string, line: number): number {
-  const document = useDocuments.getState().open[path];
-  return document ? lineIn(document.savedText, document.text, line) : line;
+  const { built, text } = shownText(path);
+  return lineIn(built, text, line);
 }
 
 /** The same for what React draws. */

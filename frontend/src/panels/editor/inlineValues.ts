@@ -12,6 +12,7 @@ import { useMembers } from "../../store/members";
 import { usePlc } from "../../store/plc";
 import { usePrefs } from "../../store/prefs";
 import { loadNames, pathOf, useSeenAs } from "../../store/seenAs";
+import { shownText } from "../../store/shownProgram";
 import { frameNow, frameText, useStack } from "../../store/stack";
 import { bindCell } from "../../store/values";
 import { watch } from "../../store/watches";
@@ -114,14 +115,13 @@ function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, R
   const wanted = new Map<number, RowWanted>();
   const model = code.getModel();
   if (!model) return wanted;
-  const { pous, open } = useDocuments.getState();
-  const document = open[path];
+  const { pous, text, built } = shownText(path);
   const standing = standingIn(path);
-  const stands = standing && document ? lineIn(document.savedText, document.text, standing.line) : null;
+  const stands = standing && lineIn(built, text, standing.line);
   const on = usePrefs.getState().inline;
   const here = frameNow()?.scanbench?.pou.toUpperCase();
   for (const { startLineNumber, endLineNumber } of code.getVisibleRanges()) {
-    let pou = pouAt(pous, path, startLineNumber, document?.text);
+    let pou = pouAt(pous, path, startLineNumber, text);
     if (pou && on && hasValues(pou)) void loadNames(pou.name);
     let comment = false;
     for (let line = startLineNumber; line <= endLineNumber; line += 1) {

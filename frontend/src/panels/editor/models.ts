@@ -19,6 +19,13 @@ const SEVERITY: Record<Problem["severity"], MarkerSeverity> = {
   info: MarkerSeverity.Info,
 };
 
+/** Scheme of texts as they ran. */
+export const PAST = "scanbench-past";
+
+/** A text as it ran in the past: nobody edits it, and its editor disposes of it. */
+export const pastModel = (path: string, text: string): editor.ITextModel =>
+  editor.createModel(text, isTable(path) ? TEXT : LANGUAGE, Uri.from({ scheme: PAST, path: `/${path}` }));
+
 export function modelOf(path: string, text: string): editor.ITextModel {
   const known = models.get(path);
   if (known && !known.isDisposed()) return known;

@@ -1,6 +1,6 @@
 /** The name under the mouse or the caret, and the POU around it. */
 import { pouAt } from "../../logic/explorer";
-import { useDocuments } from "../../store/documents";
+import { shownText } from "../../store/shownProgram";
 import type { Pou } from "../../wire/types";
 import type { editor, IPosition } from "./monaco";
 
@@ -29,7 +29,7 @@ export const pathOfModel = (model: editor.ITextModel) => model.uri.path.slice(1)
 export const hasValues = ({ kind }: Pou) => kind !== "type" && kind !== "interface";
 
 export function pouOf(model: editor.ITextModel, line: number): Pou | undefined {
-  const { pous, open } = useDocuments.getState();
   const path = pathOfModel(model);
-  return pouAt(pous, path, line, open[path]?.text);
+  const { pous, text } = shownText(path);
+  return pouAt(pous, path, line, text);
 }

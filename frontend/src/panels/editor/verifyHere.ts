@@ -1,6 +1,6 @@
 /** What *Verify range* takes: the lines that are selected, or all of the POU at the caret. The page has it before it has Monaco. */
 import { pouAt } from "../../logic/explorer";
-import { useDocuments } from "../../store/documents";
+import { shownText } from "../../store/shownProgram";
 import { verifyLines, verifyPou } from "../../store/verify";
 import type { editor } from "./monaco";
 
@@ -21,8 +21,8 @@ export function verifyHere(path: string): void {
     verifyLines(path, first, endColumn === 1 && last > first ? last - 1 : last);
     return;
   }
-  const { pous, open } = useDocuments.getState();
-  const pou = pouAt(pous, path, selection?.startLineNumber ?? 1, open[path]?.text);
+  const { pous, text } = shownText(path);
+  const pou = pouAt(pous, path, selection?.startLineNumber ?? 1, text);
   if (pou) verifyPou(pou.name);
-  else verifyLines(path, 1, open[path]?.text.split("\n").length ?? 1);
+  else verifyLines(path, 1, text.split("\n").length);
 }

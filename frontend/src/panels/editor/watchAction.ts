@@ -2,9 +2,9 @@
 import { pouAt } from "../../logic/explorer";
 import { pathsIn } from "../../logic/paths";
 import { t } from "../../logic/text";
-import { useDocuments } from "../../store/documents";
 import { useMembers } from "../../store/members";
 import { loadNames, seenAsNow } from "../../store/seenAs";
+import { shownText } from "../../store/shownProgram";
 import { addToWatch } from "../../store/watchlist";
 import { type editor, KeyCode, KeyMod } from "./monaco";
 
@@ -89,8 +89,8 @@ async function watchNames(path: string, line: number, names: readonly string[]):
 
 /** What is written in a POU means variables of the instance that it is seen as, or globals. */
 export async function pathsOf(path: string, line: number, names: readonly string[]): Promise<string[]> {
-  const { pous, open } = useDocuments.getState();
-  const pou = pouAt(pous, path, line, open[path]?.text);
+  const { pous, text } = shownText(path);
+  const pou = pouAt(pous, path, line, text);
   if (pou) await loadNames(pou.name);
   return names.map((name) => pathIn(pou?.name, name));
 }

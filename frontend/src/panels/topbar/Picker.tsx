@@ -3,6 +3,7 @@ import { t } from "../../logic/text";
 import { chooseInstance, chooseProject, refreshApp, useBench } from "../../store/bench";
 import { showCompare } from "../../store/comparisons";
 import { showInstances } from "../../store/instances";
+import { useShownProgram } from "../../store/shownProgram";
 import { openTraceImport } from "../../store/traceImport";
 import { openVerifyRecords } from "../../store/verifyRecords";
 import { Icon } from "../../ui/Icon";
@@ -17,6 +18,7 @@ type Asking = "project" | "instance" | null;
 export function Picker() {
   const { app, project, instance } = useBench();
   const [asking, setAsking] = useState<Asking>(null);
+  const shown = useShownProgram(({ version }) => version);
   const model = instance?.model ?? project?.model ?? "";
   return (
     <>
@@ -32,7 +34,7 @@ export function Picker() {
           <span className="cut">
             {project ? `${project.name}${instance ? ` / ${instance.name}` : ""}` : t("picker.none")}
           </span>
-          <span className="cut">{project ? t("picker.about", { model, version: project.version }) : ""}</span>
+          <span className="cut">{project ? t("picker.about", { model, version: shown ?? project.version }) : ""}</span>
         </span>
         <Icon name="chev-d" />
       </MenuButton>

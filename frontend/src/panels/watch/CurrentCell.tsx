@@ -2,6 +2,7 @@ import { useEffect, useRef } from "react";
 import { t } from "../../logic/text";
 import type { Format } from "../../logic/values";
 import { useMembers } from "../../store/members";
+import { useShownProgram } from "../../store/shownProgram";
 import { bindCell } from "../../store/values";
 import { Icon } from "../../ui/Icon";
 import type { PlcSymbol, Refusal } from "../../wire/types";
@@ -17,10 +18,11 @@ interface Props {
 
 /** The live value. Frames write into this cell directly; React only places it. */
 export function CurrentCell({ path, from, symbol, refusal, format }: Props) {
+  const version = useShownProgram((shown) => shown.version);
   if (refusal) {
     return (
       <span className="val sum bad" role="gridcell" title={refusal.message}>
-        {t("watch.notfound")}
+        {version === null ? t("watch.notfound") : t("watch.notinversion", { version })}
       </span>
     );
   }

@@ -1,0 +1,75 @@
+/** The text of the program that is shown: in a past that another version ran, that version's, as it ran; else what is edited. */
+import { create } from "zustand";
+import { rest } from "../wire/rest";
+import type { Pou, ProgramText } from "../wire/types";
+import { useBench } from "./bench";
+import { messageOf, useDocuments } from "./documents";
+import { usePlc } from "./plc";
+
+interface ShownProgram {
+  /** The version that ran in the past that is shown; null while the texts of the project are shown. */
+  version: number | null;
+  /** Null until it has come. */
+  program: ProgramText | null;
+  refused: string | null;
+}
+
+const edited: ShownProgram = { version: null, program: null, refused: null };
+
+export const useShownProgram = create<ShownProgram>(() => edited);
+
+/** What ran does not change any more: each version is fetched once. */
+const fetched = new Map<string, ProgramText>();
+
+function follow(): void {
+  const { state } = usePlc.getState();
+  const { instance, project } = useBench.getState();
+  const version = state?.past && state.program_version !== project?.version ? state.program_version : null;
+  if (version === useShownProgram.getState().version) return;
+  if (version === null || instance === null) {
+    useShownProgram.setState(edited);
+    return;
+  }
+  const key = `${instance.id}:${version}`;
+  const program = fetched.get(key) ?? null;
+  useShownProgram.setState({ version, program, refused: null });
+  if (program === null) void load(instance.id, version, key);
+}
+
+async function load(instance: number, version: number, key: string): Promise<void> {
+  const shown = () => useShownProgram.getState().version === version && useBench.getState().instance?.id === instance;
+  try {
+    const program = await rest.programText(instance, version);
+    fetched.set(key, program);
+    if (shown()) useShownProgram.setState({ program });
+  } catch (error) {
+    if (shown()) useShownProgram.setState({ refused: messageOf(error) });
+  }
+}
+
+usePlc.subscribe((now, before) => now.state !== before.state && follow());
+useBench.subscribe((now, before) => {
+  if (now.instance?.id !== before.instance?.id) {
+    fetched.clear();
+    useShownProgram.setState(edited);
+  }
+  follow();
+});
+
+interface ShownText {
+  text: string;
+  /** What the program that is shown was built from; lines that the PLC names are lines of it. */
+  built: string;
+  pous: readonly Pou[];
+}
+
+/** A file as its editor shows it. */
+export function shownText(path: string): ShownText {
+  const { version, program } = useShownProgram.getState();
+  if (version !== null) {
+    const text = program?.files[path] ?? "";
+    return { text, built: text, pous: program?.pous ?? [] };
+  }
+  const { open, pous } = useDocuments.getState();
+  return { text: open[path]?.text ?? "", built: open[path]?.savedText ?? "", pous };
+}
