@@ -1,5 +1,6 @@
 /** Every message of the server to the store that it concerns. The switch is exhaustive: a new message is a compile error. */
 
+import { t } from "../logic/text";
 import { onProject, useBench } from "../store/bench";
 import { setClock } from "../store/clock";
 import { onComparison, refreshComparisons } from "../store/comparisons";
@@ -23,11 +24,13 @@ import { onWatching, watchAgain } from "../store/watches";
 import { refreshMembers } from "../store/watchlist";
 import { catchUpLists, onWatchList } from "../store/watchlists";
 import { dap } from "../wire/dap";
+import { sayNoConnection } from "../wire/rest";
 import { abandon, settle } from "../wire/send";
 import { link } from "../wire/socket";
 import type { ServerMessage } from "../wire/types";
 
 export function connectStores(): void {
+  sayNoConnection((reading) => t(reading ? "lost.read" : "lost.change"));
   link.listen({
     onStatus: (status) => {
       usePlc.setState({ link: status });

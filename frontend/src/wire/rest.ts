@@ -47,6 +47,30 @@ export class Refused extends Error {
   }
 }
 
+/** A request that nobody answered: the server does not run, or cannot be reached. The browser's own words for it say nothing. */
+export class NoConnection extends Error {
+  /** `reading`: nothing was to be changed by it. */
+  constructor(reading: boolean) {
+    super(words(reading));
+  }
+}
+
+let words = (_reading: boolean): string => "No connection to the server.";
+
+/** What it says, in the language of the page. */
+export function sayNoConnection(inWords: (reading: boolean) => string): void {
+  words = inWords;
+}
+
+/** Waits for something of the network. What breaks off there is a TypeError in every browser. */
+async function reached<T>(method: string, work: Promise<T>): Promise<T> {
+  try {
+    return await work;
+  } catch (error) {
+    throw error instanceof TypeError ? new NoConnection(method === "GET") : error;
+  }
+}
+
 export async function request(
   method: string,
   path: string,
@@ -54,12 +78,15 @@ export async function request(
   alsoFine: number[] = [],
   signal?: AbortSignal,
 ): Promise<Response> {
-  const response = await fetch(`/api${path}`, {
+  const response = await reached(
     method,
-    credentials: "same-origin",
-    ...(signal ? { signal } : {}),
-    ...(body === undefined ? {} : body instanceof Blob ? { body } : inJson(body)),
-  });
+    fetch(`/api${path}`, {
+      method,
+      credentials: "same-origin",
+      ...(signal ? { signal } : {}),
+      ...(body === undefined ? {} : body instanceof Blob ? { body } : inJson(body)),
+    }),
+  );
   if (response.ok || alsoFine.includes(response.status)) return response;
   throw new Refused(response.status, await readRefusal(response));
 }
@@ -79,8 +106,18 @@ async function readRefusal(response: Response): Promise<Refusal> {
   }
 }
 
+/** A file or samples; large enough that the connection may go away in the middle. */
+export async function blob(path: string): Promise<Blob> {
+  return reached("GET", (await request("GET", path)).blob());
+}
+
+export async function bytes(path: string): Promise<ArrayBuffer> {
+  return reached("GET", (await request("GET", path)).arrayBuffer());
+}
+
 export async function json<T>(method: string, path: string, body?: unknown, signal?: AbortSignal): Promise<T> {
-  return (await (await request(method, path, body, [], signal)).json()) as T;
+  const response = await request(method, path, body, [], signal);
+  return (await reached(method, response.json())) as T;
 }
 
 const filePath = (project: number, path: string) =>
@@ -128,8 +165,7 @@ export const rest = {
     savedErrors(request("PUT", `/projects/${project}/user-errors`, draft, [409])),
   importUserErrors: (project: number, file: Blob, how: "replace" | "add", version: number) =>
     savedErrors(request("POST", `/projects/${project}/user-errors/import?how=${how}&version=${version}`, file, [409])),
-  exportUserErrors: async (project: number): Promise<Blob> =>
-    (await request("GET", `/projects/${project}/user-errors/export`)).blob(),
+  exportUserErrors: (project: number): Promise<Blob> => blob(`/projects/${project}/user-errors/export`),
 
   models: () => json<ModelSummary[]>("GET", "/models"),
   model: (name: string) => json<ModelInfo>("GET", `/models/${encodeURIComponent(name)}`),

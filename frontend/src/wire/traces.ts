@@ -1,5 +1,5 @@
 /** Traces of an instance, their samples, and records of them: the routes of `web/routes_traces.py`. */
-import { json, request } from "./rest";
+import { blob, bytes, json, request } from "./rest";
 import type { DefineTrace, Flight, TraceInfo, TraceRecordInfo } from "./types";
 
 /** Where samples come from. */
@@ -24,9 +24,9 @@ export const traces = {
     const query = new URLSearchParams({ first: String(first) });
     if (last !== null) query.set("last", String(last));
     if (points !== null) query.set("points", String(points));
-    return (await request("GET", `${base(instance, source)}/samples?${query}`)).arrayBuffer();
+    return bytes(`${base(instance, source)}/samples?${query}`);
   },
-  csv: async (instance: number, source: Source) => (await request("GET", `${base(instance, source)}/csv`)).blob(),
+  csv: (instance: number, source: Source) => blob(`${base(instance, source)}/csv`),
   keep: (instance: number, trace: number, name: string) =>
     json<TraceRecordInfo>("POST", `${at(instance, trace)}/keep`, { name }),
   records: (project: number) => json<TraceRecordInfo[]>("GET", `/projects/${project}/trace-records`),

@@ -1,5 +1,5 @@
 /** Run files in and out: large, so that how far it got can be seen, and it can be given up. */
-import { Refused } from "./rest";
+import { NoConnection, Refused } from "./rest";
 import type { Instance, Refusal } from "./types";
 
 /** Share that is done, 0 to 1; null while the size is not known. */
@@ -13,7 +13,9 @@ export async function readBody(response: Response, onProgress: Progress): Promis
   const parts: BlobPart[] = [];
   let got = 0;
   for (;;) {
-    const { done, value } = await reader.read();
+    const { done, value } = await reader.read().catch(() => {
+      throw new NoConnection(true);
+    });
     if (done) return new Blob(parts, { type: "application/octet-stream" });
     parts.push(value);
     got += value.byteLength;
@@ -32,7 +34,7 @@ export function importRun(name: string, file: Blob, onProgress: Progress, signal
       if (request.status < 300) resolve(JSON.parse(request.responseText) as Instance);
       else reject(new Refused(request.status, refusalIn(request)));
     };
-    request.onerror = () => reject(new Refused(0, { message: "No connection to the server.", near: [] }));
+    request.onerror = () => reject(new NoConnection(false));
     request.onabort = () => reject(new DOMException("given up", "AbortError"));
     signal.addEventListener("abort", () => request.abort());
     request.send(file);

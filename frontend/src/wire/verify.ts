@@ -1,5 +1,5 @@
 /** Verifications of an instance, their rows, and what was kept of them: the routes of `web/routes_verify.py`. */
-import { json, request } from "./rest";
+import { blob, json, request } from "./rest";
 import type {
   DriveVerification,
   NewVerification,
@@ -33,8 +33,7 @@ export const verify = {
     json<VerificationInfo>("POST", `/verifications/${verification}/cells`, { cells }),
   uses: (verification: number, scan: number, call: number) =>
     json<VerifyUse[]>("GET", `/verifications/${verification}/uses?scan=${scan}&call=${call}`),
-  export: async (of: VerifySource, format: ExportFormat): Promise<Blob> =>
-    (await request("GET", `${base(of)}/export?format=${format}`)).blob(),
+  export: async (of: VerifySource, format: ExportFormat): Promise<Blob> => blob(`${base(of)}/export?format=${format}`),
   keep: (verification: number, name: string) =>
     json<VerificationRecord>("POST", `/verifications/${verification}/keep`, { name }),
 };

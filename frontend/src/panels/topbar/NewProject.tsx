@@ -1,4 +1,4 @@
-import { useEffect, useState } from "react";
+import { useCallback, useEffect, useState } from "react";
 import { t } from "../../logic/text";
 import { createProject, useBench } from "../../store/bench";
 import { messageOf } from "../../store/documents";
@@ -17,7 +17,10 @@ export function NewProject({ onClose }: { onClose: () => void }) {
   const [instance, setInstance] = useState(() => freeName((taken ?? []).map((known) => known.name)));
   const [refused, setRefused] = useState<{ instance: boolean; why: string } | null>(null);
 
-  useEffect(() => {
+  const [creating, setCreating] = useState(false);
+
+  const loadModels = useCallback(() => {
+    setRefused(null);
     listModels()
       .then((all) => {
         setModels(all);
@@ -25,8 +28,15 @@ export function NewProject({ onClose }: { onClose: () => void }) {
       })
       .catch((error: unknown) => setRefused({ instance: false, why: messageOf(error) }));
   }, []);
+  useEffect(loadModels, [loadModels]);
 
   async function create(): Promise<void> {
+    if (creating) return;
+    // Without a model there is nothing to make; the one that is asked for again may come now.
+    if (model === "") {
+      loadModels();
+      return;
+    }
     if (name.trim() === "" || instance.trim() === "") {
       setRefused({ instance: name.trim() !== "", why: t("name.missing") });
       return;
@@ -36,11 +46,14 @@ export function NewProject({ onClose }: { onClose: () => void }) {
       setRefused({ instance: true, why: t("newproject.taken", { name: instance.trim() }) });
       return;
     }
+    setCreating(true);
     try {
       await createProject(name.trim(), model, instance.trim());
       onClose();
     } catch (error) {
       setRefused({ instance: false, why: messageOf(error) });
+    } finally {
+      setCreating(false);
     }
   }
 
@@ -57,8 +70,8 @@ export function NewProject({ onClose }: { onClose: () => void }) {
           <button type="button" className="btn quiet" onClick={onClose}>
             {t("cancel")}
           </button>
-          <button type="submit" className="btn primary">
-            {t("create")}
+          <button type="submit" className="btn primary" disabled={creating || (model === "" && refused === null)}>
+            {model === "" && refused !== null ? t("lost.now") : t("create")}
           </button>
         </>
       }
@@ -71,7 +84,13 @@ export function NewProject({ onClose }: { onClose: () => void }) {
       />
       <label className="field">
         <span>{t("newproject.model")}</span>
-        <select className="inp" value={model} onChange={(event) => setModel(event.target.value)}>
+        <select
+          className="inp"
+          value={model}
+          disabled={models.length === 0}
+          onChange={(event) => setModel(event.target.value)}
+        >
+          {models.length === 0 && <option value="">{t("newproject.loading")}</option>}
           {models.map((known) => (
             <option key={known.name} value={known.name}>
               {known.vendor ? `${known.vendor} ${known.name}` : known.name}
