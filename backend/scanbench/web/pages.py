@@ -33,7 +33,7 @@ _WORDS = {
         "This is not the key of this server. Compare it with the address that was printed when the server started.",
         "Key, or the whole address with <code>?token=</code>",
         "Open",
-        "Who has no key asks the person who started the server: it is in the address that was printed at the start, after "
+        "If you have no key, ask the person who started the server: it is in the address that was printed at the start, after "
         "<code>?token=</code>, and in the file <code>token</code> in the server's data directory.",
     ),
     "ja": _Words(
