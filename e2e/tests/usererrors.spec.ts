@@ -53,6 +53,7 @@ test('errors of the own machine: defined in the browser, built, raised, recorded
 
   await test.step('what is not saved stays when the tab is closed, and the page is loaded anew', async () => {
     await jo.page.getByTestId('close:usererrors').click();
+    await jo.page.getByRole('dialog').getByRole('button', { name: 'Keep in this browser' }).click();
     await expect(own.pane).toBeHidden();
     await jo.page.reload();
     await jo.runs();

@@ -5,6 +5,8 @@ import { useBench } from "../store/bench";
 import { closeDocument, holdsUnsaved, useDocuments } from "../store/documents";
 import { keep, recall } from "../store/keep";
 import { onNavigate } from "../store/navigate";
+import { CloseUnsaved } from "./CloseUnsaved";
+import { closeByHand } from "./closing";
 import { components, HeaderEnd, PanelTab } from "./dockParts";
 import {
   closeFiles,
@@ -72,7 +74,7 @@ export function Dock({ ref }: { ref: Ref<DockHandle> }) {
     event.preventDefault();
     event.stopPropagation();
     const strip = tab?.parentElement;
-    closeTab(api.current, panel);
+    closeByHand(api.current, panel);
     strip?.querySelector<HTMLElement>(".dv-active-tab")?.focus();
   }
 
@@ -86,6 +88,7 @@ export function Dock({ ref }: { ref: Ref<DockHandle> }) {
         disableFloatingGroups
         onReady={onReady}
       />
+      <CloseUnsaved onClosed={(panel) => api.current && closeTab(api.current, panel)} />
     </div>
   );
 }

@@ -20,7 +20,8 @@ import { type PageName, pageOf } from "../store/navigate";
 import { usePlc } from "../store/plc";
 import { Icon, type IconName } from "../ui/Icon";
 import type { Pou } from "../wire/types";
-import { closeTab, fileOf } from "./layout";
+import { closeByHand } from "./closing";
+import { fileOf } from "./layout";
 import { PageEnd } from "./PageEnd";
 import { PAGES, pageComponents } from "./pages";
 import { Start } from "./Start";
@@ -46,9 +47,9 @@ export const components = {
 export function PanelTab({ api, containerApi }: IDockviewPanelHeaderProps) {
   const path = fileOf(api.id);
   const page = pageOf(api.id);
-  if (page) return <PageTab page={page} api={api} onClose={() => closeTab(containerApi, api.id)} />;
+  if (page) return <PageTab page={page} api={api} onClose={() => closeByHand(containerApi, api.id)} />;
   if (path === undefined) return <FixedTab api={api} />;
-  return <FileTab path={path} api={api} onClose={() => closeTab(containerApi, api.id)} />;
+  return <FileTab path={path} api={api} onClose={() => closeByHand(containerApi, api.id)} />;
 }
 
 type PanelApi = IDockviewPanelHeaderProps["api"];

@@ -6,6 +6,7 @@ import { t } from "../logic/text";
 import { rest } from "../wire/rest";
 import type { BuildResult, EmbeddedCheck, FileInfo, FileText, OnlineChange, Pou, Problem } from "../wire/types";
 import { forget, keep, recall } from "./keep";
+import { openFile, showPanel } from "./navigate";
 import { usePlc } from "./plc";
 
 export interface Document {
@@ -137,6 +138,22 @@ export function closeDocument(path: string): void {
   });
 }
 
+/** Whether this browser really holds the unsaved text: its storage may be full or switched off. */
+export function isKept(path: string): boolean {
+  const { project, open } = get();
+  return project !== null && recall<Draft | null>(draftKey(project, path), null)?.text === open[path]?.text;
+}
+
+/** Takes the unsaved text away, here and in the browser's storage. */
+export function discardEdits(path: string): void {
+  const { project, open } = get();
+  const document = open[path];
+  if (project === null || !document) return;
+  forget(draftKey(project, path));
+  patch(path, { text: document.savedText });
+  scheduleCheck();
+}
+
 export function edit(path: string, text: string): void {
   const { project, open } = get();
   const document = open[path];
@@ -223,6 +240,8 @@ export async function build(agreed = false, chosen: readonly number[] | null = n
     for (const document of Object.values(open)) {
       if (!(await save(document.path))) {
         set({ build: { phase: "idle" } });
+        if (get().open[document.path]?.conflict) openFile(document.path);
+        else showPanel("problems");
         return;
       }
     }
@@ -230,6 +249,8 @@ export async function build(agreed = false, chosen: readonly number[] | null = n
   } catch (error) {
     set({ build: refusedBuild(messageOf(error)) });
   }
+  const { build: now } = get();
+  if (now.phase === "done" && !now.ok) showPanel("problems");
 }
 
 const refusedBuild = (message: string): BuildState => ({

@@ -129,7 +129,13 @@ export function onTraces(traces: readonly TraceInfo[]): void {
   const first = traces[0];
   set({ traces, source: gone ? (first ? { kind: "trace", id: first.id } : null) : source, records });
   const now = shownOf(get());
-  if (now && before && now.source.id === before.source.id && now.generation !== before.generation && !goesOn(before, now))
+  if (
+    now &&
+    before &&
+    now.source.id === before.source.id &&
+    now.generation !== before.generation &&
+    !goesOn(before, now)
+  )
     rewind(now);
   else if (now && !before) rewind(now);
 }

@@ -17,7 +17,7 @@ export function DebugSwitches({ path }: { path: string }) {
     <>
       <span className="debugswitch" title={t("debug.inline.hint")}>
         <Switch on={inline} onToggle={toggleInline}>
-          {t("debug.inline")}
+          <span className="words">{t("debug.inline")}</span>
         </Switch>
       </span>
       {online && <CoverageSwitch path={path} />}
@@ -34,7 +34,7 @@ function CoverageSwitch({ path }: { path: string }) {
   return (
     <span className="debugswitch row tight" title={facts ? t("coverage.since", facts) : t("coverage.hint")}>
       <Switch on={on} onToggle={() => void setCoverage(!on)}>
-        {t("coverage.label")}
+        <span className="words">{t("coverage.label")}</span>
         {share !== null && <span className="mono"> {percent(share)}</span>}
       </Switch>
       {coverage && coverage.files.length > 0 && (

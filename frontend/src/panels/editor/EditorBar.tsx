@@ -37,38 +37,43 @@ export function EditorBar({ path }: { path: string }) {
   // A global variable is one line of the file, not what the file is about.
   const pou = found?.kind === "global" ? { name: path, kind: found.kind } : found;
   return (
-    <div className="sub edbar">
-      <span className="cut">{pou?.name ?? path}</span>
-      {pou && INSTANCED.includes(pou.kind) ? (
-        <SeenAs pou={pou.name} />
-      ) : (
-        pou && <span className="faint cut">{t(`kind.${pou.kind}`)}</span>
-      )}
-      <span className="grow" />
-      <BuildOutcome />
-      <RollBack />
-      <DebugSwitches path={path} />
-      <VerifyButton path={path} pou={found} />
-      <ChecksToggle />
-      <button
-        type="button"
-        className="btn quiet sm"
-        disabled={!dirty || lost}
-        title={lost ? t("lost.nosave") : t("save.hint")}
-        onClick={() => void save(path)}
-      >
-        {t("save")}
-      </button>
-      <button
-        type="button"
-        className="btn sm"
-        disabled={building || unbuildable !== null}
-        title={unbuildable ?? t("build.hint")}
-        onClick={() => void build()}
-      >
-        <Icon name="play" small />
-        {building ? t("building") : t("build")}
-      </button>
+    <div className="edbar">
+      <div className="sub edrow">
+        <span className="edinfo">
+          <span className="cut">{pou?.name ?? path}</span>
+          {pou && INSTANCED.includes(pou.kind) ? (
+            <SeenAs pou={pou.name} />
+          ) : (
+            pou && <span className="faint cut">{t(`kind.${pou.kind}`)}</span>
+          )}
+          <BuildOutcome />
+        </span>
+        <span className="edtools">
+          <RollBack />
+          <DebugSwitches path={path} />
+          <VerifyButton path={path} pou={found} />
+          <ChecksToggle />
+          <button
+            type="button"
+            className="btn quiet sm"
+            disabled={!dirty || lost}
+            title={lost ? t("lost.nosave") : t("save.hint")}
+            onClick={() => void save(path)}
+          >
+            {t("save")}
+          </button>
+          <button
+            type="button"
+            className="btn sm"
+            disabled={building || unbuildable !== null}
+            title={unbuildable ?? t("build.hint")}
+            onClick={() => void build()}
+          >
+            <Icon name="play" small />
+            {building ? t("building") : t("build")}
+          </button>
+        </span>
+      </div>
     </div>
   );
 }

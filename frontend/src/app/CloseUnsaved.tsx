@@ -1,0 +1,101 @@
+import { useState } from "react";
+import { baseName } from "../logic/paths";
+import { t } from "../logic/text";
+import { discardEdits, isDirty, isKept, save, useDocuments } from "../store/documents";
+import { discard, isEdited, saveUserErrors, useUserErrors } from "../store/userErrors";
+import { Dialog } from "../ui/Dialog";
+import { Icon } from "../ui/Icon";
+import { useClosing } from "./closing";
+import { fileOf } from "./layout";
+
+interface Held {
+  name: string;
+  /** Kept in this browser, so that closing the tab loses nothing. */
+  kept: boolean;
+  /** Why it is still not saved; null when it is. */
+  save: () => Promise<string | null>;
+  discard: () => Promise<void> | void;
+}
+
+/** Asks what becomes of the unsaved text of a tab that somebody closes. */
+export function CloseUnsaved({ onClosed }: { onClosed: (panel: string) => void }) {
+  const panel = useClosing((closing) => closing.panel);
+  if (panel === null) return null;
+  const path = fileOf(panel);
+  return <Question key={panel} held={path === undefined ? errors : file(path)} onDone={() => onClosed(panel)} />;
+}
+
+function Question({ held, onDone }: { held: Held; onDone: () => void }) {
+  const [refused, setRefused] = useState<string | null>(null);
+  const stay = () => useClosing.setState({ panel: null });
+  const close = () => {
+    stay();
+    onDone();
+  };
+  const saveAndClose = async () => {
+    const why = await held.save();
+    if (why === null) close();
+    else setRefused(why);
+  };
+  return (
+    <Dialog
+      title={t("close.title", { name: held.name })}
+      about={t(held.kept ? "close.about" : "close.unkept")}
+      width={520}
+      onClose={stay}
+      onSubmit={() => void saveAndClose()}
+      footer={
+        <>
+          <button type="button" className="btn danger" onClick={() => void Promise.resolve(held.discard()).then(close)}>
+            {t("close.discard")}
+          </button>
+          <span className="grow" />
+          <button type="button" className="btn quiet" onClick={stay}>
+            {t("cancel")}
+          </button>
+          {held.kept && (
+            <button type="button" className="btn" onClick={close}>
+              {t("close.keep")}
+            </button>
+          )}
+          <button type="submit" className="btn primary">
+            {t("save")}
+          </button>
+        </>
+      }
+    >
+      {refused === null ? (
+        <p className="desc">{t("close.hint")}</p>
+      ) : (
+        <p className="hint bad" role="alert">
+          <Icon name="error" small />
+          {refused}
+        </p>
+      )}
+    </Dialog>
+  );
+}
+
+const file = (path: string): Held => ({
+  name: baseName(path),
+  kept: isKept(path),
+  save: async () => {
+    if (await save(path)) return null;
+    const { open, trouble } = useDocuments.getState();
+    if (open[path]?.conflict) return t("close.conflict");
+    return isDirty(open[path]) ? (trouble ?? t("unsaved")) : null;
+  },
+  discard: () => discardEdits(path),
+});
+
+const errors: Held = {
+  name: t("usererrors.title"),
+  kept: true,
+  save: async () => {
+    await saveUserErrors();
+    const now = useUserErrors.getState();
+    if (now.conflict) return t("close.conflict");
+    return isEdited(now) ? (now.trouble ?? now.problems[0]?.message ?? t("unsaved")) : null;
+  },
+  discard,
+};

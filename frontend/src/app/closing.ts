@@ -1,0 +1,24 @@
+/** Closing a tab by hand: what is not saved is asked about first. */
+import type { DockviewApi } from "dockview-react";
+import { create } from "zustand";
+import { isDirty, useDocuments } from "../store/documents";
+import { isEdited, useUserErrors } from "../store/userErrors";
+import { closeTab, fileOf } from "./layout";
+
+interface Closing {
+  /** The panel that shall be closed, as long as the question is open. */
+  panel: string | null;
+}
+
+export const useClosing = create<Closing>(() => ({ panel: null }));
+
+export function closeByHand(dock: DockviewApi, panel: string): void {
+  if (holdsEdits(panel)) useClosing.setState({ panel });
+  else closeTab(dock, panel);
+}
+
+function holdsEdits(panel: string): boolean {
+  const path = fileOf(panel);
+  if (path !== undefined) return isDirty(useDocuments.getState().open[path]);
+  return panel === "usererrors" && isEdited(useUserErrors.getState());
+}
