@@ -9,7 +9,6 @@ from scanbench.check.program import Program
 from scanbench.check.standard.library import in_library
 from scanbench.check.symbols import RAW_TYPES, Symbol, around, roots
 from scanbench.check.types import ELEMENTARY, Kind, Record, Section
-from scanbench.check.unread import Owner, Reads
 from scanbench.plcmodel.areas import Area
 
 _SYSTEM = (
@@ -22,31 +21,16 @@ class Held(NamedTuple):
     """A variable that has a byte."""
 
     symbol: Symbol
-    block: str = ""
-    """The path of the library's block whose state it is: no statement reads it, but one reads an output of that block."""
-
-
-class _Inside(NamedTuple):
-    """Where a variable is, on the way down to it."""
-
-    owners: tuple[Owner, ...] = ()
-    private: bool = False
-    """Whether it is nobody's business unless a statement reads it."""
-    block: str = ""
-    """See `Held`."""
 
 
 class Holders:
-    """Names what a program keeps. What is only passed on (inputs of blocks, in-outs), private variables of blocks that nothing
-    reads, blocks of the library of which nothing reads an output, and what the compiler made have no name here.
+    """Names what a program keeps: all that the user declared, and the outputs of the library's blocks. What is only passed on
+    (in-outs, and unless they are wanted inputs of blocks), the inside of the library's blocks, and what the compiler made have no
+    name here."""
 
-    Variables of programs and outputs of the user's blocks are always named: people and panels look at them by their paths.
-    """
-
-    def __init__(self, program: Program, every: bool = False) -> None:
-        """`every`: all that the user declared, and the outputs of the library's blocks, whether anything reads it or not."""
-        self._layout, self._every = program.layout, every
-        self._reads = Reads(program)
+    def __init__(self, program: Program, inputs: bool = False) -> None:
+        """`inputs`: those of blocks, too."""
+        self._layout, self._inputs = program.layout, inputs
         self._library = {pou.instance.name for pou in program.pous if in_library(pou.span)}
         tops = [*_SYSTEM, *roots(program)]
         self._roots = sorted((each for each in tops if not each.slots and not _in_area(each)), key=_offset)
@@ -68,7 +52,7 @@ class Holders:
             if area is not None:
                 left |= (yield from self._in_area(offset + index, part)) << 8 * index
             elif part and (root := bisect_right(self._starts, offset + index) - 1) >= 0:
-                yield from self._down(self._roots[root], offset + index, part, _Inside())
+                yield from self._down(self._roots[root], offset + index, part)
         if left and area is not None:
             yield Held(self._raw(*area, offset, left))
 
@@ -83,52 +67,27 @@ class Holders:
             left &= ~(1 << symbol.bit) if symbol.bit is not None else 0xFF
         for symbol in known:
             if symbol.bit is None and left:
-                yield from self._down(symbol, offset, mask, _Inside())
+                yield from self._down(symbol, offset, mask)
                 left = 0
         return left
 
-    def _down(self, symbol: Symbol, offset: int, mask: int, inside: _Inside) -> Iterator[Held]:
+    def _down(self, symbol: Symbol, offset: int, mask: int) -> Iterator[Held]:
         """To the single values that have bits of the byte."""
         if not symbol.offset <= offset < symbol.offset + symbol.type.size:
             return
         if not symbol.expandable:
             if symbol.bit is None or mask >> symbol.bit & 1:
-                if not inside.private or self._reads.has(inside.owners, symbol.offset, symbol.type):
-                    yield Held(symbol)
-                elif inside.block:
-                    yield Held(symbol, inside.block)
+                yield Held(symbol)
             return
-        if self._every:
-            yield from self._each(symbol, offset, mask)
-            return
-        inside = self._into(symbol, inside)
+        of_library = isinstance(symbol.type, Record) and symbol.type.name in self._library
         of_block = symbol.type.kind is Kind.BLOCK and symbol.section != "PROGRAM"
         for each in around(symbol, offset):
             if each.slots or _in_area(each) or "$" in each.name:
                 continue
-            if of_block and each.section == Section.INPUT:
-                continue
-            private = inside.private or (of_block and each.section == Section.VAR)
-            yield from self._down(each, offset, mask, inside._replace(private=private))
-
-    def _each(self, symbol: Symbol, offset: int, mask: int) -> Iterator[Held]:
-        of_library = isinstance(symbol.type, Record) and symbol.type.name in self._library
-        for each in around(symbol, offset):
-            if each.slots or _in_area(each) or "$" in each.name:
+            if of_block and each.section == Section.INPUT and not self._inputs:
                 continue
             if not of_library or each.section == Section.OUTPUT:
-                yield from self._down(each, offset, mask, _Inside())
-
-    def _into(self, symbol: Symbol, inside: _Inside) -> _Inside:
-        """What is known of the members of a block or structure; of the elements of an array as much as of it."""
-        if not isinstance(symbol.type, Record):
-            return inside
-        owners = (*inside.owners, (symbol.type, symbol.offset))
-        if symbol.type.name not in self._library:
-            return inside._replace(owners=owners)
-        outputs = (each for each in symbol.type.members.values() if each.section is Section.OUTPUT)
-        used = any(self._reads.has(owners, symbol.offset + each.offset, each.type) for each in outputs)
-        return _Inside(owners, True, symbol.path if used else "")
+                yield from self._down(each, offset, mask)
 
     def _raw(self, area: Area, byte: int, offset: int, mask: int) -> Symbol:
         if mask & (mask - 1) == 0:

@@ -132,8 +132,9 @@ def sweep_errors(
 ) -> None:  # fmt: skip
     """Raise every error alone, from each state, and find out what the program does about it.
 
-    Each run is compared with the same run without the error. Exit 0; 1: an error is unhandled (never read, or read without
-    effect), or the program does not compile; 2: wrong usage; 130: interrupted, no error unhandled so far.
+    Each run is compared with the same run without the error. Exit 0; 1: an error is unhandled (never read, not reached,
+    only stored, or read without effect), or the program does not compile; 2: wrong usage; 130: interrupted, no error
+    unhandled so far.
     """
     for path in filter(None, (junit, html)):
         must_be_writable(path)
@@ -186,7 +187,10 @@ def _tell(result: SweepResult, unhandled: Sequence[Cell], as_json: bool) -> None
         some = f"{untried} of {count(len(result.cells), 'case')}"
         typer.echo(f"scanbench: {some}: the error could not be raised, so nothing is known of it there", err=True)
     if unhandled and not as_json:
-        typer.echo(f"scanbench: {count(len(unhandled), 'finding')}: an error is forgotten, or read in vain", err=True)
+        typer.echo(
+            f"scanbench: {count(len(unhandled), 'finding')}: an error is forgotten, not reached, only stored, or read in vain",
+            err=True,
+        )
 
 
 def _engine(choice: SweepEngine) -> MakeObserved:

@@ -7,7 +7,9 @@ from typing import Literal
 from scanbench.faults.reaction import Verdict
 
 Change = Literal["same", "better", "worse", "slower", "faster", "new", "gone"]
-_RANKS: dict[Verdict | None, int] = {"never_read": 0, None: 0, "no_effect": 1, "reacted": 2, "stopped": 2}
+_RANKS: dict[Verdict | None, int] = {
+    "never_read": 0, None: 0, "not_reached": 1, "no_effect": 2, "stored_only": 3, "reacted": 4, "stopped": 4,
+}  # fmt: skip
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,7 +1,7 @@
 """What differs between two runs, by variable, and since when.
 
-That a timer runs or a counter counts is no effect by itself: what comes of it is one. It is kept apart, for when nothing else
-differs.
+That something is stored is no effect by itself: what comes of it is one. State that still differs in the end and decides
+something is told apart from what is only stored.
 """
 
 from collections.abc import Iterator
@@ -12,6 +12,7 @@ from scanbench.check.holding import Held, Holders
 from scanbench.check.program import Program
 from scanbench.check.symbols import Symbol
 from scanbench.check.values import format_value
+from scanbench.faults.deciding import Deciding
 from scanbench.faults.error_memory import WORD, Words
 from scanbench.faults.reaction import Difference
 
@@ -21,11 +22,12 @@ _NAMED = 5_000
 
 
 class Names:
-    """How the variables of one program are called, and which are outputs of the PLC."""
+    """How the variables of one program are called, which are outputs of the PLC, and which decide something."""
 
     def __init__(self, program: Program) -> None:
         layout, model = program.layout, program.layout.model
         self.holders = Holders(program)
+        self.deciding = Deciding(program)
         self._outputs = [(layout.areas[each.area.name], each.first, each.last + 1) for each in model.fatal.outputs]
         self._outputs += [
             (layout.areas[each.area.name], each.first, each.first + each.words)
@@ -48,17 +50,16 @@ class Effects:
         """Bits that never differed until now."""
         self._buffer = np.empty_like(kept)
         self._found: dict[str, Difference] = {}
-        self._inside: dict[str, Difference] = {}
-        """Those inside of blocks of the library."""
-        self._blocks: dict[str, int] = {}
-        """Such blocks by their paths, and since when they differ."""
+        self._symbols: dict[str, Symbol] = {}
         self._words: set[int] = set()
         """Offsets of words of the model that were named as a whole."""
+        self._last: tuple[Words, Words] | None = None
         self.first: int | None = None
-        """The first scan behind which something differed, but for what is inside of blocks of the library."""
+        """The first scan behind which something differed that comes out of the program: an output, and the like."""
 
     def compare(self, scan: int, without: Words, value: Words) -> None:
         """The states behind a scan."""
+        self._last = without, value
         buffer = self._buffer
         np.bitwise_xor(without, value, out=buffer)
         np.bitwise_and(buffer, self._fresh, out=buffer)
@@ -68,36 +69,42 @@ class Effects:
         self._fresh[where] &= ~buffer[where]
         for held in self._named(where.tolist(), buffer[where].tolist()):
             symbol = held.symbol
-            found = self._inside if held.block else self._found
             raw = symbol.section == "address"
-            if symbol.path in found or (raw and symbol.offset & ~1 in self._words) or not self.complete:
+            if symbol.path in self._found or (raw and symbol.offset & ~1 in self._words) or not self.complete:
                 continue
-            found[symbol.path] = self._difference(scan, symbol, without, value)
+            self._found[symbol.path] = self._difference(scan, symbol, without, value)
+            self._symbols[symbol.path] = symbol
             if raw and symbol.bit is None:
                 self._words.add(symbol.offset)
-            if held.block:
-                self._blocks.setdefault(held.block, scan)
-            elif self.first is None:
+            if self.first is None and self._names.deciding.acts(symbol):
                 self.first = scan
 
     @property
     def complete(self) -> bool:
         """Whether all that differs was named."""
-        return len(self._found) + len(self._inside) < _NAMED
+        return len(self._found) < _NAMED
 
-    @property
     def under_way(self) -> dict[str, int]:
-        """Blocks of the library that differ inside, the first to do so first, and since when."""
-        return self._blocks
+        """State that differs in the end and decides something: variables, or blocks of the library that hold them, the first
+        to differ first, and since when."""
+        if self._last is None:
+            return {}
+        found: dict[str, int] = {}
+        without, value = self._last
+        for each in sorted(self._found.values(), key=lambda each: each.scan):
+            symbol = self._symbols[each.path]
+            if _shown(symbol, without) != _shown(symbol, value) and self._names.deciding.decides(symbol):
+                found.setdefault(self._names.deciding.block_of(symbol) or each.path, each.scan)
+        return found
 
     @property
     def count(self) -> int:
-        """So many variables differed; inside of blocks of the library where no other did."""
-        return len(self._found or self._inside)
+        """So many variables differed."""
+        return len(self._found)
 
     def shown(self) -> tuple[Difference, ...]:
         """The first of them, outputs first."""
-        ordered = sorted((self._found or self._inside).values(), key=lambda each: (not each.output, each.scan))
+        ordered = sorted(self._found.values(), key=lambda each: (not each.output, each.scan))
         return tuple(ordered[:SHOWN])
 
     def _named(self, where: list[int], bits: list[int]) -> Iterator[Held]:

@@ -8,7 +8,7 @@ from typing import Literal
 from scanbench.check.layout import Layout
 from scanbench.faults.details import choose
 from scanbench.faults.inject import Active, Generate, Origin, Recover
-from scanbench.faults.reaction import Reaction, Verdict
+from scanbench.faults.reaction import FINDINGS, Reaction, Verdict
 from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.model import ErrorEntry, Model
 from scanbench.runtime.command import Entry, Refusal, Swapped
@@ -45,7 +45,7 @@ class Swept:
     scans: int | None
 
 
-_WORST_FIRST: tuple[Verdict, ...] = ("never_read", "no_effect", "reacted", "stopped")
+_WORST_FIRST: tuple[Verdict, ...] = (*FINDINGS, "reacted", "stopped")
 
 
 def worst(found: Iterable[tuple[str, Swept]]) -> dict[str, Swept]:

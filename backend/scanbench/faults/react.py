@@ -21,6 +21,7 @@ from scanbench.faults.error_memory import Watched, Words, code_bits, kept_bits, 
 from scanbench.faults.inject import ACTIVE, Generate, Recover
 from scanbench.faults.observed import ObservedPrograms
 from scanbench.faults.reaction import FINDINGS, Line, Reaction, Reader, Verdict, What
+from scanbench.faults.readings import Readings
 from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.faults.tasks import Turns, triggers
 from scanbench.faults.trace import Trace
@@ -34,7 +35,7 @@ from scanbench.runtime.trap import TrapInfo, Trapped
 TRACE_LIMIT = 128 << 20
 """Bytes that the run without the error may take: what it changed, scan by scan."""
 _NAMED = 3
-"""Blocks that a note names."""
+"""Variables or statements that a note names."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -118,6 +119,7 @@ class Prepared:
         self.program = program
         self.names = Names(program)
         self.kept = kept_bits(program)
+        self.readings = Readings(program, self.names.deciding.instances)
 
 
 class Comparison:
@@ -151,7 +153,7 @@ class Comparison:
             return Reaction("stopped", 0, note="" if could_run else "the program did not run before either")
         own = [generate, *(each.entry for each in given if _is_about(each.entry.command, ref.id))]
         kept = without_patches(self._prepared.kept, (patch for entry in own for patch in entry.plan.patches))
-        run = _Run(resource, twin, Effects(self._prepared.names, kept), chosen, ref)
+        run = _Run(resource, twin, Effects(self._prepared.names, kept), chosen, ref, self._prepared.readings)
         found = run.through(self._programs.observer(self._point.version), given)
         if isinstance(found, Refusal) or found.verdict not in FINDINGS or not present:
             return found
@@ -163,12 +165,15 @@ class _Run:
     """The run with the error, compared with its twin."""
 
     def __init__(
-        self, resource: Resource, twin: Twin, effects: Effects, chosen: Chosen, ref: ErrorRef
+        self, resource: Resource, twin: Twin, effects: Effects, chosen: Chosen, ref: ErrorRef, readings: Readings
     ) -> None:  # fmt: skip
         self._resource, self._twin, self._effects, self._chosen, self._ref = resource, twin, effects, chosen, ref
+        self._readings = readings
         self._watched = Watched.of(resource.program, chosen)
         self._readers: dict[tuple[int, What], int] = {}
         self._triggered: dict[tuple[str, Span, What], int] = {}
+        self._looked: set[int] = set()
+        """Statements that came to read there, whatever it showed then."""
         self._reached: set[int] = set()
         self._turns = Turns(resource.program)
         self._recovered: int | None = None
@@ -221,6 +226,7 @@ class _Run:
 
     def _read(self, reads: Iterable[ReadAt], scan: int, shown: frozenset[What]) -> None:
         for read in reads:
+            self._looked.add(read.site)
             for what in self._watched.kinds(read.offset, read.mask):
                 if what in shown:
                     self._readers.setdefault((read.site, what), scan)
@@ -230,12 +236,19 @@ class _Run:
         reached = {(sites[each].span.file, sites[each].span.line) for each in self._reached - self._twin.reached}
         seen = (effects.first, self._recovered, scans if self._stops_otherwise(scans) else None)
         first = min((each for each in seen if each is not None), default=None)
-        only_inside = first is None and bool(effects.under_way)
-        if only_inside:
-            first = min(effects.under_way.values())
-        verdict: Verdict = "no_effect" if readers else "never_read"
+        under_way = effects.under_way() if first is None else {}
+        if under_way:
+            first = min(under_way.values())
+        missed = () if readers or effects.count else self._missed()
+        verdict: Verdict
+        if first is not None:
+            verdict = "reacted"
+        elif effects.count:
+            verdict = "stored_only"
+        else:
+            verdict = "no_effect" if readers else "not_reached" if missed else "never_read"
         return Reaction(
-            verdict if first is None else "reacted",
+            verdict,
             scans,
             min(readers.values(), default=None),
             first,
@@ -243,8 +256,12 @@ class _Run:
             effects.shown(),
             effects.count,
             tuple(Line(*place) for place in sorted(reached)),
-            "; ".join((*self._notes(scans), *self._more(scans, first is None, only_inside))),
+            "; ".join((*self._notes(scans), *self._more(scans, first is None, tuple(under_way), missed))),
         )
+
+    def _missed(self) -> tuple[str, ...]:
+        """The statements that would read what the error writes, and did not come to it."""
+        return tuple(str(each) for each in self._readings.of(self._watched) if each.site not in self._looked)
 
     def _places(self, sites: Sequence[StatementSite]) -> dict[tuple[str, int, str, What], int]:
         """Who read what, and in which scan first."""
@@ -279,17 +296,19 @@ class _Run:
         if not self._effects.complete:
             yield f"more than {self._effects.count} variables differ"
 
-    def _more(self, scans: int, nothing: bool, only_inside: bool) -> Iterator[str]:
+    def _more(self, scans: int, nothing: bool, under_way: Sequence[str], missed: Sequence[str]) -> Iterator[str]:
         if self._recovered is not None:
             yield f"the program recovered it itself, after {self._recovered} scan{'s' * (self._recovered != 1)}"
-        if only_inside:
-            blocks = list(self._effects.under_way)
-            named = ", ".join(blocks[:_NAMED]) + (" and others" if len(blocks) > _NAMED else "")
-            yield (
-                f"only a timer or counter of the library is under way: {named}; its output did not change in the window"
-            )
+        if under_way:
+            yield f"no output differed in the window; {_some(under_way)} did, and may decide one later"
+        if missed:
+            yield f"not reached in the {scans} scans: {_some(missed)}: a longer window or another state would tell"
         if nothing:
             yield from self._turns.notes(scans)
+
+
+def _some(names: Sequence[str]) -> str:
+    return ", ".join(names[:_NAMED]) + (f" and {len(names) - _NAMED} more" if len(names) > _NAMED else "")
 
 
 def _takes_back(entry: Entry, ref: ErrorRef) -> bool:

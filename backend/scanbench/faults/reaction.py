@@ -3,11 +3,12 @@
 from dataclasses import dataclass
 from typing import Literal
 
-Verdict = Literal["reacted", "no_effect", "never_read", "stopped"]
-"""stopped: a fatal error, the PLC stopped as the model says, so no program could react."""
+Verdict = Literal["reacted", "stored_only", "no_effect", "not_reached", "never_read", "stopped"]
+"""stored_only: what differs decides nothing. not_reached: a statement that would read it did not come to it. stopped: a fatal
+error, the PLC stopped as the model says, so no program could react."""
 What = Literal["flag", "code", "detail", "log"]
 """log: the PLC's own error log or its counter, where a record of the error is."""
-FINDINGS: tuple[Verdict, ...] = ("never_read", "no_effect")
+FINDINGS: tuple[Verdict, ...] = ("never_read", "not_reached", "no_effect", "stored_only")
 """What the program missed: nobody read it, or nothing came of it."""
 WINDOW = 200
 """Scans that a program gets to react."""
@@ -58,10 +59,8 @@ class Reaction:
     first_read: int | None = None
     """Scan of the window in which flag, code, detail or log was first read, from 1."""
     first_effect: int | None = None
-    """Scan of the window in which something outside of error memory first differed, from 1.
-
-    That a timer or counter of the library is under way counts where nothing else differs only.
-    """
+    """Scan of the window from which on the program did something else, from 1: an output differs, and the like; where there is
+    none, state that decides one later. None where nothing but copies differ."""
     readers: tuple[Reader, ...] = ()
     differences: tuple[Difference, ...] = ()
     """The first 200, outputs first."""

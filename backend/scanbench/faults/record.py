@@ -13,7 +13,7 @@ from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_
 from scanbench.plcmodel.model import Model
 
 SweepStatus = Literal["running", "done", "cancelled", "interrupted", "failed"]
-WORST_FIRST: tuple[Verdict, ...] = ("never_read", "no_effect", "stopped", "reacted")
+WORST_FIRST: tuple[Verdict, ...] = (*FINDINGS, "stopped", "reacted")
 
 
 @dataclass(frozen=True, slots=True)

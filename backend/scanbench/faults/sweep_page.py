@@ -9,15 +9,15 @@ from scanbench.faults.sweep import Cell
 from scanbench.faults.sweep_report import WORDS, SweepResult, count, reason, verdict_of
 
 _SIGNS: Mapping[Verdict | None, str] = {
-    "reacted": "✓", "no_effect": "◐", "never_read": "✗", "stopped": "■", None: "–",
+    "reacted": "✓", "stored_only": "▤", "no_effect": "◐", "not_reached": "↷", "never_read": "✗", "stopped": "■", None: "–",
 }  # fmt: skip
 _STYLE = """
 :root { color-scheme: light dark; --ink: #1a1a1a; --dim: #666; --page: #fff; --line: #ccc;
-  --reacted: #0a6b2d; --no_effect: #8a5a00; --never_read: #b00020; --stopped: #444; --none: #666; }
+  --reacted: #0a6b2d; --no_effect: #8a5a00; --stored_only: #8a5a00; --not_reached: #b00020; --never_read: #b00020; --stopped: #444; --none: #666; }
 @media (prefers-color-scheme: dark) { :root { --ink: #e8e8e8; --dim: #a0a0a0; --page: #16181b; --line: #3a3d42;
-  --reacted: #58c47c; --no_effect: #e0a94a; --never_read: #ff7a85; --stopped: #b8b8b8; --none: #a0a0a0; } }
+  --reacted: #58c47c; --no_effect: #e0a94a; --stored_only: #e0a94a; --not_reached: #ff7a85; --never_read: #ff7a85; --stopped: #b8b8b8; --none: #a0a0a0; } }
 @media print { :root { --ink: #000; --dim: #444; --page: #fff; --line: #999;
-  --reacted: #0a6b2d; --no_effect: #8a5a00; --never_read: #b00020; --stopped: #444; --none: #666; }
+  --reacted: #0a6b2d; --no_effect: #8a5a00; --stored_only: #8a5a00; --not_reached: #b00020; --never_read: #b00020; --stopped: #444; --none: #666; }
   tr, section { break-inside: avoid; } a { color: inherit; text-decoration: none; } }
 body { font: 14px/1.45 system-ui, sans-serif; color: var(--ink); background: var(--page); max-width: 72rem;
   margin: 2rem auto; padding: 0 1rem; }
@@ -27,6 +27,7 @@ table { border-collapse: collapse; margin: .6rem 0; } th, td { text-align: left;
   padding: .2rem .7rem .2rem 0; border-bottom: 1px solid var(--line); }
 code { font-family: ui-monospace, monospace; font-size: .93em; } .dim { color: var(--dim); }
 .reacted { color: var(--reacted); } .no_effect { color: var(--no_effect); } .never_read { color: var(--never_read); }
+.stored_only { color: var(--stored_only); } .not_reached { color: var(--not_reached); }
 .stopped { color: var(--stopped); } .none { color: var(--none); } td a { color: inherit; }
 """
 

@@ -68,8 +68,12 @@ def reason(cell: Cell) -> str:
             text = "a fatal error: the PLC stopped, as the model says"
         case "never_read":
             text = f"no statement read its flag, code or details, or the error log, in {reaction.window} scans"
+        case "not_reached":
+            text = ""
         case "no_effect":
             text = f"{read}, but nothing differed in {reaction.window} scans"
+        case "stored_only":
+            text = f"{read}; stored in {', '.join(_some([each.path for each in reaction.differences]))}, which decides nothing"
         case _:
             text = "; ".join(filter(None, (read if reaction.readers else "", ", ".join(_some(changed)))))
     return "; ".join(filter(None, (text, reaction.note)))

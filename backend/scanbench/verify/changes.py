@@ -127,7 +127,7 @@ class Comparer:
     def symbols(self, one: bytes | bytearray, other: bytes | bytearray) -> Iterator[Symbol]:
         """They themselves, as they are in the first program."""
         if self._holders is None:
-            self._holders = Holders(self._one, every=True)
+            self._holders = Holders(self._one, inputs=True)
         differing = self._differing(one, other)
         halves = differing.view(np.uint16)
         there, known = self._moved(one, other), set()

@@ -7,7 +7,7 @@ from pydantic import Field
 from scanbench.web.messages_base import Id, Scan, Wire
 
 Severity = Literal["fatal", "nonfatal"]
-Verdict = Literal["reacted", "no_effect", "never_read", "stopped"]
+Verdict = Literal["reacted", "stored_only", "no_effect", "not_reached", "never_read", "stopped"]
 
 # ---- catalogue -------------------------------------------------------------------------------------------------
 

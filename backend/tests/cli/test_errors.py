@@ -76,15 +76,32 @@ def test_a_sweep_names_what_is_forgotten_and_what_is_read_in_vain(project: Path)
     assert told["states"] == [{"name": "On", "scan": 30}, {"name": "Off", "scan": 100}]
     verdicts = {key: each["verdict"] for key, each in cells.items()}
     assert verdicts == {
-        ("battery-error", "On"): "reacted", ("battery-error", "Off"): "never_read",
+        ("battery-error", "On"): "reacted", ("battery-error", "Off"): "not_reached",
         ("inner-board-error", "On"): "no_effect", ("inner-board-error", "Off"): "no_effect",
         ("basic-io-error", "On"): "never_read", ("basic-io-error", "Off"): "never_read",
         ("memory-error", "On"): "stopped", ("memory-error", "Off"): "stopped",
     }  # fmt: skip
     assert cells["battery-error", "On"]["readers"] == ["main.st:6"]
+    assert "main.st:6 (Main)" in cells["battery-error", "Off"]["note"]
     assert [each["path"] for each in cells["battery-error", "On"]["differences"]] == ["Main.lamp"]
     assert cells["inner-board-error", "On"]["readers"] == ["main.st:7"]
     assert sorted(told["unhandled"]) == ["basic-io-error", "battery-error", "inner-board-error"]
+
+
+def test_a_copy_of_error_memory_fails_a_build(project: Path) -> None:
+    """`d := A400` reads every error, and does nothing about any."""
+    copy = "PROGRAM Main\nVAR code AT A400 : WORD; d AT D100 : WORD; END_VAR\n  d := code;\nEND_PROGRAM\n"
+    (project / "main.st").write_text(copy, "utf-8")
+    result = scanbench("errors", "sweep", str(project), *FEW, "--severity", "nonfatal", "--window", "30", "--json")
+    assert result.returncode == 1
+    found = {each["id"]: (each["verdict"], each["scans"]) for each in json.loads(result.stdout)["results"]}
+    assert found.pop("memory-error") == ("stopped", None)
+    assert set(found.values()) == {("stored_only", None)}
+    junit = project.parent / "junit.xml"
+    text = scanbench("errors", "sweep", str(project), *FEW, "--window", "30", "--junit", str(junit))
+    assert "stored in Main.d, which decides nothing" in text.stdout
+    failures = {each.get("type") for each in ElementTree.parse(junit).iter("failure")}
+    assert failures == {"stored_only"}
 
 
 def test_both_engines_say_the_same(project: Path) -> None:
@@ -294,7 +311,7 @@ OWN = """<UserErrors>
 def test_the_projects_own_errors_are_swept_too(project: Path) -> None:
     (project / "errors.xml").write_text(OWN, "utf-8")
     source = SOURCE.replace("n : DINT;", "n : DINT; hot AT W10.00 : BOOL;").replace(
-        "IF inner THEN ;", "IF hot THEN n := 0;"
+        "IF inner THEN ;", "IF hot THEN lamp := TRUE;"
     )
     (project / "main.st").write_text(source, "utf-8")
     (own,) = (

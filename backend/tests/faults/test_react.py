@@ -26,7 +26,7 @@ END_FUNCTION_BLOCK
 PROGRAM Main
 VAR
   battery AT A402.04 : BOOL; basic AT A402.12 : BOOL; inner AT A402.08 : BOOL; bus AT A402.07 : BOOL;
-  special AT A402.06 : BOOL; code AT A400 : WORD; lamp AT CIO 100.01 : BOOL;
+  special AT A402.06 : BOOL; code AT A400 : WORD; lamp AT CIO 100.01 : BOOL; warning AT CIO 100.02 : BOOL;
   copy : Copy; wait : TON; late : BOOL; trips, n : DINT;
 END_VAR
 VAR_TEMP nothing : BOOL; END_VAR
@@ -41,6 +41,7 @@ VAR_TEMP nothing : BOOL; END_VAR
   copy(seen := bus);
   wait(IN := special, PT := T#100ms);
   late := wait.Q;
+  warning := late;
 END_PROGRAM
 """
 
@@ -98,12 +99,13 @@ def test_a_late_reaction_counts_from_its_first_effect(make: MakeObserved) -> Non
     assert (found.verdict, found.first_read) == ("reacted", 1)
     assert differing(found)["Main.late"] == ("FALSE", "TRUE", False, 11)
     assert differing(found)["Main.wait.Q"] == ("FALSE", "TRUE", False, 11)
-    assert found.first_effect == 11  # that the timer began is seen by nobody
+    assert differing(found)["Main.wait.ET"][3] < 11
+    assert found.first_effect == 11  # that the timer began decides nothing
 
 
 CODE = """
 PROGRAM Main
-VAR code AT A400 : WORD; hit, n : INT; END_VAR
+VAR code AT A400 : WORD; hit AT CIO 100 : INT; n : INT; END_VAR
   n := n + 1;
   IF code = 16#00F7 THEN hit := hit + 1; END_IF;
 END_PROGRAM
@@ -135,7 +137,7 @@ def test_a_code_that_a_more_serious_error_hides_is_not_read(make: MakeObserved) 
 def test_reading_after_it_was_recovered_is_not_reading_it(make: MakeObserved) -> None:
     source = """
 PROGRAM Main
-VAR battery AT A402.04 : BOOL; n, seen : INT; END_VAR
+VAR battery AT A402.04 : BOOL; seen AT CIO 100 : INT; n : INT; END_VAR
   n := n + 1;
   IF n > 20 THEN IF battery THEN seen := 1; END_IF; END_IF;
 END_PROGRAM
@@ -182,7 +184,7 @@ END_PROGRAM
 def test_details_are_read_too(make: MakeObserved) -> None:
     source = """
 PROGRAM Main
-VAR units AT A417 : WORD; unit : WORD; n : INT; END_VAR
+VAR units AT A417 : WORD; unit AT CIO 100 : WORD; n : INT; END_VAR
   n := n + 1;
   unit := units;
 END_PROGRAM
@@ -194,7 +196,7 @@ END_PROGRAM
     found = attempt(program, (f"cpu-bus-unit-error:{entry.details[0].name}=3",), make)
     assert isinstance(found, Reaction)
     assert (found.verdict, [each.what for each in found.readers]) == ("reacted", ["detail"])
-    assert differing(found) == {"Main.unit": ("16#0000", "16#0008", False, 1)}
+    assert differing(found) == {"Main.unit": ("16#0000", "16#0008", True, 1)}
 
 
 def test_a_reaction_may_be_an_error_of_the_program(make: MakeObserved) -> None:
@@ -343,7 +345,7 @@ def test_a_write_that_only_the_error_makes_possible_is_no_excuse(make: MakeObser
     """A write of both runs that the program overwrites with the error only: an effect, in the scan in which it is one."""
     source = """
 PROGRAM Main
-VAR battery AT A402.04 : BOOL; x : INT; END_VAR
+VAR battery AT A402.04 : BOOL; x AT CIO 100 : INT; END_VAR
   IF battery THEN x := 0; END_IF;
 END_PROGRAM
 """
@@ -385,34 +387,36 @@ END_PROGRAM
 """
 
 
-UNDER_WAY = "only a timer or counter of the library is under way: Main.t; its output did not change in the window"
+UNDER_WAY = "no output differed in the window; Main.t did, and may decide one later"
 
 
 def test_a_timer_longer_than_the_window_is_under_way(make: MakeObserved) -> None:
     found = reaction(handling("t : TON;", "t(IN := battery, PT := T#5s); lamp := t.Q;"), "battery-error", make)
-    assert (found.verdict, found.first_effect, found.note) == ("reacted", 1, UNDER_WAY)
+    assert (found.verdict, found.first_effect, found.note) == ("reacted", 2, UNDER_WAY)
     assert "Main.t.ET" in differing(found)
 
 
 def test_a_counter_is_under_way(make: MakeObserved) -> None:
     found = reaction(handling("t : CTU;", "t(CU := battery, PV := 3); lamp := t.Q;"), "battery-error", make)
-    assert (found.verdict, found.note, set(differing(found))) == ("reacted", UNDER_WAY, {"Main.t.CV", "Main.t.last"})
+    assert (found.verdict, found.note, set(differing(found))) == ("reacted", UNDER_WAY, {"Main.t.CV"})
 
 
 def test_a_timer_within_the_window_counts_from_its_output(make: MakeObserved) -> None:
-    source = handling("t : TON; n : INT;", "t(IN := battery, PT := T#100ms); IF t.Q THEN n := n + 1; END_IF;")
+    source = handling(
+        "t : TON; n : INT;", "t(IN := battery, PT := T#100ms); IF t.Q THEN n := n + 1; END_IF; lamp := n > 0;"
+    )
     found = reaction(source, "battery-error", make)
     assert (found.verdict, found.first_effect, found.note) == ("reacted", 11, "")
-    assert set(differing(found)) == {"Main.t.Q", "Main.n"}
+    assert set(differing(found)) == {"Main.lamp", "Main.t.Q", "Main.t.ET", "Main.n"}
 
 
 @pytest.mark.parametrize(
     "body", ["t(IN := battery, PT := T#5s);", "r(CLK := battery); s(CLK := go); lamp := s.Q;", "c(CU := battery, PV := 3);"]
 )  # fmt: skip
-def test_a_block_whose_outputs_nobody_reads_is_no_effect(body: str, make: MakeObserved) -> None:
+def test_a_block_whose_outputs_nobody_reads_only_stores(body: str, make: MakeObserved) -> None:
     """Whatever is read of another of its type."""
     found = reaction(handling("t : TON; r, s : R_TRIG; c : CTU;", body), "battery-error", make)
-    assert (found.verdict, found.first_effect, found.note, found.differences) == ("no_effect", None, "", ())
+    assert (found.verdict, found.first_effect, found.note) == ("stored_only", None, "")
 
 
 # ---- tasks ---------------------------------------------------------------------------------------------------------
@@ -442,14 +446,18 @@ NO_TURN = "task Alarming (every 5s) did not run in the 50 scans: a longer window
 
 def test_a_task_that_had_no_turn_is_told(make: MakeObserved) -> None:
     source = TASKS.format(body="lamp := battery;", when="INTERVAL := T#5s")
-    assert reaction(source, "battery-error", make) == Reaction("never_read", 50, note=NO_TURN)
+    missed = f"not reached in the 50 scans: main.st:{line('lamp := battery', source)} (Alarm)"
+    note = f"{missed}: a longer window or another state would tell; {NO_TURN}"
+    assert reaction(source, "battery-error", make) == Reaction("not_reached", 50, note=note)
     assert reaction(source, "battery-error", make, 500).note == ""
 
 
 def test_a_task_without_a_turn_is_no_news_where_another_reacted(make: MakeObserved) -> None:
     source = TASKS.format(body="lamp := battery;", when="INTERVAL := T#5s")
     source = source.replace("n := n + 1;", "n := n + 1; IF warn THEN n := 0; END_IF;")
-    source = source.replace("VAR n : INT;", "VAR_EXTERNAL battery : BOOL; END_VAR VAR n : INT; warn AT A402.04 : BOOL;")
+    source = source.replace(
+        "VAR n : INT;", "VAR_EXTERNAL battery : BOOL; END_VAR VAR n AT CIO 101 : INT; warn AT A402.04 : BOOL;"
+    )
     found = reaction(source, "battery-error", make)
     assert (found.verdict, found.note) == ("reacted", "")
 
@@ -545,8 +553,152 @@ def test_who_reads_the_error_log_reads_the_error(address: str, make: MakeObserve
 
 def test_the_log_still_tells_of_an_error_that_was_recovered(make: MakeObserved) -> None:
     body = "n := n + 1; IF n > 20 THEN IF count <> 0 THEN seen := 1; END_IF; END_IF;"
-    source = handling("count AT A300 : WORD; n, seen : INT;", body)
+    source = handling("count AT A300 : WORD; seen AT CIO 101 : INT; n : INT;", body)
     recover = ((5, Recover("Ada", ("battery-error",))),)
     found = attempt(checked({"main.st": source}), ("battery-error",), make, later=recover)
     assert isinstance(found, Reaction)
     assert (found.verdict, found.first_read, [each.what for each in found.readers]) == ("reacted", 11, ["log"])
+
+
+# ---- what only stores ----------------------------------------------------------------------------------------------
+
+OWN = "code AT A400 : WORD; entries AT A300 : WORD; "
+
+
+@pytest.mark.parametrize(
+    ("variables", "body"),
+    [
+        ("d AT D100 : WORD;", "d := code;"),
+        ("d, last : WORD; d1 : BOOL;", "d := code; d1 := battery; last := entries;"),
+        ("d : WORD;", "d := code; lamp := d = 16#009A;"),
+        ("old, new : BOOL;", "new := battery AND NOT old; old := battery; IF new AND go THEN lamp := TRUE; END_IF;"),
+        ("old : WORD;", "IF code <> old THEN old := code; IF code = 16#009A THEN lamp := TRUE; END_IF; END_IF;"),
+        ("r : R_TRIG; f : F_TRIG; n : INT;", "r(CLK := battery); f(CLK := battery); IF r.Q THEN n := n + 1; END_IF;"),
+        ("cnt : INT;", "IF battery THEN cnt := cnt + 1; END_IF;"),
+        ("cnt : INT; many : BOOL;", "IF battery THEN cnt := cnt + 1; END_IF; IF cnt > 3 THEN many := TRUE; END_IF;"),
+    ],
+    ids=("memory", "copies", "compared", "edge", "edge of the code", "triggers", "counter", "chain"),
+)  # fmt: skip
+@pytest.mark.parametrize("where", ["PROGRAM", "FUNCTION_BLOCK"])
+def test_what_decides_nothing_is_only_stored(variables: str, body: str, where: str, make: MakeObserved) -> None:
+    source = handling(OWN + variables, body)
+    if where == "FUNCTION_BLOCK":
+        source = source.replace("PROGRAM Main", "FUNCTION_BLOCK Part").replace("END_PROGRAM", "END_FUNCTION_BLOCK")
+        source += "PROGRAM Main\nVAR part : Part; END_VAR\n  part();\nEND_PROGRAM\n"
+    found = reaction(source, "battery-error", make)
+    assert (found.verdict, found.first_effect) == ("stored_only", None)
+    assert found.readers
+    assert found.differences
+
+
+BLOCK = """
+FUNCTION_BLOCK Watch
+VAR_INPUT code : WORD; END_VAR
+VAR_OUTPUT out : BOOL; other : WORD; END_VAR
+VAR old, last : WORD; new : BOOL; cnt : INT; edge : R_TRIG; END_VAR
+  new := code <> old;
+  old := code;
+  edge(CLK := code <> 0);
+  IF new AND code <> 0 THEN last := code; cnt := cnt + 1; END_IF;
+  IF edge.Q THEN
+    CASE code OF
+      16#009A: out := TRUE;
+    ELSE
+      other := code;
+    END_CASE;
+  END_IF;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR watch : Watch; code AT A400 : WORD; lamp AT CIO 100.00 : BOOL; END_VAR
+  watch(code := code);
+  lamp := watch.out;
+END_PROGRAM
+"""
+
+
+def test_who_leaves_an_error_in_an_else_branch_does_not_react_to_it(make: MakeObserved) -> None:
+    assert reaction(BLOCK, "battery-error", make).verdict == "stored_only"
+    found = reaction(BLOCK, "basic-io-error", make)
+    assert (found.verdict, found.first_effect) == ("reacted", 1)
+
+
+@pytest.mark.parametrize(
+    ("variables", "body"),
+    [
+        ("run, fault : BOOL;", "IF battery THEN fault := TRUE; END_IF; lamp := run AND NOT fault;"),
+        ("run, fault : BOOL;", "fault := fault OR battery; lamp := run AND NOT fault;"),
+        ("run, fault : BOOL;", "IF NOT fault THEN fault := battery; END_IF; lamp := run AND NOT fault;"),
+        ("run : BOOL; s : SR;", "s(S1 := battery); lamp := run AND NOT s.Q1;"),
+        ("cnt : INT;", "IF battery THEN cnt := cnt + 1; END_IF; IF cnt > 500 THEN lamp := TRUE; END_IF;"),
+    ],
+    ids=("latch", "latch by or", "latch by a copy", "latch of the library", "counter"),
+)
+def test_state_that_decides_an_output_later_is_a_reaction(variables: str, body: str, make: MakeObserved) -> None:
+    found = reaction(handling(variables, body), "battery-error", make)
+    assert (found.verdict, found.first_effect) == ("reacted", 1)
+    assert found.note.startswith("no output differed in the window; Main.")
+
+
+def test_a_reaction_counts_to_the_output_that_a_counter_ends_in(make: MakeObserved) -> None:
+    body = "IF battery THEN cnt := cnt + 1; END_IF; IF cnt > 500 THEN lamp := TRUE; END_IF;"
+    found = reaction(handling("cnt : INT;", body), "battery-error", make, 600)
+    assert (found.verdict, found.first_effect, found.note) == ("reacted", 501, "")
+
+
+def test_the_same_state_of_another_instance_decides_nothing(make: MakeObserved) -> None:
+    source = """
+FUNCTION_BLOCK Latch
+VAR_INPUT set : BOOL; END_VAR
+VAR_OUTPUT on : BOOL; END_VAR
+  IF set THEN on := TRUE; END_IF;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR battery AT A402.04 : BOOL; basic AT A402.12 : BOOL; one, two : Latch; lamp AT CIO 100.00 : BOOL; run : BOOL; END_VAR
+  one(set := battery); two(set := basic);
+  lamp := run AND NOT one.on;
+END_PROGRAM
+"""
+    assert reaction(source, "battery-error", make).verdict == "reacted"
+    assert reaction(source, "basic-io-error", make).verdict == "stored_only"
+
+
+# ---- what is not reached -------------------------------------------------------------------------------------------
+
+
+def test_a_read_now_and_then_is_not_never(make: MakeObserved) -> None:
+    body = "n := n + 1;\nIF n MOD 500 = 499 THEN\nlamp := battery;\nEND_IF;"
+    source = handling("n : INT;", body)
+    found = reaction(source, "battery-error", make)
+    place = f"main.st:{line('lamp := battery', source)} (Main)"
+    note = f"not reached in the 50 scans: {place}: a longer window or another state would tell"
+    assert found == Reaction("not_reached", 50, note=note)
+    assert reaction(source, "battery-error", make, 600).verdict == "reacted"
+    assert reaction(source, "basic-io-error", make).verdict == "never_read"
+
+
+def test_what_is_not_reached_is_named_with_its_instances(make: MakeObserved) -> None:
+    source = """
+FUNCTION_BLOCK Part
+VAR_IN_OUT state : WORD; END_VAR
+VAR_EXTERNAL battery : BOOL; END_VAR
+VAR seen, flag : BOOL; n : INT; END_VAR
+  n := n + 1;
+  IF n > 1000 THEN
+    seen := battery;
+  END_IF;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR one, two : Part; many : ARRAY[1..5] OF Part; w : WORD; END_VAR
+  one(state := w); two(state := w); many[2](state := w);
+END_PROGRAM
+CONFIGURATION C
+  VAR_GLOBAL battery AT A402.04 : BOOL; END_VAR
+  RESOURCE R ON PLC
+    TASK T(INTERVAL := T#10ms, PRIORITY := 1);
+    PROGRAM Main WITH T : Main;
+  END_RESOURCE
+END_CONFIGURATION
+"""
+    found = reaction(source, "battery-error", make)
+    assert found.verdict == "not_reached"
+    assert f"main.st:{line('seen := battery', source)} (Main.one, Main.two, Main.many[1] and 4 more)" in found.note

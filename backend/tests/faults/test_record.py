@@ -94,7 +94,9 @@ def test_the_verdict_is_the_plcs_own_or_the_worst_of_the_newest_sweep() -> None:
     told = record.summary
     assert (told.errors, told.tested, told.generated) == (len(record.errors), 3, 1)
     assert (told.accepted, told.open) == (1, 0)
-    assert told.verdicts == {"never_read": 1, "no_effect": 0, "stopped": 0, "reacted": 1}
+    assert told.verdicts == {
+        "never_read": 1, "not_reached": 0, "no_effect": 0, "stored_only": 0, "stopped": 0, "reacted": 1,
+    }  # fmt: skip
     assert told.unknown == 1
 
 
@@ -329,7 +331,10 @@ def test_reactions_as_json_and_back(reaction: Reaction) -> None:
 @pytest.mark.parametrize(
     ("change", "says"),
     [
-        ({"verdict": "fine"}, "verdict must be one of reacted, no_effect, never_read, stopped, not 'fine'"),
+        (
+            {"verdict": "fine"},
+            "verdict must be one of reacted, stored_only, no_effect, not_reached, never_read, stopped, not 'fine'",
+        ),
         ({"window": "200"}, "window must be a whole number, not '200'"),
         ({"window": True}, "window must be a whole number, not True"),
         ({"readers": None}, "readers must be a list of objects"),

@@ -53,7 +53,7 @@ def test_every_error_from_every_point_in_order() -> None:
         ("battery-error", "Off"), ("battery-error", "On"), ("basic-io-error", "Off"), ("basic-io-error", "On"),
     ]  # fmt: skip
     verdicts = [each.reaction.verdict for each in cells if each.reaction is not None]
-    assert verdicts == ["never_read", "reacted", "never_read", "never_read"]
+    assert verdicts == ["not_reached", "reacted", "never_read", "never_read"]
 
 
 def test_what_is_done_is_not_done_again() -> None:
@@ -89,6 +89,9 @@ def test_an_error_that_is_there_already_is_said_so() -> None:
     ("before", "after", "kind"),
     [
         (("never_read", None), ("no_effect", None), "better"),
+        (("never_read", None), ("not_reached", None), "better"),
+        (("no_effect", None), ("stored_only", None), "better"),
+        (("stored_only", None), ("reacted", 3), "better"),
         (("no_effect", None), ("reacted", 3), "better"),
         (("reacted", 3), ("never_read", None), "worse"),
         (("reacted", 3), ("reacted", 5), "slower"),

@@ -139,7 +139,8 @@ export function verdictOf(row: Told): Verdict | null {
 }
 
 /** What the program missed: nobody read it, or nothing came of it. */
-export const isFinding = (verdict: Verdict | null): boolean => verdict === "never_read" || verdict === "no_effect";
+export const isFinding = (verdict: Verdict | null): boolean =>
+  verdict !== null && verdict !== "reacted" && verdict !== "stopped";
 
 function statusOf(id: string, view: CatalogueView): ErrorStatus {
   return view.history.get(id)?.status ?? "never";

@@ -64,7 +64,7 @@ function passes(line: HistoryLine, view: HistoryView): boolean {
 
 const STATUS = { generated: 0, cleared: 1, never: 2 };
 const SEVERITY = { fatal: 0, nonfatal: 1 };
-const VERDICT = { never_read: 0, no_effect: 1, stopped: 2, reacted: 3 };
+const VERDICT = { never_read: 0, not_reached: 1, no_effect: 2, stored_only: 3, stopped: 4, reacted: 5 };
 
 function keyOf(line: HistoryLine, column: Column): string | number | null {
   const verdict = verdictOf(line);

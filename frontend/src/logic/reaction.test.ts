@@ -22,7 +22,11 @@ describe("a reaction", () => {
     expect(sentenceOf(reaction({ verdict: "never_read" }), "A402.12")).toContain("A402.12");
     expect(sentenceOf(reaction({ verdict: "no_effect", first_read: 2 }), "A402.12")).toContain("scan 2");
     expect(nextStep("never_read", "A402.12")).toContain("read A402.12");
-    expect(nextStep("no_effect", "A402.12")).not.toBe("");
+    for (const verdict of ["no_effect", "stored_only", "not_reached"] as const) {
+      expect(nextStep(verdict, "A402.12")).not.toBe("");
+    }
+    expect(sentenceOf(reaction({ verdict: "stored_only", first_read: 2 }), "A402.12")).toContain("only stored");
+    expect(sentenceOf(reaction({ verdict: "not_reached" }), "A402.12")).toContain("did not run");
     expect(nextStep("reacted", "A402.12")).toBe("");
   });
 

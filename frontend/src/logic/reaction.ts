@@ -60,6 +60,6 @@ export function sentenceOf(reaction: Reaction, flag: string): string {
 
 /** What to do about a finding; empty when nothing is missing. */
 export function nextStep(verdict: Verdict, flag: string): string {
-  if (verdict === "never_read") return t("reaction.next.never_read", { flag });
-  return verdict === "no_effect" ? t("reaction.next.no_effect") : "";
+  if (verdict === "reacted" || verdict === "stopped") return "";
+  return t(`reaction.next.${verdict}`, { flag });
 }

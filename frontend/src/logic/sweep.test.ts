@@ -159,7 +159,7 @@ describe("countCells", () => {
       cell("setup", "Idle", null),
     ]);
     expect(countCells(found)).toEqual({
-      verdicts: { reacted: 0, stopped: 1, no_effect: 1, never_read: 0 },
+      verdicts: { reacted: 0, stopped: 1, stored_only: 0, no_effect: 1, not_reached: 0, never_read: 0 },
       accepted: 1,
       none: 1,
       left: 2,

@@ -15,7 +15,14 @@ import { isFinding } from "./catalogue";
 import { duration } from "./numbers";
 import { t } from "./text";
 
-export const VERDICTS = ["reacted", "stopped", "no_effect", "never_read"] as const satisfies readonly Verdict[];
+export const VERDICTS = [
+  "reacted",
+  "stopped",
+  "stored_only",
+  "no_effect",
+  "not_reached",
+  "never_read",
+] as const satisfies readonly Verdict[];
 
 /** What a sweep calls the PLC as it was when it began. */
 export const NOW = "Now";
@@ -128,7 +135,14 @@ export interface Counts {
 
 /** How many cells there are of each kind; an accepted finding counts as accepted, and not as what was found. */
 export function countCells(sweep: Sweep): Counts {
-  const verdicts: Record<Verdict, number> = { reacted: 0, stopped: 0, no_effect: 0, never_read: 0 };
+  const verdicts: Record<Verdict, number> = {
+    reacted: 0,
+    stopped: 0,
+    stored_only: 0,
+    no_effect: 0,
+    not_reached: 0,
+    never_read: 0,
+  };
   let accepted = 0;
   let none = 0;
   for (const cell of sweep.cells) {

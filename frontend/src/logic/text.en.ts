@@ -212,6 +212,8 @@ export const english = {
   "reaction.more": "{count} more",
   "reaction.next": "Next:",
   "reaction.next.never_read": "read {flag} in the program, or accept it in a sweep with a reason.",
+  "reaction.next.not_reached": "use a longer window or another state, or accept it in a sweep with a reason.",
+  "reaction.next.stored_only": "let what is stored decide something, or accept it in a sweep with a reason.",
   "reaction.next.no_effect": "let something follow where it is read, or accept it in a sweep with a reason.",
   "reaction.output": "output",
   "reaction.readers": "Read at",
@@ -219,6 +221,8 @@ export const english = {
   "reaction.recording": "Recording",
   "reaction.recording.about": "The program runs beside itself without the error: known once the window is over.",
   "reaction.says.never_read": "Nobody read {flag}, its code or its details in {window} scans.",
+  "reaction.says.not_reached": "A statement reads it, but did not run in {window} scans.",
+  "reaction.says.stored_only": "Read first in scan {read}, but only stored: it decided nothing in {window} scans.",
   "reaction.says.no_effect": "Read first in scan {read}, but nothing else changed in {window} scans.",
   "reaction.says.reacted": "after {scans} scans.",
   "reaction.says.reacted.one": "after 1 scan.",
@@ -811,6 +815,8 @@ export const english = {
   "sweep.compare.tab": "Sweeps compared",
   "sweep.compare.table": "Changes from one sweep to the other",
   "sweep.count.never_read": "Never read",
+  "sweep.count.not_reached": "Not reached",
+  "sweep.count.stored_only": "Stored only",
   "sweep.count.no_effect": "Read, no effect",
   "sweep.count.reacted": "Reacted",
   "sweep.count.stopped": "Stopped, as the model says",
@@ -859,6 +865,10 @@ export const english = {
   "sweep.noplc": "No virtual PLC is chosen. Choose one at the top left.",
   "sweep.next.never_read":
     "Next: read {flag} in a task that runs in every state, or accept the finding with a reason. It then stands in the test record.",
+  "sweep.next.not_reached":
+    "Next: sweep with a longer window or from another state, or accept the finding with a reason. It is then in the test record.",
+  "sweep.next.stored_only":
+    "Next: let what is stored decide something, or accept the finding with a reason. It is then in the test record.",
   "sweep.next.no_effect":
     "Next: let something follow where it is read, or accept the finding with a reason. It then stands in the test record.",
   "sweep.noproject": "No project is chosen. Choose one at the top left to see its sweeps.",
@@ -906,6 +916,9 @@ export const english = {
   "sweep.runs": "{done} of {total} runs",
   "sweep.says.never_read":
     "The program ran {window} scans with this error, and no statement looked at its flag, its code or its details.",
+  "sweep.says.not_reached": "A statement reads it, but did not run in {window} scans.",
+  "sweep.says.stored_only":
+    "A statement looked at it first in scan {read}, but it was only stored: it decided nothing in {window} scans.",
   "sweep.says.no_effect":
     "A statement looked at it first in scan {read}, but nothing else was different in {window} scans.",
   "sweep.says.reacted":
@@ -934,6 +947,8 @@ export const english = {
   "sweep.present": "Present already",
   "sweep.withdraw": "Withdraw",
   "verdict.never_read": "Never read",
+  "verdict.not_reached": "Not reached",
+  "verdict.stored_only": "Stored only",
   "verdict.no_effect": "No effect",
   "verdict.reacted": "Reacted",
   "verdict.stopped": "Stopped",

@@ -213,6 +213,8 @@ export const japanese: Record<TextKey, string> = {
   "reaction.more": "他 {count} 件",
   "reaction.next": "次に:",
   "reaction.next.never_read": "プログラムで {flag} を読むか、スイープで理由を付けて承認します。",
+  "reaction.next.not_reached": "期間を長くするか別の状態から試すか、スイープで理由を付けて承認します。",
+  "reaction.next.stored_only": "保存した値を処理に使うか、スイープで理由を付けて承認します。",
   "reaction.next.no_effect": "読んだ箇所で処理を行うか、スイープで理由を付けて承認します。",
   "reaction.output": "出力",
   "reaction.readers": "読出し箇所",
@@ -220,6 +222,9 @@ export const japanese: Record<TextKey, string> = {
   "reaction.recording": "記録中",
   "reaction.recording.about": "異常なしの実行と比較しています。期間が終わると判明します。",
   "reaction.says.never_read": "{window} スキャンの間、{flag}、コード、詳細のどれも読まれませんでした。",
+  "reaction.says.not_reached": "参照する文はありますが、{window} スキャンの間に実行されませんでした。",
+  "reaction.says.stored_only":
+    "スキャン {read} で最初に読まれましたが、保存されただけで、{window} スキャンの間何も決めていません。",
   "reaction.says.no_effect":
     "スキャン {read} で最初に読まれましたが、{window} スキャンの間ほかに変化はありませんでした。",
   "reaction.says.reacted": "{scans} スキャン後。",
@@ -808,6 +813,8 @@ export const japanese: Record<TextKey, string> = {
   "sweep.compare.tab": "スイープの比較",
   "sweep.compare.table": "スイープ間の変化",
   "sweep.count.never_read": "未参照",
+  "sweep.count.not_reached": "未到達",
+  "sweep.count.stored_only": "保存のみ",
   "sweep.count.no_effect": "参照のみ、影響なし",
   "sweep.count.reacted": "反応あり",
   "sweep.count.stopped": "機種どおり停止",
@@ -856,6 +863,9 @@ export const japanese: Record<TextKey, string> = {
   "sweep.noplc": "仮想 PLC が選ばれていません。左上で選んでください。",
   "sweep.next.never_read":
     "次: どの状態でも動くタスクで {flag} を参照するか、理由を付けて指摘を承認します。承認は試験記録に残ります。",
+  "sweep.next.not_reached":
+    "次: 期間を長くするか別の状態からスイープするか、理由を付けて指摘を承認します。承認は試験記録に残ります。",
+  "sweep.next.stored_only": "次: 保存した値を処理に使うか、理由を付けて指摘を承認します。承認は試験記録に残ります。",
   "sweep.next.no_effect":
     "次: 参照した箇所で何らかの処理を行うか、理由を付けて指摘を承認します。承認は試験記録に残ります。",
   "sweep.noproject": "プロジェクトが選ばれていません。左上で選んでください。",
@@ -903,6 +913,9 @@ export const japanese: Record<TextKey, string> = {
   "sweep.runs": "{total} 回中 {done} 回",
   "sweep.says.never_read":
     "この異常のまま {window} スキャン実行しましたが、フラグ、コード、詳細を参照した文はありません。",
+  "sweep.says.not_reached": "参照する文はありますが、{window} スキャンの間に実行されませんでした。",
+  "sweep.says.stored_only":
+    "スキャン {read} で初めて参照されましたが、保存されただけで、{window} スキャンの間何も決めていません。",
   "sweep.says.no_effect": "スキャン {read} で初めて参照されましたが、{window} スキャンの間、ほかに違いはありません。",
   "sweep.says.reacted": "{scans} スキャン後に違いが現れました。初めて参照されたのはスキャン {read} です。",
   "sweep.says.reacted.one": "最初のスキャンで違いが現れました。",
@@ -929,6 +942,8 @@ export const japanese: Record<TextKey, string> = {
   "sweep.present": "すでに発生中",
   "sweep.withdraw": "取り消す",
   "verdict.never_read": "未参照",
+  "verdict.not_reached": "未到達",
+  "verdict.stored_only": "保存のみ",
   "verdict.no_effect": "影響なし",
   "verdict.reacted": "反応あり",
   "verdict.stopped": "停止",

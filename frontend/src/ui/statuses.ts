@@ -7,10 +7,15 @@ export const STATUS_ICONS: Record<"never" | "generated" | "cleared", IconName> =
   cleared: "cleared",
 };
 
-/** What the program did about an error: shield, eye, struck eye, stopped. The tone of each is its own name (base.css). */
-export const VERDICT_ICONS: Record<"reacted" | "no_effect" | "never_read" | "stopped", IconName> = {
+/** What the program did about an error: shield, drawer, eye, arrow past a bar, struck eye, stopped. The tone of each is its own name (base.css). */
+export const VERDICT_ICONS: Record<
+  "reacted" | "stored_only" | "no_effect" | "not_reached" | "never_read" | "stopped",
+  IconName
+> = {
   reacted: "handled",
+  stored_only: "stored",
   no_effect: "noeffect",
+  not_reached: "notreached",
   never_read: "unhandled",
   stopped: "stopped",
 };

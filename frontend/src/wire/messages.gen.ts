@@ -4293,7 +4293,7 @@ export interface components {
              * Verdict
              * @enum {string}
              */
-            verdict: "reacted" | "no_effect" | "never_read" | "stopped";
+            verdict: "reacted" | "stored_only" | "no_effect" | "not_reached" | "never_read" | "stopped";
             /**
              * Window
              * @description scans that were compared
@@ -4318,7 +4318,7 @@ export interface components {
              */
             state: "recording" | "done" | "failed";
             /** Verdict */
-            verdict: ("reacted" | "no_effect" | "never_read" | "stopped") | null;
+            verdict: ("reacted" | "stored_only" | "no_effect" | "not_reached" | "never_read" | "stopped") | null;
         };
         /**
          * Reader
@@ -4364,7 +4364,7 @@ export interface components {
             /** State */
             state: string;
             /** Verdict */
-            verdict: ("reacted" | "no_effect" | "never_read" | "stopped") | null;
+            verdict: ("reacted" | "stored_only" | "no_effect" | "not_reached" | "never_read" | "stopped") | null;
         };
         /**
          * RecordError
@@ -4425,7 +4425,7 @@ export interface components {
              * Verdict
              * @description of the PLC itself, else of sweeps
              */
-            verdict: ("reacted" | "no_effect" | "never_read" | "stopped") | null;
+            verdict: ("reacted" | "stored_only" | "no_effect" | "not_reached" | "never_read" | "stopped") | null;
             /**
              * Verdict From
              * @enum {string}
@@ -4918,7 +4918,7 @@ export interface components {
              * Verdict
              * @description null: it could not be raised, `note` says why
              */
-            verdict: ("reacted" | "no_effect" | "never_read" | "stopped") | null;
+            verdict: ("reacted" | "stored_only" | "no_effect" | "not_reached" | "never_read" | "stopped") | null;
         };
         /**
          * SweepChange
@@ -4926,9 +4926,9 @@ export interface components {
          */
         SweepChange: {
             /** After */
-            after: ("reacted" | "no_effect" | "never_read" | "stopped") | null;
+            after: ("reacted" | "stored_only" | "no_effect" | "not_reached" | "never_read" | "stopped") | null;
             /** Before */
-            before: ("reacted" | "no_effect" | "never_read" | "stopped") | null;
+            before: ("reacted" | "stored_only" | "no_effect" | "not_reached" | "never_read" | "stopped") | null;
             /**
              * Change
              * @enum {string}

@@ -1,4 +1,5 @@
 import { useShallow } from "zustand/react/shallow";
+import { VERDICTS } from "../../logic/sweep";
 import { t } from "../../logic/text";
 import { setFilters, useSimulator } from "../../store/simulator";
 import { Icon } from "../../ui/Icon";
@@ -6,7 +7,6 @@ import { MenuButton, type MenuItem } from "../../ui/Menu";
 
 const STATUSES = ["all", "never", "generated", "cleared"] as const;
 const SEVERITIES = ["all", "fatal", "nonfatal"] as const;
-const VERDICTS = ["reacted", "no_effect", "never_read", "stopped"] as const;
 const REACTIONS = ["all", "findings", ...VERDICTS, "unknown"] as const;
 
 type Reaction = (typeof REACTIONS)[number];

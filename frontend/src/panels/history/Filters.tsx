@@ -1,11 +1,12 @@
 import type { HistoryView } from "../../logic/history";
+import { VERDICTS } from "../../logic/sweep";
 import { t } from "../../logic/text";
 import { Icon } from "../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../ui/Menu";
 
 const STATUSES = ["all", "never", "generated", "cleared"] as const;
 const SEVERITIES = ["all", "fatal", "nonfatal"] as const;
-const REACTIONS = ["all", "findings", "reacted", "no_effect", "never_read", "stopped", "unknown"] as const;
+const REACTIONS = ["all", "findings", ...VERDICTS, "unknown"] as const;
 
 const severityWord = (severity: (typeof SEVERITIES)[number]) =>
   t(severity === "all" ? "errors.severity.all" : severity === "fatal" ? "errors.fatal" : "errors.nonfatal");

@@ -1,6 +1,7 @@
 import { useEffect, useMemo, useState } from "react";
 import { everything, type HistoryView, recordLines } from "../../logic/history";
 import { dayTime } from "../../logic/numbers";
+import { VERDICTS } from "../../logic/sweep";
 import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { useCatalogueOf } from "../../store/catalogue";
@@ -140,8 +141,6 @@ function Facts({ record }: { record: TestRecord }) {
     </dl>
   );
 }
-
-const VERDICTS = ["reacted", "no_effect", "never_read", "stopped"] as const;
 
 function Counts({ record }: { record: TestRecord }) {
   const { summary, sweeps, log } = record;

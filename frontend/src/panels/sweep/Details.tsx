@@ -62,9 +62,9 @@ function Result({ sweep, error, cell }: { sweep: Sweep; error: SweepError; cell:
         <p className="hint">{refused ?? t("sweep.loading")}</p>
       )}
       <Deeds sweep={sweep} error={error} cell={cell} />
-      {isOpen(cell) && (
+      {isOpen(cell) && cell.verdict !== null && cell.verdict !== "reacted" && cell.verdict !== "stopped" && (
         <p className="hint">
-          {t(cell.verdict === "no_effect" ? "sweep.next.no_effect" : "sweep.next.never_read", {
+          {t(`sweep.next.${cell.verdict}`, {
             flag: flag || t("errors.flag"),
           })}
         </p>

@@ -1,0 +1,367 @@
+"""Whether state decides anything: what differs and has not come to anything yet may still do so, or is only stored.
+
+A copy of the error memory, the memory of an edge, what is worked out anew in every scan is no state: what it decides shows at
+once, in the run itself. State is a latch, a counter, a timer. It decides when it can reach an output, what the PLC does by
+itself, the plant, a variable of VAR_ACCESS, or the start of a task.
+"""
+
+from bisect import bisect_right
+from collections.abc import Iterable, Iterator
+from typing import NamedTuple
+
+from scanbench.check.layout import Layout
+from scanbench.check.program import Base, Pou, Program
+from scanbench.check.standard.library import in_library
+from scanbench.check.symbols import Symbol, resolve
+from scanbench.check.types import ArrayType, Kind, Record, Type, has_instance
+from scanbench.faults.flows import ANYWHERE, Flow, Flows, Ref, ref_of
+
+_EDGES = ("R_TRIG", "F_TRIG")
+_STEPS = 100_000
+"""Statements that are followed; more, and it is taken to decide something."""
+
+Space = tuple[Pou, int] | None
+"""None: the image; else temporaries of a body that runs on an instance."""
+
+
+class Node(NamedTuple):
+    """A place that data is in."""
+
+    space: Space
+    ref: Ref
+    """Of Base.IMAGE; of Base.FRAME in a space of its own; or ANYWHERE."""
+
+
+class Instance(NamedTuple):
+    """A block or program in the image."""
+
+    begin: int
+    end: int
+    record: Record
+    path: str
+    parent: int
+    """Index of the one around it, -1 for none."""
+
+
+class Instances:
+    """Where the blocks and programs of a program lie."""
+
+    def __init__(self, program: Program) -> None:
+        self.all: list[Instance] = []
+        for each in program.instances:
+            if each.pou.kind == "program":
+                self._add(each.pou.instance, each.offset, each.name, -1)
+        owner = program.layout.globals
+        for member in owner.members.values() if owner is not None else ():
+            if member.storage:
+                self._below(member.type, member.offset, member.name, -1)
+        # in the order of their places; who holds another comes first
+        order = sorted(range(len(self.all)), key=lambda each: (self.all[each].begin, -self.all[each].end, each))
+        at = {old: new for new, old in enumerate(order)}
+        self.all = [self.all[old]._replace(parent=at.get(self.all[old].parent, -1)) for old in order]
+        self._begins = [each.begin for each in self.all]
+        self.of: dict[str, list[Instance]] = {}
+        """By the names of their types, and of what these extend."""
+        for instance in self.all:
+            record: Record | None = instance.record
+            while record is not None:
+                self.of.setdefault(record.name, []).append(instance)
+                record = record.base
+
+    def around(self, begin: int, end: int) -> Iterator[Instance]:
+        """Those that hold any of these bytes, inner ones first."""
+        first = bisect_right(self._begins, begin)
+        for index in range(first, bisect_right(self._begins, end - 1)):
+            yield self.all[index]
+        index = first - 1
+        while index >= 0:
+            each = self.all[index]
+            if each.end > begin:
+                yield each
+            index = each.parent
+
+    def _add(self, record: Record, offset: int, path: str, parent: int) -> None:
+        self.all.append(Instance(offset, offset + max(1, record.size), record, path, parent))
+        self._members(record, offset, path, len(self.all) - 1)
+
+    def _members(self, record: Record, offset: int, path: str, parent: int) -> None:
+        for member in record.members.values():
+            if member.storage and not member.bound:
+                self._below(member.type, offset + member.offset, f"{path}.{member.name}", parent)
+
+    def _below(self, type: Type, offset: int, path: str, parent: int) -> None:
+        if not has_instance(type):
+            return
+        if isinstance(type, ArrayType):
+            for index in range(type.count):
+                at = index * type.element.size
+                self._below(type.element, offset + at, f"{path}[{_index(type, at)}]", parent)
+        elif isinstance(type, Record) and type.kind is Kind.BLOCK:
+            self._add(type, offset, path, parent)
+        elif isinstance(type, Record):
+            self._members(type, offset, path, parent)
+
+
+def _index(type: ArrayType, rest: int) -> str:
+    """The index of the element that begins at this byte."""
+    numbers = []
+    for dimension, (low, _) in enumerate(type.bounds):
+        number, rest = divmod(rest, type.stride(dimension))
+        numbers.append(str(low + number))
+    return ",".join(numbers)
+
+
+class _Uses:
+    """Flows by the bytes that they use."""
+
+    def __init__(self) -> None:
+        self._near: dict[int, list[tuple[Ref, Flow]]] = {}
+        self._wide: list[tuple[Ref, Flow]] = []
+
+    def add(self, ref: Ref, flow: Flow) -> None:
+        """A flow that uses these bytes."""
+        if ref.end - ref.begin > 64:
+            self._wide.append((ref, flow))
+            return
+        for part in range(ref.begin // 16, (ref.end - 1) // 16 + 1):
+            self._near.setdefault(part, []).append((ref, flow))
+
+    def find(self, begin: int, end: int, mask: int) -> Iterator[Flow]:
+        """Flows that use any of these."""
+        wide = end - begin > 4096
+        parts = self._near if wide else range(begin // 16, (end - 1) // 16 + 1)
+        for ref, flow in (*self._wide, *(each for part in parts for each in self._near.get(part, ()))):
+            if ref.begin < end and begin < ref.end and (end - begin > 1 or ref.end - ref.begin > 1 or ref.mask & mask):
+                yield flow
+
+
+class _Body:
+    """The flows of a body, by what they use."""
+
+    def __init__(self, flows: Iterable[Flow]) -> None:
+        self.flows = tuple(flows)
+        self.reads: dict[Base | None, _Uses] = {}
+        self.writes: dict[Base | None, _Uses] = {}
+        for flow in self.flows:
+            for ref in flow.reads | flow.controls:
+                self.reads.setdefault(ref.base, _Uses()).add(ref, flow)
+            for ref in flow.writes:
+                self.writes.setdefault(ref.base, _Uses()).add(ref, flow)
+
+
+class Deciding:
+    """What the state of one program decides."""
+
+    def __init__(self, program: Program) -> None:
+        self._program, self.instances, flows = program, Instances(program), Flows()
+        plant = {each.pou for each in program.plant}
+        self._bodies = {pou: _Body(flows.of(pou)) for pou in program.pous if self._runs(pou)}
+        around = [*program.plant, *(each for task in program.tasks for each in task.programs)]
+        joined = [stmt for each in around for stmt in (*each.before, *each.after)]
+        self._joined = _Body(flows.of_statements(joined))
+        self._plant = plant
+        self._library = {pou.instance.name for pou in program.pous if in_library(pou.span)}
+        self._contexts: dict[Pou, tuple[int, ...]] = {}
+        self._bodies_of: dict[str, list[Pou]] = {}
+        for pou in self._bodies:
+            self._contexts[pou] = tuple(each.begin for each in self.instances.of.get(pou.instance.name, ()))
+            self._bodies_of.setdefault(pou.instance.name, []).append(pou)
+        self._ends = list(self._sinks())
+        self._answers: dict[str, bool] = {}
+
+    @staticmethod
+    def _runs(pou: Pou) -> bool:
+        return pou.kind != "function" and not in_library(pou.span)
+
+    def _sinks(self) -> Iterator[Ref]:
+        """Where data must come to for something to be decided."""
+        layout, model = self._program.layout, self._program.layout.model
+        yield Ref(Base.IMAGE, 0, Layout.SUBRANGE_ERROR)
+        for words in model.fatal.outputs:
+            base = layout.areas[words.area.name]
+            yield Ref(Base.IMAGE, base + 2 * words.first, base + 2 * words.last + 2)
+        for each in model.iec_maps:
+            if each.letter == "Q":
+                base = layout.areas[each.area.name] + 2 * each.first
+                yield Ref(Base.IMAGE, base, base + 2 * each.words)
+        for special in model.specials:
+            place = special.location
+            begin = layout.areas[place.area.name] + place.byte
+            mask = 0xFF if place.bit is None else 1 << place.bit % 8
+            yield Ref(Base.IMAGE, begin, begin + max(1, place.bits // 8), mask)
+        for access in self._program.accesses:
+            symbol = resolve(self._program, access.path)
+            if not symbol.slots:
+                mask = 0xFF if symbol.bit is None else 1 << symbol.bit
+                yield Ref(Base.IMAGE, symbol.offset, symbol.offset + max(1, symbol.type.size), mask)
+        for task in self._program.tasks:
+            if task.single is not None:
+                yield ref_of(task.single)
+        for each in self._program.plant:
+            yield Ref(Base.IMAGE, each.offset, each.offset + max(1, each.pou.instance.size))
+
+    # ---- questions ------------------------------------------------------------------------------------------------
+
+    def acts(self, symbol: Symbol) -> bool:
+        """Whether this is where something comes out: an output, what the PLC shows of itself, the plant, a VAR_ACCESS."""
+        ref = _ref(symbol)
+        if self._is_end(ref):
+            return True
+        found = self._program.layout.area_at(symbol.offset)
+        if found is None:
+            return False
+        area, byte = found
+        inputs = (
+            each for each in self._program.layout.model.iec_maps if each.letter == "I" and each.area.name == area.name
+        )
+        if any(each.first <= byte // 2 < each.first + each.words for each in inputs):
+            return True
+        return any(part.program == "read" for part in area.ranges if part.first <= byte // 2 <= part.last)
+
+    def decides(self, symbol: Symbol) -> bool:
+        """Whether this is state that something is decided by."""
+        known = self._answers.get(symbol.path)
+        if known is None:
+            known = self._answers[symbol.path] = self._decides(symbol)
+        return known
+
+    def block_of(self, symbol: Symbol) -> str:
+        """The path of the library's block that it is in; empty where it is in none."""
+        block = self._library_block(_ref(symbol))
+        return "" if block is None else block.path
+
+    def _decides(self, symbol: Symbol) -> bool:
+        ref = _ref(symbol)
+        block = self._library_block(ref)
+        if block is not None:
+            if block.record.name.upper() in _EDGES:
+                return False
+            return self._reaches(Node(None, Ref(Base.IMAGE, block.begin, block.end)))
+        node = Node(None, ref)
+        return self._is_state(node, symbol) and self._reaches(node)
+
+    def _is_state(self, node: Node, symbol: Symbol) -> bool:
+        """Whether it depends on what was before: not where it is worked out anew whenever its body runs, nor a copy."""
+        if self._reaches(node, itself=True):
+            return True
+        writers = list(self._users(node, writing=True))
+        if any(not flow.controls for flow, _ in writers):
+            return False
+        if all(flow.constant or flow.source is not None for flow, _ in writers):
+            copies = [(flow, here) for flow, here in writers if not flow.constant]
+            return not copies or (
+                symbol.type.kind is Kind.BOOL and any(_holds_itself(flow, here) for flow, here in copies)
+            )
+        return True
+
+    def _library_block(self, ref: Ref) -> Instance | None:
+        blocks = [each for each in self.instances.around(ref.begin, ref.end) if each.record.name in self._library]
+        return blocks[-1] if blocks else None
+
+    # ---- following ------------------------------------------------------------------------------------------------
+
+    def _reaches(self, start: Node, itself: bool = False) -> bool:
+        """Whether it comes to anything; `itself`: whether its value comes back to it, whatever decides about that."""
+        waiting, seen, done = [start], {start}, set[tuple[int, Space]]()
+        while waiting:
+            node = waiting.pop()
+            for flow, space in self._readers(node):
+                if (id(flow), space) in done or (
+                    itself and not any(self._same(each, space, node) for each in flow.reads)
+                ):
+                    continue
+                done.add((id(flow), space))
+                if len(done) > _STEPS or (
+                    not itself and (flow.acts or (space is not None and space[0] in self._plant))
+                ):
+                    return True
+                for each in self._written(flow, space, not itself):
+                    if each.space is None and (_meet(each.ref, start.ref) if itself else self._is_end(each.ref)):
+                        return True
+                    if each not in seen:
+                        seen.add(each)
+                        waiting.append(each)
+        return False
+
+    def _same(self, ref: Ref, space: Space, node: Node) -> bool:
+        made = self._node(ref, space)
+        return made.space == node.space and _meet(made.ref, node.ref)
+
+    def _readers(self, node: Node) -> Iterator[tuple[Flow, Space]]:
+        if node.ref.end == 0:  # a body that runs
+            assert node.space is not None
+            for flow in self._bodies[node.space[0]].flows:
+                yield flow, node.space
+            return
+        for flow, space, _ in self._using(node, writing=False):
+            yield flow, space
+
+    def _users(self, node: Node, writing: bool) -> Iterator[tuple[Flow, Ref]]:
+        for flow, _, here in self._using(node, writing):
+            yield flow, here
+
+    def _using(self, node: Node, writing: bool) -> Iterator[tuple[Flow, Space, Ref]]:
+        """Flows that read or write a node, with the instance that runs there, and the place as it counts there."""
+        ref = node.ref
+        if ref.base is not Base.SELF and node.space is not None:
+            body = self._bodies[node.space[0]]
+            uses = (body.writes if writing else body.reads).get(Base.FRAME)
+            for flow in uses.find(ref.begin, ref.end, ref.mask) if uses is not None else ():
+                yield flow, node.space, ref
+            return
+        for pou, body in (*self._bodies.items(), (None, self._joined)):
+            uses = (body.writes if writing else body.reads).get(ref.base)
+            for flow in uses.find(ref.begin, ref.end, ref.mask) if uses is not None else ():
+                for start in self._contexts[pou] if pou is not None else (0,):
+                    yield flow, None if pou is None else (pou, start), ref
+        if ref.base is None:
+            return
+        for each in self.instances.around(ref.begin, ref.end):
+            here = Ref(Base.SELF, max(0, ref.begin - each.begin), ref.end - each.begin, ref.mask)
+            record: Record | None = each.record
+            while record is not None:
+                for pou in self._bodies_of.get(record.name, ()):
+                    body = self._bodies[pou]
+                    uses = (body.writes if writing else body.reads).get(Base.SELF)
+                    for flow in uses.find(here.begin, here.end, here.mask) if uses is not None else ():
+                        yield flow, (pou, each.begin), here
+                record = record.base
+
+    def _written(self, flow: Flow, space: Space, runs: bool) -> Iterator[Node]:
+        for ref in flow.writes:
+            yield self._node(ref, space)
+        if flow.call is not None and runs:
+            at = self._node(flow.call.instance, space)
+            pou = flow.call.pou
+            known = self._contexts.get(pou, ())
+            for start in [each for each in known if at.ref.begin <= each < at.ref.end] or known:
+                yield Node((pou, start), Ref(Base.FRAME, 0, 0))
+
+    @staticmethod
+    def _node(ref: Ref, space: Space) -> Node:
+        if ref.base is None:
+            return Node(None, ANYWHERE)
+        if ref.base is Base.IMAGE or space is None:
+            return Node(None, ref)
+        if ref.base is Base.FRAME:
+            return Node(space, ref)
+        return Node(None, Ref(Base.IMAGE, space[1] + ref.begin, space[1] + ref.end, ref.mask))
+
+    def _is_end(self, ref: Ref) -> bool:
+        return ref.base is Base.IMAGE and any(_meet(each, ref) for each in self._ends)
+
+
+def _ref(symbol: Symbol) -> Ref:
+    mask = 0xFF if symbol.bit is None else 1 << symbol.bit
+    return Ref(Base.IMAGE, symbol.offset, symbol.offset + max(1, symbol.type.size), mask)
+
+
+def _meet(one: Ref, other: Ref) -> bool:
+    if one.base is not other.base or one.begin >= other.end or other.begin >= one.end:
+        return False
+    return one.end - one.begin > 1 or other.end - other.begin > 1 or bool(one.mask & other.mask)
+
+
+def _holds_itself(flow: Flow, here: Ref) -> bool:
+    """Whether a copy is made or not because of what is there: a latch. Of an edge the other side is asked for as well."""
+    return any(_meet(each, here) for each in flow.controls) and flow.source not in flow.controls
