@@ -12,6 +12,7 @@ from scanbench.runtime.holds import held
 from scanbench.runtime.trap import Trapped, trap_info
 from scanbench.verify.control import Control, Source, Unverifiable, trap_of
 from scanbench.verify.disturb import DISTURBED, is_disturbance, told, told_held
+from scanbench.verify.disturb_fire import Unfired
 from scanbench.verify.monitor import Inputs, Monitor
 from scanbench.verify.naming import WHOLE, Leaf
 from scanbench.verify.ranges import Resolved
@@ -64,6 +65,8 @@ class Both:
         self.ran_last = -1
         """Its number, also where nothing ran in it; -1: none since this was put somewhere."""
         self.told: list[str] = []
+        self.missed: list[str] = []
+        """Disturbances that did not come about, as the journal says it."""
         self.extra: list[Mismatch] = []
         self._disturbed = Disturbed()
 
@@ -72,13 +75,13 @@ class Both:
         self.control.goto(scan)
         self.monitor.restart(self.control.side)
         self.ran, self.ran_last = [], -1
-        self.told, self.extra, self._disturbed = [], [], Disturbed()
+        self.told, self.missed, self.extra, self._disturbed = [], [], [], Disturbed()
 
     # ---- a whole scan ---------------------------------------------------------------------------------------------
 
     def run(self, scan: int, view_of: ViewOf) -> tuple[Row, ...]:
         """Runs the scan that is next."""
-        self.ran, self.told, self.extra, self._disturbed = [], [], [], Disturbed()
+        self.ran, self.told, self.missed, self.extra, self._disturbed = [], [], [], [], Disturbed()
         rows: list[Row] = []
         while True:
             self.seam(scan)
@@ -98,6 +101,7 @@ class Both:
         self.tell_disturbed(view, scan)
         self.ran_last = scan
         rows[0] = replace(rows[0], differences=(*self.extra, *rows[0].differences)[:MAX_MISMATCHES])
+        rows[0] = replace(rows[0], note="; ".join(filter(None, (*self.missed, rows[0].note))))
         injected = tuple(dict.fromkeys(self.told))
         return tuple(replace(each, disturbances=injected) for each in rows) if injected else tuple(rows)
 
@@ -126,7 +130,9 @@ class Both:
             entered = True
             control.enter(entry)
             monitor.enter(entry)
-            if is_disturbance(entry.command):
+            if isinstance(entry.command, Unfired):
+                self.missed.append(entry.plan.message)
+            elif is_disturbance(entry.command):
                 disturbed = True
                 self._tell(entry)
         if disturbed:

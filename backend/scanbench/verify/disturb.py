@@ -75,11 +75,13 @@ class Disturbed:
     """In front of this scan it lets go; None: when it is taken back."""
     holding: bool = False
     """What it holds is in the force table: a restart or another program takes it out."""
+    missed: str = ""
+    """Why it never came about, though its time is over: it is known until somebody takes it back."""
 
     @property
     def over(self) -> bool:
-        """Whether nothing comes any more."""
-        return not self.active and self.next is None
+        """Whether nothing comes any more, and it was what it should be."""
+        return not self.active and self.next is None and not self.missed
 
 
 Disturbeds = Mapping[str, Disturbed]
@@ -93,17 +95,19 @@ class DisturbanceInfo:
     text: str
     kind: DisturbanceKind
     by: str
-    state: Literal["waiting", "active"]
+    state: Literal["waiting", "active", "missed"]
     fired: int
     next_scan: int | None
+    why: str = ""
+    """It was missed because of this."""
 
 
 def disturbances(state: Disturbeds) -> tuple[DisturbanceInfo, ...]:
     """Those that are not over; `state` is that of `DISTURBED`."""
     return tuple(
         DisturbanceInfo(
-            each.number, describe(each.wanted), each.wanted.kind, each.by, "active" if each.active else "waiting",
-            each.fired, each.next,
+            each.number, describe(each.wanted), each.wanted.kind, each.by,
+            "missed" if each.missed else "active" if each.active else "waiting", each.fired, each.next, each.missed,
         )
         for each in state.values()
     )  # fmt: skip
@@ -176,7 +180,9 @@ def _behind(each: Disturbed, command: Firing, scan: int) -> Disturbed:
         case Unhold():
             return replace(tried, next=_next(tried, scan), active=False, until=None, holding=False)
         case Unfired():
-            return replace(tried, next=_next(tried, command.scan + 1), active=False, until=None, holding=False)
+            tried = replace(tried, next=_next(tried, command.scan + 1), active=False, until=None, holding=False)
+            missed = tried.next is None and not tried.fired
+            return replace(tried, missed=f"scan {command.scan}: {command.why}") if missed else tried
     return replace(tried, next=_next(tried, scan + 1))
 
 
@@ -186,4 +192,4 @@ def _next(each: Disturbed, first: int) -> int | None:
 
 
 DISTURBED: Fold[Disturbeds] = Fold({}, _step)
-"""The disturbances that are not over, by number."""
+"""The disturbances that are not over, by number; those that never came about stay until they are taken back."""

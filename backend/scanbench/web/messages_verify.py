@@ -232,13 +232,16 @@ class DisturbanceInfo(Wire):
     text: str = Field(description="for people: `Memory D120, bit 0, once in scan 500`")
     kind: Literal["flip", "late", "stuck", "result"]
     by: str
-    state: Literal["waiting", "active"]
+    state: Literal["waiting", "active", "missed"] = Field(
+        description="missed: its time is over and nothing was changed; it is listed until it is taken back"
+    )
     fired: int = Field(description="how often until now")
     next_scan: int | None
+    why: str = Field(description="missed: the scan, and why")
 
 
 class Disturbances(Wire):
-    """Those that are not over, whenever they change."""
+    """Those that are not over, and those that were missed, whenever they change."""
 
     type: Literal["disturbances"] = "disturbances"
     disturbances: list[DisturbanceInfo]

@@ -136,7 +136,7 @@ def disturbance(of: DisturbanceInfo) -> wire.DisturbanceInfo:
     return wire.DisturbanceInfo.model_validate(
         {
             "id": of.id, "text": of.text, "kind": of.kind, "by": of.by, "state": of.state, "fired": of.fired,
-            "next_scan": of.next_scan,
+            "next_scan": of.next_scan, "why": of.why,
         }
     )  # fmt: skip
 

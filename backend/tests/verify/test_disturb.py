@@ -336,6 +336,10 @@ def test_a_statement_that_does_not_run_has_no_result(engine: EngineFactory) -> N
     ]  # fmt: skip
     assert result.entries[2].plan.message == "disturbance 1 did not come about in scan 3: the statement did not run"
     assert value(result.resource, "Main.sum") == 100 ^ 512
+    (info,) = disturbances(result.resource.journal.derived(DISTURBED))  # the other one came about in the end
+    assert (info.id, info.state, info.why) == (1, "missed", "scan 3: the statement did not run")
+    assert result.resource.submit(Calm("Ada", (1,))) is not None
+    assert result.resource.journal.derived(DISTURBED) == {}
 
 
 def test_commands_of_the_same_seam_come_before_the_scan_that_is_disturbed() -> None:

@@ -193,6 +193,19 @@ def disturbed(tmp_path: Path, wanted: Disturbance, scans: int = 12, at: int = 5,
     )  # fmt: skip
 
 
+def test_a_disturbance_that_did_not_come_about_is_said_to_be_so(tmp_path: Path) -> None:
+    source = (
+        "PROGRAM Main\nVAR n, m : INT; END_VAR\n  n := n + 1;\n  IF n < 0 THEN\n    m := 1;\n  END_IF;\nEND_PROGRAM"
+    )
+    path = disturbed(tmp_path, Disturbance("result", site="main.st:5", bit=1, scan=7), source=source)
+    found = rows(verifier(path, program(source)))
+    assert differences(found) == []
+    assert not any(row.disturbances for row in found)
+    assert {row.scan: row.note for row in found if row.note} == {
+        8: "disturbance 1 did not come about in scan 7: the statement did not run"
+    }
+
+
 @pytest.mark.parametrize("range", ["", "Main", "Belt"])
 def test_a_flipped_bit_is_found_in_its_scan_by_its_variable(range: str, tmp_path: Path) -> None:
     path = disturbed(tmp_path, Disturbance("flip", "Main.belt[2].pos", 3, scan=7))

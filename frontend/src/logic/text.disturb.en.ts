@@ -30,6 +30,8 @@ export const disturbEnglish = {
   "disturb.count": "{count} disturbances",
   "disturb.count.one": "1 disturbance",
   "disturb.menu": "Disturb…",
+  "disturb.missed": "Not injected",
+  "disturb.missed.why": "did not come about in {why}",
   "disturb.near": "Did you mean",
   "disturb.taken": "{message}, entered before scan {scan}",
   "disturb.next": "next in scan {scan}",

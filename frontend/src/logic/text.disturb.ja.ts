@@ -32,6 +32,8 @@ export const disturbJapanese: Record<keyof typeof disturbEnglish, string> = {
   "disturb.count": "外乱 {count} 件",
   "disturb.count.one": "外乱 1 件",
   "disturb.menu": "外乱を与える…",
+  "disturb.missed": "注入されず",
+  "disturb.missed.why": "発生せず: {why}",
   "disturb.near": "もしかして:",
   "disturb.taken": "{message}、スキャン {scan} の前に入力",
   "disturb.next": "次はスキャン {scan}",

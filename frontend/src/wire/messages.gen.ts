@@ -2874,18 +2874,24 @@ export interface components {
             next_scan: number | null;
             /**
              * State
+             * @description missed: its time is over and nothing was changed; it is listed until it is taken back
              * @enum {string}
              */
-            state: "waiting" | "active";
+            state: "waiting" | "active" | "missed";
             /**
              * Text
              * @description for people: `Memory D120, bit 0, once in scan 500`
              */
             text: string;
+            /**
+             * Why
+             * @description missed: the scan, and why
+             */
+            why: string;
         };
         /**
          * Disturbances
-         * @description Those that are not over, whenever they change.
+         * @description Those that are not over, and those that were missed, whenever they change.
          */
         Disturbances: {
             /** Disturbances */

@@ -5,7 +5,7 @@ import { useForbidden } from "../../store/plc";
 import { StateWord } from "../../ui/StateWord";
 import type { DisturbanceInfo } from "../../wire/types";
 
-/** What is defined and not over: what, when next, how often until now, by whom. */
+/** What is defined and not over, or never came about: what, when next, how often until now, by whom. */
 export function DisturbList() {
   const disturbances = useDisturb((state) => state.disturbances);
   const forbidden = useForbidden("errors");
@@ -36,22 +36,26 @@ interface LineProps {
   locked: { disabled: boolean; title: string | undefined };
 }
 
-function Line({ disturbance: { id, text, kind, by, state, fired, next_scan }, locked }: LineProps) {
-  const active = state === "active";
+const STATES = {
+  waiting: ["recording", "clock"],
+  active: ["warning", "disturbance"],
+  missed: ["stopped", "minus"],
+} as const;
+
+function Line({ disturbance: { id, text, kind, by, state, fired, next_scan, why }, locked }: LineProps) {
+  const [tone, icon] = STATES[state];
   const facts = [
-    fired === 0
-      ? t("disturb.fired.not")
-      : t(fired === 1 ? "disturb.fired.one" : "disturb.fired", { count: grouped(fired) }),
+    state === "missed"
+      ? t("disturb.missed.why", { why })
+      : fired === 0
+        ? t("disturb.fired.not")
+        : t(fired === 1 ? "disturb.fired.one" : "disturb.fired", { count: grouped(fired) }),
     next_scan === null ? "" : t("disturb.next", { scan: grouped(next_scan) }),
     t("disturb.by", { by }),
   ];
   return (
     <li data-disturbance={id} title={`${t(`disturb.kind.${kind}`)}: ${text}`}>
-      <StateWord
-        tone={active ? "warning" : "recording"}
-        icon={active ? "disturbance" : "clock"}
-        word={t(active ? "disturb.active" : "disturb.waiting")}
-      />
+      <StateWord tone={tone} icon={icon} word={t(`disturb.${state}`)} />
       <span className="grow">
         <p>{text}</p>
         <small className="faint">{facts.filter(Boolean).join(" · ")}</small>
