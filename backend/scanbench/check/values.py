@@ -7,7 +7,6 @@ from datetime import date as calendar_date
 
 from scanbench.check.fold import round_real
 from scanbench.check.types import (
-    ELEMENTARY,
     ArrayType,
     Elementary,
     Enumeration,
@@ -71,7 +70,12 @@ def _parse_number(type: Elementary, text: str) -> int:
         case Kind.CHAR:
             return _parse_character(type, text)
         case Kind.REF:
-            return 0 if text.upper() == "NULL" else _parse_integer(ELEMENTARY["ULINT"], text)
+            if text.upper() == "NULL":
+                return 0
+            raise ValueError(
+                f"`{text}` is not {type}; as a number a reference would be any place in memory: write NULL, or the "
+                "variable that it refers to (behind a ^)"
+            )
     return _parse_integer(base_of(type), text)
 
 

@@ -2,10 +2,11 @@
 
 import pytest
 
-from scanbench.check.types import ELEMENTARY, NULL, Enumeration, Kind, StringType, Subrange, Type
+from scanbench.check.types import ELEMENTARY, NULL, Enumeration, Kind, Reference, StringType, Subrange, Type
 from scanbench.check.values import format_value, parse_value, python_value
 
 COLOR = Enumeration("Color", Kind.INT, 2, (("RED", 0), ("GREEN", 5)))
+TO_INT = Reference("REF_TO INT", Kind.REF, 8, ELEMENTARY["INT"])
 LEVEL = Subrange("Level", Kind.INT, 2, 0, 100)
 
 SHOWN: list[tuple[Type, str, str]] = [
@@ -40,6 +41,8 @@ REFUSED: list[tuple[Type, str, str]] = [
     (ELEMENTARY["TIME_OF_DAY"], "25:00:00", "TOD#12:30:15.5"),
     (ELEMENTARY["CHAR"], "'ab'", "one character"),
     (StringType(2, 2), '"abc"', "at most 2"),
+    (TO_INT, "4660", "write NULL, or the variable"),
+    (TO_INT, "16#1234", "write NULL, or the variable"),
 ]
 
 

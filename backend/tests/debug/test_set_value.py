@@ -28,7 +28,7 @@ FUNCTION_BLOCK Counter
   n := n + 1;
 END_FUNCTION_BLOCK
 PROGRAM Main
-  VAR c : Counter; mw AT %MW3 : INT; flag AT %MX0.5 : BOOL; END_VAR
+  VAR c : Counter; one : REF_TO INT; ptr : POINTER TO INT; seat : DWORD; mw AT %MW3 : INT; flag AT %MX0.5 : BOOL; END_VAR
   c(io := mw);
   flag := flag;
 END_PROGRAM
@@ -134,6 +134,10 @@ def test_a_bit(scene: Scene) -> None:
         ("list[4]", "1", "1..3"),
         ("lost", "1", "`lost`"),
         ("n + 1", "1", "variable"),
+        ("Main.one", "1234", "a reference would be any place in memory"),
+        ("Main.ptr", "16#1234", "a reference would be any place in memory"),
+        ("Main.ptr", "n + 16", "POINTER TO INT"),
+        ("Main.ptr", "Main.seat", "POINTER TO INT"),
     ],
 )
 def test_refused(scene: Scene, target: str, value: str, message: str) -> None:

@@ -46,6 +46,38 @@ def done(resource: Resource, command: Command) -> Entry:
     return outcome
 
 
+REFERENCES = """
+INTERFACE Runs METHOD Run END_METHOD END_INTERFACE
+PROGRAM Main
+VAR n : INT; one : REF_TO INT; ptr : POINTER TO INT; same : REFERENCE TO INT; many : ARRAY[0..1] OF REF_TO INT; runs : Runs; user : User; END_VAR
+  one := REF(n); user(level := n);
+END_PROGRAM
+FUNCTION_BLOCK User
+VAR_IN_OUT level : INT; END_VAR
+  level := level + 1;
+END_FUNCTION_BLOCK
+"""
+
+
+@pytest.mark.parametrize("command", [Write, Force])
+@pytest.mark.parametrize("path", ["one", "ptr", "same", "many[1]", "runs"])
+def test_a_reference_is_no_number(command: type[Write | Force], path: str) -> None:
+    resource = plc(REFERENCES)
+    for text in ("1234", "16#1234"):
+        message = refused(resource, command("Ada", f"Main.{path}", text)).message
+        assert f"`{text}` is not" in message
+        assert "would be any place in memory: write NULL, or the variable" in message
+    done(resource, command("Ada", f"Main.{path}", "NULL"))
+
+
+def test_an_in_out_is_the_variable_behind_it() -> None:
+    resource = plc(REFERENCES)
+    assert "not called yet" in refused(resource, Write("Ada", "Main.user.level", "7")).message
+    resource.run(1)
+    done(resource, Write("Ada", "Main.user.level", "7"))
+    assert value(resource, "Main.n") == 7
+
+
 @pytest.mark.parametrize("engine", ENGINES)
 def test_writes_of_every_kind(engine: EngineFactory) -> None:
     resource = plc(SOURCE, engine)
