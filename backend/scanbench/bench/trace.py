@@ -109,8 +109,11 @@ def _paced(scans: int) -> tuple[int, float]:
 
 
 def _lost(trace: Trace, first: int, end: int) -> int:
-    found = trace.buffer.read(first, end)
-    good = {scan for scan, n in zip(found.scans.tolist(), found.values[0].tolist(), strict=True) if n == scan + 1}
+    """Scans `first` to in front of `end` that are missing or wrong; a part at a time, as all are too many to be read at once."""
+    good = set[int]()
+    for part in trace.buffer.pieces(first, end - 1):
+        pairs = zip(part.scans.tolist(), part.values[0].tolist(), strict=True)
+        good.update(scan for scan, n in pairs if n == scan + 1)
     return len(set(range(first, end)) - good)
 
 

@@ -8,7 +8,9 @@ from scanbench.bench.building import measure_building
 from scanbench.bench.debugging import conveyor, measure_costs, measure_swaps
 from scanbench.bench.pace import PERIODS_MS, report, run_pace_bench
 from scanbench.bench.run import HERE, PROGRAMS, BenchError, run_bench
+from scanbench.bench.trace import run_trace_bench
 from scanbench.cli.bench import BUILDING
+from scanbench.taps import trace_buffer
 
 
 def test_a_program_beside_its_twin() -> None:
@@ -63,3 +65,9 @@ def test_what_the_loop_can_do() -> None:
     assert min(figures.scan_ns, figures.condition_ns, figures.knock_ns, figures.wake_us) > 0
     assert [(each.period_ms, each.scans) for each in figures.paces] == [(ms, 50 // ms) for ms in PERIODS_MS]
     assert len(report(figures).splitlines()) == 3 + len(PERIODS_MS)
+
+
+def test_traces_are_looked_through_whatever_their_length(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(trace_buffer, "LARGEST", 1000)
+    figures = run_trace_bench(minutes=0.02, seconds=0.05)
+    assert (figures.scans, figures.lost, figures.paced_scans, figures.paced_lost) == (1200, 0, 50, 0)
