@@ -20,9 +20,10 @@ class NoSuchModel(Exception):
 
 
 def model_directory() -> Path:
-    """Where the models are: SCANBENCH_MODELS, or `models` beside `backend`."""
-    named = os.environ.get("SCANBENCH_MODELS")
-    directory = Path(named) if named else Path(__file__).resolve().parents[3] / "models"
+    """Where the models are: SCANBENCH_MODELS, what a wheel brings, or `models` beside `backend`."""
+    named, here = os.environ.get("SCANBENCH_MODELS"), Path(__file__).resolve()
+    brought = here.parents[1] / "share" / "models"
+    directory = Path(named) if named else brought if brought.is_dir() else here.parents[3] / "models"
     if not (directory / SCHEMA).is_file():
         origin = "named by SCANBENCH_MODELS" if named else "set SCANBENCH_MODELS to the directory of the model files"
         raise NoModels(f"{directory / SCHEMA} does not exist ({origin})")

@@ -49,9 +49,13 @@ _WORDS = {
 
 
 def frontend_directory() -> Path:
-    """Where the built frontend is: SCANBENCH_FRONTEND, or `frontend/dist` beside `backend`."""
+    """Where the built frontend is: SCANBENCH_FRONTEND, what a wheel brings, or `frontend/dist` beside `backend`."""
     named = os.environ.get("SCANBENCH_FRONTEND")
-    return Path(named) if named else Path(__file__).resolve().parents[3] / "frontend" / "dist"
+    if named:
+        return Path(named)
+    here = Path(__file__).resolve()
+    brought = here.parents[1] / "share" / "frontend"
+    return brought if brought.is_dir() else here.parents[3] / "frontend" / "dist"
 
 
 def sign_in_page(path: str, query: Iterable[tuple[str, str]], *, wrong: bool, languages: str) -> str:

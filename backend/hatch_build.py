@@ -1,0 +1,42 @@
+"""What the package is built with: its dependencies are those of requirements.in, models and the built page go into it."""
+
+import re
+from pathlib import Path
+from typing import Any
+
+from hatchling.builders.config import BuilderConfig
+from hatchling.builders.hooks.plugin.interface import BuildHookInterface
+from hatchling.metadata.plugin.interface import MetadataHookInterface
+
+SHARE = "scanbench/share"
+"""Where the package looks for what stands beside `backend` in a checkout."""
+BUILDS = "hatchling"
+"""Needed to build, and not to run."""
+
+
+class Dependencies(MetadataHookInterface):
+    """Listed in requirements.in only, so that two lists cannot disagree."""
+
+    PLUGIN_NAME = "custom"
+
+    def update(self, metadata: dict[str, Any]) -> None:
+        """See hatchling."""
+        lines = (line.partition("#")[0].strip() for line in Path(self.root, "requirements.in").read_text().splitlines())
+        metadata["dependencies"] = [line for line in lines if line and re.split(r"\W", line)[0] != BUILDS]
+
+
+class Share(BuildHookInterface[BuilderConfig]):
+    """Not in an editable install: that looks into the checkout."""
+
+    PLUGIN_NAME = "custom"
+
+    def initialize(self, version: str, build_data: dict[str, Any]) -> None:
+        """See hatchling."""
+        if version == "editable":
+            return
+        checkout = Path(self.root).parent
+        for path, name, mark in (
+            ("models", "models", "model.xsd"), ("frontend/dist", "frontend", "index.html"), ("LICENSE", "LICENSE", ""),
+        ):  # fmt: skip
+            if (checkout / path / mark).exists():  # a source distribution has them in their place already
+                build_data["force_include"][str(checkout / path)] = f"{SHARE}/{name}"
