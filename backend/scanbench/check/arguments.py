@@ -36,7 +36,9 @@ from scanbench.check.types import (
     Record,
     Section,
     StringType,
+    Subrange,
     Type,
+    base_of,
     initial_of,
     is_derived,
 )
@@ -135,7 +137,7 @@ class ArgumentChecker(StandardCallChecker):
         if this is not None:
             bound.places["THIS"] = this
         for member in members:
-            if member.hidden and "$" in member.name:
+            if member.hidden and "$" in member.name and member.name.upper() not in bound.inputs:
                 bound.inputs[member.name.upper()] = self.open_bound(member, bound.places)
         args = tuple(bound.inputs.get(key, bound.places.get(key)) for key in callee.parameters)
         self.pous.use(self.pou, callee)
@@ -163,20 +165,27 @@ class ArgumentChecker(StandardCallChecker):
             needed = is_system(member.span) and not any(member.initial)  # what may be left out has a default
             if value is None and needed:
                 raise self.report.reject("T004", f"`{callee}` needs a number: `{callee}({member.name} := 1)`.", span)
-            bound.inputs[key] = self._input(member, value, span)
+            given = self._input(member, value, span)
+            if member.note is not None and isinstance(member.type, Subrange):
+                kept = self.temporary(base_of(member.type), span)
+                given, bound.inputs[member.note.name.upper()] = self.keeping(given, kept, span), Load(kept)
+            bound.inputs[key] = given
         elif key == STOP and in_library(member.span):
             stop = bound.places[key] = self.temporary(BOOL, span)
             trap = self.trap(TrapKind.FATAL, span, f"{callee} stops the PLC")
             bound.after.append(If(((Load(stop), (Halt(trap, span),)),), (), span))
         elif argument is not None and value is not None:
-            target = self.target(value)
+            target, variable = self.declared_target(value)
             if not argument.negated and _takes(target.type, member.type):
                 bound.places[key] = target
                 return
             taken = self.temporary(member.type, value.span)
             bound.places[key] = taken
             whole = _generic(member, Load(taken), target.type)
-            bound.after.append(Assign(target, self._output(whole, target.type, argument), argument.span))
+            stored = self.keeping(
+                self._output(whole, target.type, argument), self.note(target, variable), argument.span
+            )
+            bound.after.append(Assign(target, stored, argument.span))
 
     def _output(self, value: Expr, target: Type, argument: tree.Argument) -> Expr:
         """What is stored for `name => target` or `NOT name => target`."""

@@ -3,8 +3,10 @@
 from contextlib import suppress
 from dataclasses import replace
 
+from scanbench.check.arguments import together
 from scanbench.check.calls import CallChecker
 from scanbench.check.context import Rejected
+from scanbench.check.places import Found
 from scanbench.check.program import Assign, Const, Expr, If, Load, Place, Pou, Stmt
 from scanbench.check.shown import shown
 from scanbench.check.types import BOOL, ArrayType, Kind, Member, Record, Section, Type, has_instance
@@ -31,24 +33,27 @@ class AssignmentChecker(CallChecker):
         setter = self.assign_property(node.target, node.value, node.span)
         if setter is not None:
             return setter
-        target = self._target(node)
+        target, member = self._target(node)
         if has_instance(target.type):
             raise self.report.reject("T003", "An instance of a function block cannot be assigned.", node.span)
         what = f"`{shown(node.target)}`"
+        note = self.note(target, member)
         if isinstance(target.type, ArrayType | Record):
-            return Assign(target, self._whole(node.value, target.type, what), node.span)
-        return Assign(target, self.as_type(node.value, target.type, what), node.span)
+            copied = Assign(target, self._whole(node.value, target.type, what), node.span)
+            return copied if note is None else together([copied, Assign(note, Load(target), node.span)], node.span)
+        value = self.as_type(node.value, target.type, what)
+        return Assign(target, self.keeping(value, note, node.span), node.span)
 
-    def _target(self, node: tree.Assignment) -> Place:
+    def _target(self, node: tree.Assignment) -> Found:
         """What is assigned; where that is wrong, the value is checked all the same."""
         try:
-            target = self.target(node.target)
+            target, member = self.declared_target(node.target)
         except Rejected:
             with suppress(Rejected):
                 self.expr(node.value)
             raise
         self._not_counter(target, node)
-        return target
+        return target, member
 
     def _whole(self, node: tree.Expression, type: Type, what: str) -> Expr:
         """A whole array or structure: of this type, or an array of as many elements of the same type."""
@@ -63,7 +68,7 @@ class AssignmentChecker(CallChecker):
         literal = tree.Literal("bool", int(node.operator == "S="), None, node.span)
         plain = tree.Assignment(node.target, literal, node.span)
         mark = self.report.mark()
-        if self.accessor(node.target) is None and (type := self._target(plain).type) != BOOL:
+        if self.accessor(node.target) is None and (type := self._target(plain)[0].type) != BOOL:
             word = "set" if node.operator == "S=" else "reset"
             raise self.report.reject("T002", f"Only a BOOL can be {word}; this is {type}.", node.target.span)
         self.report.undo(mark)

@@ -20,6 +20,7 @@ from scanbench.check.declare import Declarations
 from scanbench.check.driven import Driven, warn_of_contention
 from scanbench.check.generic import is_generic
 from scanbench.check.names import Space, qualified
+from scanbench.check.notes import Looks
 from scanbench.check.order import Order
 from scanbench.check.plant import Plant, plant_files
 from scanbench.check.program import Assign, Base, CheckSite, Const, Expr, Place, Pou, Program
@@ -94,10 +95,11 @@ def with_user_errors(checked: Checked, sources: Mapping[str, str], model: Model)
     return replace(checked, program=program, problems=tuple(problems))
 
 
-def checker_of(files: Sequence[Chunked], model: Model) -> "Checker":
+def checker_of(files: Sequence[Chunked], model: Model, looks: Looks | None = None) -> "Checker":
     """What checks these files together."""
     enabling = frozenset(file.name for file in files if ENABLING.search(file.text))
-    return Checker(Report(), model, [file.file for file in files], enabling)
+    looked_at = (looks or Looks()).at(chunk for file in files for chunk in file.chunks)
+    return Checker(Report(), model, [file.file for file in files], enabling, looked_at)
 
 
 def concluded(files: Sequence[Chunked], report: Report, program: Program | None) -> Checked:
@@ -149,6 +151,8 @@ class Checker:
     parsed: list[tree.File]
     enabling: frozenset[str] = frozenset()
     """Files in whose text EN or ENO occurs."""
+    looked_at: frozenset[str] = frozenset()
+    """As in `Declarations`."""
     globals: Record = field(default_factory=lambda: Record("GLOBAL", Kind.STRUCT))
     pous: Pous = field(default_factory=Pous)
     declarations: Declarations = field(init=False)
@@ -178,6 +182,7 @@ class Checker:
         areas = place_areas(self.model)
         self.declarations = Declarations(self.report, self.model, areas, self._constant)
         self.declarations.reference_of = self._reference
+        self.declarations.looked_at = self.looked_at
         self.system = system_of(self.model, areas)
         self.declarations.symbols = self.system.symbols
         self.names = Collector(self.report, self.declarations, self.system.file, self.enabling)

@@ -12,6 +12,7 @@ from scanbench.check.dispatch import Dispatcher
 from scanbench.check.generic import GenericChecker
 from scanbench.check.methods import Receiver
 from scanbench.check.names import Names
+from scanbench.check.notes import note_of
 from scanbench.check.objects import dotted, named_itself
 from scanbench.check.program import (
     Assign,
@@ -32,6 +33,7 @@ from scanbench.check.program import (
     Violates,
 )
 from scanbench.check.scopes import decode, place_of
+from scanbench.check.shown import shown
 from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.check.standard.library import in_library
 from scanbench.check.types import (
@@ -42,8 +44,10 @@ from scanbench.check.types import (
     Record,
     Reference,
     Section,
+    Subrange,
     Type,
     actual_of,
+    base_of,
     initial_of,
 )
 from scanbench.check.untyped import is_untyped, settle
@@ -335,6 +339,7 @@ class CallChecker(GenericChecker):
         formals = list(record.members.values())
         given = self.given(node, [each for each in formals if each.section is not Section.VAR], record, name)
         before: list[Stmt] = []
+        after: list[Stmt] = []
         in_outs, bound = [], {}
         for each in formals:
             if each.section is Section.IN_OUT and not each.hidden:
@@ -351,16 +356,33 @@ class CallChecker(GenericChecker):
                 continue
             own = own_place(record, formal)
             if formal.section is Section.INPUT:
-                inputs.append((own, self.as_type(argument.value, formal.type, f"`{formal.name}`")))
+                inputs += self._noted_input(
+                    own, self.as_type(argument.value, formal.type, f"`{formal.name}`"), formal, argument.span
+                )
                 continue
-            target = self.target(argument.value)
+            target, member = self.declared_target(argument.value)
+            note = self.note(target, member)
+            if note is not None and isinstance(target.type, Subrange):
+                taken = self.temporary(base_of(target.type), argument.span)
+                outputs.append((self._output(Load(own), taken.type, argument), taken))
+                value = self.coerce(Load(taken), target.type, argument.span, f"`{shown(argument.value)}`")
+                after.append(Assign(target, self.keeping(value, note, argument.span), argument.span))
+                continue
             outputs.append((self._output(Load(own), target.type, argument), target))
         for each in formals:
             if each.hidden and each.section is Section.INPUT:
                 inputs.append((own_place(record, each), self.open_bound(each, bound)))
         self.pous.use(self.pou, callee)
         call = CallBlock(instance, callee, tuple(inputs), tuple(in_outs), tuple(outputs), node.span)
-        return [*before, call]
+        return [*before, call, *after]
+
+    def _noted_input(self, own: Place, value: Expr, formal: Member, span: Span) -> list[tuple[Place, Expr]]:
+        """An input, and its note: what the caller gave before it was limited."""
+        note = note_of(own, formal, None)
+        if note is None or not isinstance(formal.type, Subrange):
+            return [(own, value)]
+        kept = self.temporary(base_of(formal.type), span)
+        return [(own, self.keeping(value, kept, span)), (note, Load(kept))]
 
     def _rebinds(self, node: tree.Call, record: Record, member: Member, target: Place, before: list[Stmt]) -> bool:
         """Whether an in-out by value is bound to something else by this call: SUPER runs in the same instance. So what this body

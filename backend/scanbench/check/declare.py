@@ -7,6 +7,7 @@ from dataclasses import dataclass, field, replace
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.initial_values import initial_image
 from scanbench.check.names import Names, Space, qualified
+from scanbench.check.notes import make_note, may_have_note
 from scanbench.check.program import Const, Expr
 from scanbench.check.specs import (
     EnumerationValues,
@@ -81,6 +82,8 @@ class Declarations:
     """(owner, name) in upper case of variables whose declaration is wrong: reported once, not at every use."""
     owners: list[Record] = field(default_factory=list)
     """What is being declared: constants declared above can stand in bounds and initial values."""
+    looked_at: frozenset[str] = frozenset()
+    """Names of variables that have a note, in upper case; see `notes`."""
     incomplete: bool = False
     """Whether any variable waits for its address."""
     start_references: list[tuple[Record, Member, tree.Expression]] = field(default_factory=list)
@@ -466,6 +469,8 @@ class Declarations:
             owner.place(Member(actual_name(member.name), member.type, Section.IN_OUT, member.span, hidden=True))
         if isinstance(member.type, OpenArray):
             place_bounds(owner, member)
+        if member.name.upper().rpartition(".")[2] in self.looked_at and may_have_note(member):
+            make_note(owner, member, initial_of(member.type) if member.bound else member.initial)
         if variable.edge:
             if member.section is not Section.INPUT or member.type != ELEMENTARY["BOOL"]:
                 self.report.error("D008", f"{variable.edge}_EDGE is for BOOL in VAR_INPUT.", variable.span)

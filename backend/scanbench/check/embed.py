@@ -10,10 +10,14 @@ from contextlib import contextmanager
 from dataclasses import replace
 
 from scanbench.check.checker import PouChecker
+from scanbench.check.harmless import again, again_at, limited
+from scanbench.check.notes import note_of
 from scanbench.check.program import (
+    Assign,
     Binary,
     CallFunction,
     CheckSite,
+    Compare,
     Const,
     Convert,
     Expr,
@@ -108,8 +112,34 @@ class SubrangeChecker(PouChecker):
 
     def as_written(self, place: Place, member: Member | None) -> Expr:
         """The value of a subrange variable before any check limits it, as one of the base type."""
-        assert isinstance(place.type, Subrange)
-        return Load(replace(place, type=base_of(place.type)))
+        type = place.type
+        assert isinstance(type, Subrange)
+        base = base_of(type)
+        there, note = Load(replace(place, type=base)), self.note(place, member)
+        if note is None:
+            return there
+        kept = Load(note)
+        valid = Compare("eq", BOOL, limited(base, kept, type.low, type.high), there)
+        once_more = again(there)
+        assert once_more is not None
+        return Intrinsic("SEL", base, (valid, once_more, kept))
+
+    def note(self, place: Place, member: Member | None) -> Place | None:
+        """Where the variable's value is kept as it was written."""
+        same = None if member is None or member.note is None else again_at(place)
+        if same is None or member is None:
+            return None
+        found = self.scope.find(member.name)
+        own = found is not None and found[0] is member and self.scope.this is None
+        return note_of(same, member, found[1] if own and found is not None else None)
+
+    def keeping(self, value: Expr, note: Place | None, span: Span) -> Expr:
+        """A value on its way into a subrange variable; the note takes it as it is before it is limited."""
+        if note is None:
+            return value
+        if isinstance(value, Limit):
+            return Sequence((Assign(note, value.value, span),), replace(value, value=Load(note)))
+        return Sequence((Assign(note, value, span),), value if isinstance(value, Const) else Load(note))
 
     @abstractmethod
     def place(self, node: tree.Expression) -> tuple[Place, Member | None]:
@@ -147,6 +177,8 @@ def value_range(expr: Expr) -> tuple[int, int]:
             return (-most if type.signed else 0), most
         case Binary("and", right=Const(value=int(value))) if type.kind is Kind.BITS:
             return 0, value
+        case Sequence(value=value):
+            return value_range(value)
         case Intrinsic("MIN" | "MAX" as name, args=(first, second)) if type.kind in WHOLE:
             a, b = value_range(first), value_range(second)
             choose = min if name == "MIN" else max

@@ -22,6 +22,7 @@ from scanbench.check.build import (
 )
 from scanbench.check.context import Report
 from scanbench.check.names import qualified
+from scanbench.check.notes import Looks
 from scanbench.check.program import Pou
 from scanbench.garbage import without_collection
 from scanbench.plcmodel.model import Model
@@ -83,6 +84,7 @@ class _Project:
     whole: bool = False
     """Whether all bodies are there, and not only what was found in them."""
     words: Words = field(default_factory=Words)
+    looks: Looks = field(default_factory=Looks)
 
     def is_about(self, sources: Mapping[str, str], model: Model, interval_ns: int) -> bool:
         """Whether these are likely an edit of the same files."""
@@ -92,7 +94,7 @@ class _Project:
     def start(self) -> None:
         """Checks everything that was read."""
         files = list(self.files.values())
-        self.checker = checker_of(files, self.model)
+        self.checker = checker_of(files, self.model, self.looks)
         with without_collection():
             self.checked = concluded(files, self.checker.report, self.checker.run(self.interval_ns))
         self.whole = True
@@ -117,7 +119,8 @@ class _Project:
         if telling is None:
             self.start_anew(sources)
             return
-        if whole and not self.whole:
+        looked_at = self.looks.at(chunk for file in self.files.values() for chunk in file.chunks)
+        if (whole and not self.whole) or looked_at != self.checker.looked_at:
             self.start()
             return
         bodies = [self._changed_body(edit) for edit in edits]
@@ -154,7 +157,7 @@ class _Project:
         if any(each.block_tasks for file in files for conf in file.configurations for each in _programs(conf)):
             return False  # the last pass looks into bodies then
         seeing = self._seeing(edits)
-        before, self.checker = self.checker, checker_of(list(self.files.values()), self.model)
+        before, self.checker = self.checker, checker_of(list(self.files.values()), self.model, self.looks)
         self.checker.declare()
         if next(iter(self.checker.pous.classes.methods()), None) is not None or before.pous.dispatchers:
             return False

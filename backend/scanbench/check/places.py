@@ -363,9 +363,13 @@ class PlaceChecker(SubrangeChecker):
 
     def target(self, node: tree.Expression) -> Place:
         """A place that may be written."""
+        return self.declared_target(node)[0]
+
+    def declared_target(self, node: tree.Expression) -> Found:
+        """The same, and the declared variable that it is, or is inside of."""
         place, member = self.place(node)
         self.assignable(place, member, node.span)
-        return place
+        return place, member
 
     def assignable(self, place: Place, member: Member | None, span: Span) -> None:
         """Refuses what cannot be assigned: constants, outputs of others, memory that the model protects."""

@@ -242,11 +242,11 @@ class StandardCallChecker(ChoiceFunctions):
         if isinstance(result, str):
             raise self.report.reject("T002", f"There is no conversion {name}{result}", node.span)
         if not raw and isinstance(value.type, Elementary) and (value.type.name, target.name) in conversions.BITCASTS:
-            whole = "UDINT" if value.type.size == 4 else "ULINT"
+            number = "UDINT" if value.type.size == 4 else "ULINT"
             self.report.warn(
                 "W003",
                 f"`{name}` copies the bits, as the standard says; other tools convert the number. For the number write "
-                f"{whole}_TO_{target}({value.type}_TO_{whole}(...)).",
+                f"{number}_TO_{target}({value.type}_TO_{number}(...)).",
                 node.span,
             )
         return result

@@ -9,6 +9,7 @@ from scanbench.check.context import Rejected
 from scanbench.check.edges import edges
 from scanbench.check.il import InstructionList
 from scanbench.check.needless import without_needless
+from scanbench.check.notes import SUFFIX as NOTE
 from scanbench.check.program import (
     Assign,
     Base,
@@ -69,7 +70,8 @@ class StatementChecker(AssignmentChecker):
         frame = self.scope.frame
         made: list[Stmt] = []
         for member in frame.members.values() if frame else ():
-            if member.section in (Section.INPUT, Section.IN_OUT) or frame is None or member.hidden:
+            made_up = member.hidden and not member.name.endswith(NOTE)
+            if member.section in (Section.INPUT, Section.IN_OUT) or frame is None or made_up:
                 continue
             place = place_of(member, Base.FRAME, frame, 0)
             data = member.initial or bytes(member.type.size)
@@ -78,6 +80,12 @@ class StatementChecker(AssignmentChecker):
                 made.append(Assign(place, constant, member.span))
             else:
                 made.append(SetBytes(place, data, member.span))
+        instance = self.scope.instance
+        if self.pou is not None and self.pou.kind == "function_block" and instance is not None:
+            # what this block wrote to an in-out at an earlier call says nothing of what is bound to it now
+            for each in instance.members.values():
+                if each.section is Section.IN_OUT and each.note is not None:
+                    made.append(SetBytes(place_of(each.note, Base.SELF, instance, 0), each.note.initial, each.span))
         return made
 
     def block(self, statements: tuple[tree.Statement, ...]) -> tuple[Stmt, ...]:

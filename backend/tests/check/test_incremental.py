@@ -291,3 +291,14 @@ def test_running_programs_keep_their_places() -> None:
     edited = FILES | {"blocks.st": BLOCKS.replace("v := v + step;", "\n\n\n v := v;")}
     checks.check(edited, MODEL, INTERVAL_NS)
     assert [str(site.span) for site in program.traps] == before
+
+
+def test_a_look_at_a_subrange_variable_reaches_where_it_is_written() -> None:
+    """`SUBRANGE_ERROR(limit)` in one body makes the other one keep what it writes to `limit`; and no longer, when it is gone."""
+    checks = Checks()
+    blocks = BLOCKS.replace("Half := v / 2;", "Half := v / 2; IF total = 0 THEN limit := v; END_IF;")
+    looking = blocks.replace("list[v MOD 5] := v;", "list[v MOD 5] := v; IF SUBRANGE_ERROR(limit) THEN v := 0; END_IF;")
+    for text in (blocks, looking, blocks):
+        files = {**FILES, "blocks.st": text}
+        agree(checks.check(files, MODEL, INTERVAL_NS), files)
+        assert checks.diagnose(files, MODEL, INTERVAL_NS).problems == ()
