@@ -6,7 +6,7 @@ The contract of the two engines; no behaviour here. Semantics that both must kee
   dividend, `a MOD 0` and `smallest MOD -1` are 0. Bit strings are unsigned.
 - REAL is computed in single precision, each operation rounded; LREAL in double; no contraction, no fast-math. `mod` is
   not defined for them; `div` by zero gives an infinity or NaN. A NaN is *stored* as the canonical quiet NaN
-  (16#7FC0_0000, 16#7FF8_0000_0000_0000). `eq lt le gt ge` with a NaN are FALSE, `ne` is TRUE.
+  (16#7FC0_0000, 16#7FF8_0000_0000_0000), unless the assignment copies a variable (`Assign.keeps_bits`). `eq lt le gt ge` with a NaN are FALSE, `ne` is TRUE.
 - `Convert`: between integers, bit strings, BOOL and TIME: sign or zero extension by the *source*, then truncation; to
   BOOL: value <> 0. Integer to REAL: nearest, ties to even, in one rounding. REAL to integer: ties to even, saturated
   at the target's bounds, NaN is 0. LREAL to REAL: nearest. To or from STRING: only STRING to STRING (cut at capacity).
@@ -38,7 +38,7 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from scanbench.check.types import Elementary, Member, Record, Reference, Section, StringType, Type
+from scanbench.check.types import Elementary, Kind, Member, Record, Reference, Section, StringType, Type
 from scanbench.problems import Span
 
 if TYPE_CHECKING:
@@ -269,6 +269,16 @@ class Assign:
     target: Place
     value: Expr
     span: Span
+
+    @property
+    def keeps_bits(self) -> bool:
+        """Whether it copies a REAL as it is in memory, a NaN with all its bits. A temporary may be in a register instead."""
+        if not isinstance(self.value, Load) or self.value.type.kind is not Kind.REAL:
+            return False
+        place = self.value.place
+        return place.type == self.target.type and (
+            place.base is not Base.FRAME or place.slot is not None or place.reference is not None
+        )
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,6 +4,7 @@ A closure returns how it ended: GO_ON, EXIT, CONTINUE, RETURN, or JUMP plus the 
 """
 
 from collections.abc import Callable, Sequence
+from dataclasses import replace
 
 from scanbench.check.layout import Layout
 from scanbench.check.program import (
@@ -18,19 +19,21 @@ from scanbench.check.program import (
     Halt,
     If,
     Jump,
+    Load,
     Repeat,
     Return,
     SetBytes,
     Stmt,
     While,
 )
-from scanbench.check.types import Elementary
+from scanbench.check.types import DWORD, LWORD, Elementary
 from scanbench.check.untyped import bounds
 from scanbench.engines.interpreter import arithmetic
 from scanbench.engines.interpreter.expressions import SLOT, Body, Expressions
 from scanbench.engines.interpreter.memory import putter
 from scanbench.engines.interpreter.places import Trapped
 
+BITS = {DWORD.size: DWORD, LWORD.size: LWORD}
 GO_ON, EXIT, CONTINUE, RETURN, JUMP = range(5)
 LOWEST = -(1 << 63)
 
@@ -85,6 +88,10 @@ class Statements(Expressions):
                 return self._leave(node)
 
     def _assign(self, node: Assign) -> Body:
+        if node.keeps_bits and isinstance(node.value, Load):
+            bits = BITS[node.target.type.size]
+            source, copied = replace(node.value.place, type=bits), replace(node.target, type=bits)
+            return self._assign(replace(node, target=copied, value=Load(source)))
         value, target = self.evaluate(node.value), node.target
         fixed = None if target.bit is not None else self.places.fixed(target)
         if fixed is not None:

@@ -21,7 +21,7 @@ class Value:
     wide: str = ""
     """The same number as an i64, when it is at hand."""
     clean: bool = False
-    """REAL, LREAL: certainly not a NaN, or the canonical one."""
+    """REAL, LREAL: to be stored as it is: certainly no NaN, or the canonical one, or a copy of what is in memory."""
 
     @property
     def range(self) -> tuple[int, int]:

@@ -1,5 +1,6 @@
 """Statements."""
 
+from dataclasses import replace
 from typing import assert_never
 
 from scanbench.check.program import (
@@ -24,6 +25,7 @@ from scanbench.check.program import (
 from scanbench.check.types import Elementary, Kind
 from scanbench.engines.native import emit_calls, emit_loops, walk
 from scanbench.engines.native.emit_body import Body
+from scanbench.engines.native.emit_function import Value
 from scanbench.engines.native.emit_memory import canonical, load_at, move, put
 from scanbench.engines.native.emit_places import address
 from scanbench.engines.native.emit_types import elementary, integer, is_real, value_type
@@ -111,7 +113,10 @@ def blocks(body: Body, inner: tuple[tuple[Stmt, ...], ...]) -> None:
 def assign(body: Body, statement: Assign) -> None:
     """Evaluates the value, then the target's address, then stores."""
     target = statement.target
-    put_value(body, target, emit_calls.value(body, statement.value, walk.address_disturbs(target)))
+    held = emit_calls.value(body, statement.value, walk.address_disturbs(target))
+    if statement.keeps_bits and isinstance(held, Value):
+        held = replace(held, clean=True)
+    put_value(body, target, held)
 
 
 # ---- IF -------------------------------------------------------------------------------------------------------
@@ -155,7 +160,7 @@ def _guarded(body: Body, guard: str, statements: tuple[Stmt, ...]) -> None:
 def _store_if(body: Body, guard: str, target: Place, statement: Assign) -> None:
     type = elementary(target.type)
     value = body.scalar(statement.value)
-    ssa = canonical(body, type, value) if is_real(type) else value.ssa
+    ssa = canonical(body, type, value) if is_real(type) and not statement.keeps_bits else value.ssa
     where = address(body, target)
     if type.kind is Kind.BOOL and not where.bit:  # the whole byte is kept, also the bits that mean nothing
         whole = body.text.op(f"load i8, ptr {where.pointer}, align 1{where.tag}")
