@@ -38,7 +38,6 @@ from scanbench.check.types import (
     StringType,
     Subrange,
     Type,
-    base_of,
     initial_of,
     is_derived,
 )
@@ -167,8 +166,7 @@ class ArgumentChecker(StandardCallChecker):
                 raise self.report.reject("T004", f"`{callee}` needs a number: `{callee}({member.name} := 1)`.", span)
             given = self._input(member, value, span)
             if member.note is not None and isinstance(member.type, Subrange):
-                kept = self.temporary(base_of(member.type), span)
-                given, bound.inputs[member.note.name.upper()] = self.keeping(given, kept, span), Load(kept)
+                given, bound.inputs[member.note.name.upper()] = self.with_note(given, member.type, span)
             bound.inputs[key] = given
         elif key == STOP and in_library(member.span):
             stop = bound.places[key] = self.temporary(BOOL, span)
@@ -183,7 +181,7 @@ class ArgumentChecker(StandardCallChecker):
             bound.places[key] = taken
             whole = _generic(member, Load(taken), target.type)
             stored = self.keeping(
-                self._output(whole, target.type, argument), self.note(target, variable), argument.span
+                self._output(whole, target.type, argument), self.noting(target, variable), argument.span
             )
             bound.after.append(Assign(target, stored, argument.span))
 

@@ -37,7 +37,7 @@ class AssignmentChecker(CallChecker):
         if has_instance(target.type):
             raise self.report.reject("T003", "An instance of a function block cannot be assigned.", node.span)
         what = f"`{shown(node.target)}`"
-        note = self.note(target, member)
+        note = self.noting(target, member)
         if isinstance(target.type, ArrayType | Record):
             copied = Assign(target, self._whole(node.value, target.type, what), node.span)
             return copied if note is None else together([copied, Assign(note, Load(target), node.span)], node.span)

@@ -361,7 +361,7 @@ class CallChecker(GenericChecker):
                 )
                 continue
             target, member = self.declared_target(argument.value)
-            note = self.note(target, member)
+            note = self.noting(target, member)
             if note is not None and isinstance(target.type, Subrange):
                 taken = self.temporary(base_of(target.type), argument.span)
                 outputs.append((self._output(Load(own), taken.type, argument), taken))

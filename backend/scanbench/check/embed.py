@@ -133,6 +133,18 @@ class SubrangeChecker(PouChecker):
         own = found is not None and found[0] is member and self.scope.this is None
         return note_of(same, member, found[1] if own and found is not None else None)
 
+    def noting(self, place: Place, member: Member | None) -> Place | None:
+        """The note that an assignment to the variable writes."""
+        return self.note(place, member)
+
+    def with_note(self, value: Expr, type: Subrange, span: Span) -> tuple[Expr, Expr]:
+        """An argument that is a subrange value, and the same as it was before it was limited."""
+        same = again(value.value if isinstance(value, Limit) else value)
+        if same is not None:
+            return value, same
+        kept = self.temporary(base_of(type), span)
+        return self.keeping(value, kept, span), Load(kept)
+
     def keeping(self, value: Expr, note: Place | None, span: Span) -> Expr:
         """A value on its way into a subrange variable; the note takes it as it is before it is limited."""
         if note is None:

@@ -292,6 +292,12 @@ class _LocalChecker(ProgramChecker, AssignmentChecker):
     def _limit(self, expr: Expr, type: Subrange, span: Span, variable: str) -> Expr:
         return expr
 
+    def noting(self, place: Place, member: Member | None) -> Place | None:
+        return None  # only what the program itself writes is noted
+
+    def with_note(self, value: Expr, type: Subrange, span: Span) -> tuple[Expr, Expr]:
+        return value, value
+
     # ---- calls ------------------------------------------------------------------------------------------
 
     def call(self, node: tree.Call, wanted: Type | None = None) -> Expr:

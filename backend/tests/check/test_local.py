@@ -210,3 +210,25 @@ def test_a_function_that_does_not_come_to_an_end_is_given_up() -> None:
     ends = locals_of(program).value(None, "forever(0)")
     assert isinstance(ends, Local)
     assert evaluator.text(ends, 0) == "0"
+
+
+def test_what_the_program_notes_is_seen_and_not_written() -> None:
+    """`SUBRANGE_ERROR` knows what the program wrote; an assignment of a tool stores the variable alone."""
+    source = SOURCE.replace(
+        "t := t + 1;", "t := t + 1; small := 50 + n; text[2] := 'x'; on := SUBRANGE_ERROR(small) OR too_large(n);"
+    )
+    source = source.replace(
+        "PROGRAM Main",
+        "FUNCTION too_large : BOOL VAR_INPUT small : Small; END_VAR\ntoo_large := SUBRANGE_ERROR(small);\nEND_FUNCTION PROGRAM Main",
+    )
+    program = checked(source)
+    memory = bytearray(program.initial_image)
+    debug_engine(program, memory).run(1)
+    ran, pou = Evaluator(program, memory), pou_of(program, "Counter")
+    texts = ("small", "SUBRANGE_ERROR(small)", "too_large(n + 20)", "too_large(n)", "too_large(twice(30))", "text[2]")
+    found = [Locals(program).value(pou, text) for text in texts]
+    values = [ran.text(each, instance_of(program, "Counter")) for each in found if isinstance(each, Local)]
+    assert values == ["10", "TRUE", "TRUE", "FALSE", "TRUE", "'x'"]
+    before = bytes(memory)
+    assert stored(program, ran, "small := n + 3; text[1] := 'y'") == [b"\5\0", b"y"]
+    assert bytes(memory) == before
