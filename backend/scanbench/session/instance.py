@@ -361,7 +361,7 @@ class Instance:
 
     def tell(self, message: Telling) -> bool:
         """Something whose answer, if any, comes as a message; false when the process is away."""
-        if self._writer is None:
+        if self._writer is None or self._writer.is_closing():
             return False
         self._writer.write(pack(message))
         return True
@@ -369,7 +369,7 @@ class Instance:
     async def _ask(self, make: Callable[[int], object]) -> object:
         if self._writer is None and self.state.state == "starting":
             await self._reached()
-        if self._writer is None:
+        if self._writer is None or self._writer.is_closing():
             hint = "Switch it on first" if self.state.state == "off" else "Try again in a moment"
             raise Unavailable(f"the PLC is {self.state.state}: {self.state.message}. {hint}")
         ref, self._next_ref = self._next_ref, self._next_ref + 1

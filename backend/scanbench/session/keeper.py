@@ -1,7 +1,8 @@
 """Writes history and log behind the back of the live path: a command never waits for the database.
 
 A PLC can do more in a second than a database writes in one. So what waits is state, not jobs: of an error's row only the
-newest counts, and of lines only so many are kept anyway.
+newest counts, and of lines only so many are kept anyway. While the database cannot be used (its disk is full, say) it waits,
+and is written when it can.
 """
 
 import asyncio
@@ -23,8 +24,12 @@ log = logging.getLogger("scanbench")
 LOG_KEPT = 20_000
 """Lines of each instance; older ones go."""
 LOG_TRIMMED_EVERY = 1000
+AGAIN_S = 1.0
+"""When it is tried again what the database refused."""
 _Rows = dict[int, dict[tuple[int, str], ErrorRow]]
 _Lines = dict[int, deque[LogRow]]
+_Breakpoints = dict[int, Sequence[Breakpoint]]
+_Traces = dict[int, Mapping[int, Json]]
 _T = TypeVar("_T")
 
 
@@ -35,8 +40,9 @@ class Keeper:
         self._store = store
         self._rows: _Rows = {}
         self._lines: _Lines = {}
-        self._breakpoints: dict[int, Sequence[Breakpoint]] = {}
-        self._traces: dict[int, Mapping[int, Json]] = {}
+        self._breakpoints: _Breakpoints = {}
+        self._traces: _Traces = {}
+        self._refused = False
         self._untrimmed: dict[int, int] = {}
         """Lines of an instance since old ones were deleted; only the thread that writes uses it."""
         self._wake, self._written = asyncio.Event(), asyncio.Event()
@@ -90,24 +96,47 @@ class Keeper:
             rows, lines, breakpoints, written = self._rows, self._lines, self._breakpoints, self._written
             self._rows, self._lines, self._breakpoints, self._written = {}, {}, {}, asyncio.Event()
             traces, self._traces = self._traces, {}
-            await asyncio.to_thread(self._write, rows, lines, breakpoints)
-            await asyncio.to_thread(self._keep_traces, traces)
+            try:
+                await asyncio.to_thread(self._write, rows, lines, breakpoints, traces)
+                self._refused = False
+            except StoreError as error:
+                if not self._refused:
+                    log.error("history, log, breakpoints and traces wait to be written: %s", error)
+                self._refused = True
+                self._put_back(rows, lines, breakpoints, traces)
+                asyncio.get_running_loop().call_later(AGAIN_S, self._wake.set)
             written.set()
 
-    def _write(self, rows: _Rows, lines: _Lines, breakpoints: Mapping[int, Sequence[Breakpoint]]) -> None:
-        for instance, changed in rows.items():
+    def _write(self, rows: _Rows, lines: _Lines, breakpoints: _Breakpoints, traces: _Traces) -> None:
+        """What is written is taken out; `StoreError` when the rest cannot be written now."""
+        while rows:
+            instance, changed = next(iter(rows.items()))
             self._keep_rows(instance, list(changed.values()))
-        for instance, more in lines.items():
+            del rows[instance]
+        while lines:
+            instance, more = next(iter(lines.items()))
             self._keep_lines(instance, list(more))
-        for instance, shared in breakpoints.items():
+            del lines[instance]
+        while breakpoints:
+            instance, shared = next(iter(breakpoints.items()))
             self._keep_breakpoints(instance, shared)
-
-    def _keep_traces(self, traces: Mapping[int, Mapping[int, Json]]) -> None:
-        for instance, contents in traces.items():
+            del breakpoints[instance]
+        while traces:
+            instance, contents = next(iter(traces.items()))
             try:
                 self._store.keep_traces(instance, contents)
-            except (NotFound, StoreError) as error:
+            except NotFound as error:
                 log.error("the traces of instance %d could not be written: %s", instance, error)
+            del traces[instance]
+
+    def _put_back(self, rows: _Rows, lines: _Lines, breakpoints: _Breakpoints, traces: _Traces) -> None:
+        """In front of what has come meanwhile."""
+        for instance, changed in rows.items():
+            self._rows[instance] = changed | self._rows.get(instance, {})
+        for instance, more in lines.items():
+            self._lines[instance] = deque([*more, *self._lines.get(instance, ())], maxlen=LOG_KEPT)
+        self._breakpoints = breakpoints | self._breakpoints
+        self._traces = traces | self._traces
 
     def _keep_breakpoints(self, instance: int, shared: Sequence[Breakpoint]) -> None:
         def write(_all: Sequence[object]) -> None:
@@ -136,7 +165,9 @@ def _write_most(what: str, items: Sequence[_T], write: Callable[[Sequence[_T]], 
     """All of them at once; where one cannot be written, all others, in their order. The PLC goes on in any case."""
     try:
         write(items)
-    except (NotFound, StoreError) as error:  # deleted meanwhile, or no database: none of them can be written
+    except StoreError:  # no database: none of them can be written now
+        raise
+    except NotFound as error:  # deleted meanwhile: none of them ever
         log.error("%s could not be written, %d of it: %s", what, len(items), error)
     except Exception:
         if len(items) == 1:

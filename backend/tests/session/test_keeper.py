@@ -13,7 +13,7 @@ import pytest
 from scanbench.faults.history import ErrorRow
 from scanbench.session.events import LogEntry
 from scanbench.session.keeper import LOG_KEPT, LOG_TRIMMED_EVERY, Keeper
-from scanbench.store.records import HistoryRow, LogRow
+from scanbench.store.records import HistoryRow, LogRow, StoreError
 from scanbench.store.store import Store
 
 NOON = datetime(2026, 11, 21, 12, 0, tzinfo=UTC)
@@ -182,3 +182,35 @@ def test_a_row_that_cannot_be_written_takes_nothing_with_it(
         assert "error-5" in said.getMessage()
 
     asyncio.run(story())
+
+
+def test_what_the_database_refuses_is_written_when_it_can_be(
+    store: Slow, instance: int, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("scanbench.session.keeper.AGAIN_S", 0.01)
+    add, full = Store.add_log, True
+
+    def refuse(self: Store, instance: int, lines: Sequence[LogRow], keep: int | None = None) -> None:
+        if full:
+            raise StoreError("the database cannot be used now: database or disk is full")
+        add(self, instance, lines, keep)
+
+    monkeypatch.setattr(Store, "add_log", refuse)
+
+    async def story() -> None:
+        nonlocal full
+        async with keeping(store) as keeper:
+            for number in range(3):
+                keeper.keep_rows(instance, [replace(ROW, count=number)])
+                keeper.keep_line(instance, line(f"line {number}"), 3)
+                await keeper.flush()
+            assert texts(store, instance) == []
+            full = False
+            while len(texts(store, instance)) < 3:  # nobody asks for it
+                await asyncio.sleep(0)
+            assert texts(store, instance) == ["line 0", "line 1", "line 2"]
+            assert [row.count for row in store.history(instance)] == [2]
+
+    asyncio.run(story())
+    (said,) = caplog.records
+    assert "database or disk is full" in said.getMessage()

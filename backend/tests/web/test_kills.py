@@ -8,6 +8,7 @@ import random
 import signal
 import threading
 from collections import defaultdict
+from time import monotonic
 
 import httpx
 
@@ -81,8 +82,7 @@ def test_a_killed_plc_has_all_that_was_acknowledged(server: Server) -> None:
         for load in loads:
             load.stop()
         until(lambda: not alive(pid), 30)  # noqa: B023
-        until(lambda: server.state(instance)["pid"] not in (None, pid), 30)  # noqa: B023
-        until(lambda: server.state(instance)["state"] == "running", 30)
+        _runs(server, instance, pid)
         told = {each["path"]: each for each in server.http.get(f"/api/instances/{instance}/forces").json()}
         wrong = []
         for path in forces.open:
@@ -103,6 +103,14 @@ def test_a_killed_plc_has_all_that_was_acknowledged(server: Server) -> None:
                 load.open[path].clear()
         if ROUNDS > 10 and number % 10 == 9:
             print(f"{number + 1} rounds, {writes._number + forces._number} commands", flush=True)
+
+
+def _runs(server: Server, instance: int, before: int) -> None:
+    """Waits for its next life, without a pause: what is told of it has to be right from the first moment on."""
+    end = monotonic() + 60
+    while (state := server.state(instance))["state"] != "running" or state["pid"] in (None, before):
+        assert monotonic() < end, state
+        assert state["state"] != "failed", state
 
 
 def _value(server: Server, instance: int, path: str) -> int:

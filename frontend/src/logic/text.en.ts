@@ -707,8 +707,7 @@ export const english = {
   "permit.past.build": "This is the past: return to live to build.",
   "permit.run": "Mode RUN: tools may only look. Change to MONITOR to write or force.",
   "permit.run.change": "Mode RUN: the program cannot be changed. Change to MONITOR first.",
-  "recording.about":
-    "The PLC waits, and nothing can be changed. Make room on the disk: it goes on by itself.",
+  "recording.about": "The PLC waits, and nothing can be changed. Make room on the disk: it goes on by itself.",
   "recording.title": "The run is not recorded:",
   "restart.cold": "Cold restart",
   "restart.cold.hint": "everything begins anew",

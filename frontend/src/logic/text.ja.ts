@@ -707,8 +707,7 @@ export const japanese: Record<TextKey, string> = {
   "permit.past.build": "過去を表示しています。ビルドするには現在に戻ってください。",
   "permit.run": "RUN モード: ツールからは見るだけです。書き込みや強制は MONITOR に切り替えてください。",
   "permit.run.change": "RUN モード: プログラムは変更できません。先に MONITOR に切り替えてください。",
-  "recording.about":
-    "PLC は待機中で、何も変更できません。ディスクに空きを作ってください。自動的に再開します。",
+  "recording.about": "PLC は待機中で、何も変更できません。ディスクに空きを作ってください。自動的に再開します。",
   "recording.title": "実行が記録されていません:",
   "restart.cold": "コールドリスタート",
   "restart.cold.hint": "すべて初期化",

@@ -3660,7 +3660,7 @@ export interface components {
              * State
              * @enum {string}
              */
-            state: "starting" | "running" | "paused" | "halted" | "stopped" | "fatal" | "trapped" | "restarting" | "failed" | "past" | "off";
+            state: "starting" | "running" | "paused" | "halted" | "stopped" | "fatal" | "trapped" | "restarting" | "failed" | "past" | "off" | "no_space";
             /**
              * Target
              * @description where a run that was asked for ends: `scan 4711`, `until Main.count > 3`; or empty
