@@ -3,10 +3,12 @@
 import os
 import signal
 from collections.abc import Callable
+from dataclasses import replace
 from pathlib import Path
 
 import pytest
 
+from scanbench.runtime.forces import Force
 from scanbench.session import protocol
 from scanbench.session.protocol import Driven, HostState
 from tests.session.child import Child
@@ -105,3 +107,19 @@ def test_halted_it_stands_there_again_also_after_a_step(tmp_path: Path, cache: P
         end(child)
     with Child(run, COUNTING, cache) as child:
         assert child.wait(HostState).state == "running"
+
+
+def test_what_was_acknowledged_is_told_before_it_is_said_to_run(tmp_path: Path, cache: Path) -> None:
+    """Who looks at the forces as soon as it runs again must not miss the one that was made last."""
+    run = tmp_path / "a.run"
+    with Child(run, COUNTING, cache) as child:
+        force = protocol.Submit(1, Force("Ann", "D1", "5"))
+        assert child.ask(lambda ref: replace(force, ref=ref), protocol.Ack).ok
+        killed(child)
+    with Child(run, COUNTING, cache) as child:
+        while not any(isinstance(each, HostState) for each in child.messages):
+            child.take()
+        kinds = [type(each) for each in child.messages]
+        told = [each for each in child.messages if isinstance(each, protocol.ForcesAre)]
+        assert [[force.path for force in each.forces] for each in told[:1]] == [["D1"]]
+        assert kinds.index(protocol.Standing) < kinds.index(protocol.ForcesAre) < kinds.index(HostState)

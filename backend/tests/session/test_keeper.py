@@ -188,12 +188,13 @@ def test_what_the_database_refuses_is_written_when_it_can_be(
     store: Slow, instance: int, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setattr("scanbench.session.keeper.AGAIN_S", 0.01)
-    add, full = Store.add_log, True
+    add, full, written = Store.add_log, True, threading.Event()
 
     def refuse(self: Store, instance: int, lines: Sequence[LogRow], keep: int | None = None) -> None:
         if full:
             raise StoreError("the database cannot be used now: database or disk is full")
         add(self, instance, lines, keep)
+        written.set()
 
     monkeypatch.setattr(Store, "add_log", refuse)
 
@@ -206,8 +207,7 @@ def test_what_the_database_refuses_is_written_when_it_can_be(
                 await keeper.flush()
             assert texts(store, instance) == []
             full = False
-            while len(texts(store, instance)) < 3:  # nobody asks for it
-                await asyncio.sleep(0)
+            await asyncio.to_thread(written.wait, 60)  # nobody asks for it
             assert texts(store, instance) == ["line 0", "line 1", "line 2"]
             assert [row.count for row in store.history(instance)] == [2]
 

@@ -20,7 +20,7 @@ SOURCE = "PROGRAM Main\nVAR n : DINT; basic AT A402.12 : BOOL; END_VAR\n  n := n
 def alive(pid: int) -> bool:
     try:
         return Path(f"/proc/{pid}/stat").read_text().rpartition(")")[2].split()[0] != "Z"
-    except FileNotFoundError:
+    except (FileNotFoundError, ProcessLookupError):
         return False
 
 

@@ -138,12 +138,12 @@ class Services:
             frame = self._plan.sample(self._resource.memory, header.scan, self._time_ns)
             if frame is not None:
                 self._link.post(protocol.Frame(frame, self._timeline.live_scan))
+        self._tell_standing()  # before the state: who sees it run again after a death also sees all that was acknowledged
+        self._tell_forces(now >= self._counted_at)
         state = self.state
         if state != self._last_state and (now >= self._state_at or self._differs(state)):
             self._last_state, self._state_at = state, now + COUNTING_NS
             self._link.post(state)
-        self._tell_standing()
-        self._tell_forces(now >= self._counted_at)
         if now >= self._counted_at:
             self._counted_at = now + COUNTING_NS
             self._diagnose()
