@@ -311,10 +311,7 @@ class Recording:
             self._in_trouble(error)
 
     def _in_trouble(self, error: OSError) -> None:
-        self.trouble = (
-            f"{self.path.name} cannot be written: {error.strerror}. The PLC waits and commands are refused until there "
-            "is room: free some space on the disk"
-        )
+        self.trouble = f"{self.path.name} cannot be written: {error.strerror}"
 
     # ---- reading --------------------------------------------------------------------------------------------------
 

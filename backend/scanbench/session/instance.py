@@ -143,7 +143,7 @@ class Instance:
         self._set_state(state="off", message=OFF, pid=None)
 
     async def _supervise(self) -> None:
-        while True:
+        while not self._stopping:
             born = monotonic_ns()
             failure = await self._live()
             if self._stopping:
@@ -151,8 +151,6 @@ class Instance:
             if failure is not None and self._no_space:
                 self._set_state(state="no_space", message=failure, pid=None)
                 await asyncio.sleep(_ROOM_S)
-                if self._stopping:
-                    return
                 continue
             if failure is not None:
                 await asyncio.to_thread(bring_back, self._memory.run)

@@ -82,7 +82,7 @@ def test_a_smaller_file_never_ends_in_front_of_its_last_entry(tmp_path: Path, mo
         seen.append(Path(source).read_bytes())
         os.rename(source, target)
 
-    monkeypatch.setattr(recordings.os, "replace", replaced)
+    monkeypatch.setattr("scanbench.runtime.recording.os.replace", replaced)
     for number in range(300):
         timeline.note()
         advance(timeline, 3)

@@ -174,7 +174,7 @@ assert isinstance(refused, Refusal) and "disk is full" in refused.message, refus
 assert timeline.resource.state == before
 advance(timeline, 10)
 timeline.note()
-assert "cannot be written" in timeline.recording.info.trouble and "free some space" in timeline.recording.info.trouble
+assert "cannot be written" in timeline.recording.info.trouble
 assert timeline.live_scan == 20
 timeline.submit(Write("Ada", "Main.n", "200"))
 assert timeline.goto(15) is None

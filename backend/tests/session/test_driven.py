@@ -43,8 +43,7 @@ def test_paused_at_this_scan_at_this_speed(tmp_path: Path, cache: Path, end: End
     run = tmp_path / "a.run"
     with Child(run, COUNTING, cache) as child:
         drive(child, "pause", 0)
-        for _ in range(3):
-            scan = drive(child, "scan")
+        scan = max(drive(child, "scan") for _ in range(3))
         end(child)
     for end_again in (killed, ended):
         with Child(run, COUNTING, cache) as child:

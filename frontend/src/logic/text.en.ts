@@ -484,7 +484,7 @@ export const english = {
   "state.label": "PLC state",
   "state.loading": "loading the program",
   "state.no_space": "No space",
-  "state.no_space.detail": "waits for room on the disk",
+  "state.no_space.detail": "waits for disk space",
   "state.noconnection": "no connection",
   "state.none": "No PLC",
   "state.none.detail": "nothing runs this project",

@@ -261,7 +261,7 @@ class Loop:
         if self.timeline.recording.trouble:
             self.timeline.note()
         trouble = self.timeline.recording.trouble
-        return Refusal(f"no space: {trouble}") if trouble else None
+        return Refusal(f"no space: {trouble}. Make room on the disk, then try again") if trouble else None
 
     def _drive(self, drive: protocol.Drive) -> None:
         said = self._drive_action(drive, self._course.speed if drive.speed is None else drive.speed)

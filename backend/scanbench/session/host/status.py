@@ -35,7 +35,10 @@ def host_state(timeline: Timeline, course: Course, past_by: str, note: str, debu
     header = resource.header
     state, message = _state(resource, course.paused, note)
     if state == "running" and timeline.recording.trouble:
-        state, message = "no_space", timeline.recording.trouble
+        state = "no_space"
+        message = (
+            f"{timeline.recording.trouble}. Free some space on the disk: the PLC waits, and goes on when there is room"
+        )
     halt = debugger.halt
     if halt is not None:
         state, message = "halted", _halted(halt)
