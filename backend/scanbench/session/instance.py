@@ -143,14 +143,16 @@ class Instance:
         self._set_state(state="off", message=OFF, pid=None)
 
     async def _supervise(self) -> None:
-        while not self._stopping:
+        while True:
             born = monotonic_ns()
             failure = await self._live()
-            if self._stopping:
-                return
-            if failure is not None and self._no_space:
+            waits = failure is not None and self._no_space
+            if waits and not self._stopping:
                 self._set_state(state="no_space", message=failure, pid=None)
                 await asyncio.sleep(_ROOM_S)
+            if self._stopping:
+                return
+            if waits:
                 continue
             if failure is not None:
                 await asyncio.to_thread(bring_back, self._memory.run)

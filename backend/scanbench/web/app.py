@@ -11,6 +11,7 @@ from fastapi.responses import HTMLResponse, JSONResponse
 from starlette.exceptions import HTTPException
 
 from scanbench import __version__
+from scanbench.runtime.resource import is_no_space
 from scanbench.session.instance import Unavailable
 from scanbench.session.refused import Refused
 from scanbench.session.workbench import Workbench
@@ -90,6 +91,7 @@ def bare_app() -> FastAPI:
     app.add_exception_handler(ListConflict, routes_watch.on_list_conflict)
     app.add_exception_handler(RequestValidationError, _on_invalid)
     app.add_exception_handler(HTTPException, _on_http)
+    app.add_exception_handler(OSError, _on_os_error)
     _serve_page(app, frontend_directory())
     return app
 
@@ -122,6 +124,13 @@ async def _on_invalid(_request: Request, error: Exception) -> JSONResponse:
 async def _on_http(_request: Request, error: Exception) -> JSONResponse:
     assert isinstance(error, HTTPException)
     return JSONResponse(wire.Refusal(message=str(error.detail)).model_dump(), error.status_code)
+
+
+async def _on_os_error(_request: Request, error: Exception) -> JSONResponse:
+    """A file that finds no room, of a trace or an upload, say: no fault of ours."""
+    if not isinstance(error, OSError) or not is_no_space(error):
+        raise error
+    return JSONResponse(wire.Refusal(message="no space: the disk is full. Make room, then try again").model_dump(), 507)
 
 
 def _serve_page(app: FastAPI, directory: Path) -> None:

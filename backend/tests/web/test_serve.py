@@ -1,12 +1,16 @@
 """Starting, and what the frontend's types are made of."""
 
+import errno
 import json
+import os
 import socket
 from pathlib import Path
 
 import pytest
+from fastapi.testclient import TestClient
 
 from scanbench.web import messages, messages_errors, messages_records, messages_user_errors, openapi
+from scanbench.web.app import bare_app
 from scanbench.web.claim import InUse, claimed
 from scanbench.web.kept_guests import kept_guests
 from scanbench.web.messages_base import Wire
@@ -68,3 +72,17 @@ def test_guests_have_names_where_nothing_can_be_written(tmp_path: Path, monkeypa
         assert [next_guest(), next_guest()] == ["Guest 2", "Guest 3"]
     assert next_guest() == "Guest 4"
     assert kept_guests(tmp_path)() == "Guest 5"
+
+
+@pytest.mark.parametrize(("number", "status"), [(errno.ENOSPC, 507), (errno.EIO, 500)])
+def test_a_request_that_finds_no_room_is_told_so(number: int, status: int) -> None:
+    app = bare_app()
+
+    @app.get("/api/writes")
+    async def on_write() -> None:
+        raise OSError(number, os.strerror(number))
+
+    app.router.routes.insert(0, app.router.routes.pop())  # in front of the page
+    reply = TestClient(app, raise_server_exceptions=False).get("/api/writes")
+    assert reply.status_code == status
+    assert status == 500 or reply.json()["message"].startswith("no space: the disk is full")
