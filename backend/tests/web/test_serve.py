@@ -1,13 +1,14 @@
 """Starting, and what the frontend's types are made of."""
 
+import asyncio
 import errno
 import json
 import os
 import socket
 from pathlib import Path
 
+import httpx
 import pytest
-from fastapi.testclient import TestClient
 
 from scanbench.web import messages, messages_errors, messages_records, messages_user_errors, openapi
 from scanbench.web.app import bare_app
@@ -83,6 +84,12 @@ def test_a_request_that_finds_no_room_is_told_so(number: int, status: int) -> No
         raise OSError(number, os.strerror(number))
 
     app.router.routes.insert(0, app.router.routes.pop())  # in front of the page
-    reply = TestClient(app, raise_server_exceptions=False).get("/api/writes")
+
+    async def asked() -> httpx.Response:
+        transport = httpx.ASGITransport(app, raise_app_exceptions=False)
+        async with httpx.AsyncClient(transport=transport, base_url="http://localhost") as client:
+            return await client.get("/api/writes")
+
+    reply = asyncio.run(asked())
     assert reply.status_code == status
     assert status == 500 or reply.json()["message"].startswith("no space: the disk is full")
