@@ -27,7 +27,7 @@ Value = str | int | float | bool
 
 _TIMEOUT_S = 60
 _LOOK_S = 0.02
-_GOES_ON = ("starting", "restarting", "running", "no_space")
+_GOES_ON = ("starting", "restarting", "silent", "running", "no_space")
 
 
 class Refused(Exception):

@@ -1,9 +1,11 @@
-"""A process that ends with its parent: the kernel sees to it, however the parent ends."""
+"""A process that ends with its parent: the kernel sees to it, however the parent ends. And a parent that leaves no child."""
 
 import ctypes
 import os
 import signal
 import sys
+from contextlib import suppress
+from pathlib import Path
 
 _PR_SET_PDEATHSIG = 1
 
@@ -18,3 +20,12 @@ def end_with_parent(parent: int | None = None) -> None:
     ctypes.CDLL(None, use_errno=True).prctl(_PR_SET_PDEATHSIG, signal.SIGKILL)
     if parent is not None and os.getppid() != parent:
         os._exit(1)
+
+
+def end_children() -> None:
+    """Kills every child that is left, those that are stopped too: for a process that ends."""
+    for path in Path("/proc/self/task").glob("*/children"):
+        with suppress(OSError):
+            for pid in path.read_text().split():
+                with suppress(ProcessLookupError):
+                    os.kill(int(pid), signal.SIGKILL)

@@ -6,7 +6,7 @@ from dataclasses import replace
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.session import debug_protocol, events, protocol
 from scanbench.session.debug_protocol import BreakpointsAre, Coverage, DebugAnswer, DebugRequest
-from scanbench.session.instance import Unavailable
+from scanbench.session.refused import Unavailable
 
 SHARED = ""
 """The group of what all browsers at a PLC share."""

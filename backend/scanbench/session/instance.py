@@ -1,7 +1,8 @@
 """One virtual PLC, seen from the parent: starts its process, speaks to it, notices its death and starts it again.
 
 The host may die at any moment (a fault in generated code, `kill -9`): everything is in the run file, and a new host goes
-on from there, up to the last scan that was heard of.
+on from there, up to the last scan that was heard of. It may also fall silent (SIGSTOP, a machine that swaps): then people
+are told so, nothing waits for it, and it goes on by itself when it can.
 """
 
 import asyncio
@@ -22,6 +23,7 @@ from scanbench.session.codec import LENGTH, BadMessage, pack, unpack
 from scanbench.session.debug_protocol import DebugAnswer, DebugRequest
 from scanbench.session.events import PlcState
 from scanbench.session.nursery import NoProcess, Process, nursery
+from scanbench.session.refused import Unavailable
 from scanbench.session.runs import bring_back, set_aside
 from scanbench.session.trace_protocol import TraceRead
 from scanbench.store.records import Limits
@@ -40,8 +42,26 @@ OFF = "switched off; its run is kept"
 Telling = protocol.WatchPaths | protocol.UnwatchIds | protocol.WantSnapshot | protocol.Attend | protocol.SetLimits
 
 
-class Unavailable(Exception):
-    """The PLC cannot answer now; the message says why."""
+@dataclass(frozen=True, slots=True)
+class Patience:
+    """How long a process is waited for."""
+
+    look_s: float = 1.0
+    """From one look whether something was heard to the next. Looks are counted, so that a server that was held up itself
+    does not take that for silence."""
+    looks: int = 5
+    """So many looks in a row with nothing heard, and it does not answer."""
+    answer_s: float = 120.0
+    """For an answer of a process that does answer others."""
+    work_s: float = 600.0
+    """For what takes a while: builds, copies, the past, debugging."""
+    grace_s: float = 3.0
+    """For the end of a process that was told to end; then it is killed."""
+
+
+_WORK = protocol.Build | protocol.RollBack | protocol.Preview | protocol.Copy | protocol.Travel | DebugRequest
+_UNREAD_BYTES = 64 << 20
+"""More than this not read by a process: it is ended, and the next one is told everything anew."""
 
 
 @dataclass(slots=True)
@@ -70,10 +90,10 @@ class Instance:
 
     def __init__(
         self, memory: Remembered, on_state: Callable[[PlcState], None], on_message: Callable[[object], None],
-        cache: Path | None = None,
+        cache: Path | None = None, patience: Patience = Patience(),
     ) -> None:  # fmt: skip
         """`cache` is a directory where hosts keep what they built."""
-        self._cache = cache
+        self._cache, self._patience = cache, patience
         self.state = PlcState(
             "off", "MONITOR", OFF, interval_ns=memory.sources.interval_ns, version=memory.sources.version
         )
@@ -90,6 +110,8 @@ class Instance:
         self.runs = 0
         """New runs that began since the server started."""
         self._stopping = self._paused = self._no_space = False
+        self._heard = False
+        self._before_silence: PlcState | None = None
 
     @property
     def sources(self) -> protocol.Sources:
@@ -135,7 +157,7 @@ class Instance:
             self._writer.write(pack(protocol.Quit()))
         if self._task is not None:
             try:
-                await asyncio.wait_for(asyncio.shield(self._task), 3)
+                await asyncio.wait_for(asyncio.shield(self._task), self._patience.grace_s)
             except TimeoutError:
                 if self._process is not None:
                     self._process.kill()
@@ -191,10 +213,12 @@ class Instance:
             self._set_state(state="starting", message="starting", pid=process.pid)
         failure: str | None = None
         self._no_space = False
+        looking = asyncio.get_running_loop().create_task(self._look(writer))
         try:
             while True:
                 (length,) = LENGTH.unpack(await reader.readexactly(LENGTH.size))
                 message = unpack(await reader.readexactly(length))
+                self._hear()
                 if isinstance(message, protocol.StartFailed):
                     failure, self._no_space = message.message, message.no_space
                 else:
@@ -205,15 +229,46 @@ class Instance:
             log.exception("the host of this PLC does not speak the protocol: it is restarted")
             process.kill()
         finally:
+            looking.cancel()
+            self._before_silence = None
             self._writer = None
             self._connected.clear()
             self._fail_answers()
             writer.close()
-            code = await asyncio.to_thread(_reap, process)
+            code = await asyncio.to_thread(_reap, process, self._patience.grace_s)
         return failure or _failure_of(code, self._memory.limits.memory_mib)
+
+    async def _look(self, writer: asyncio.StreamWriter) -> None:
+        """Notices when the process falls silent: one that has nothing to tell is asked whether it is there."""
+        missed = 0
+        while True:
+            await asyncio.sleep(self._patience.look_s)
+            missed = 0 if self._heard else missed + 1
+            self._heard = False
+            if missed == 1:
+                writer.write(pack(protocol.Ping()))
+            if missed > self._patience.looks and self._before_silence is None:
+                self._fall_silent()
+
+    def _fall_silent(self) -> None:
+        self._before_silence = self.state
+        self._set_state(
+            state="silent", message="the PLC's process does not answer; it goes on when it can, or switch it off and on"
+        )
+        self._fail_answers(
+            "the PLC does not answer. What you asked for has not been confirmed: it may be done when the PLC goes on"
+        )
+
+    def _hear(self) -> None:
+        self._heard = True
+        if self._before_silence is not None:
+            before, self._before_silence = self._before_silence, None
+            self._set_state(state=before.state, message=before.message)
 
     def _take(self, message: object) -> None:
         match message:
+            case protocol.Pong():
+                pass
             case protocol.HostState():
                 self._see(message)
             case protocol.Entered():
@@ -363,8 +418,15 @@ class Instance:
         """Something whose answer, if any, comes as a message; false when the process is away."""
         if self._writer is None or self._writer.is_closing():
             return False
-        self._writer.write(pack(message))
+        self._write(self._writer, pack(message))
         return True
+
+    def _write(self, writer: asyncio.StreamWriter, packed: bytes) -> None:
+        """Sends it some time; a process that has not read for long is not written to for ever."""
+        writer.write(packed)
+        if writer.transport.get_write_buffer_size() > _UNREAD_BYTES and self._process is not None:
+            log.error("the process of %s does not read: it is ended, and started again", self._memory.name)
+            self._process.kill()
 
     async def _ask(self, make: Callable[[int], object]) -> object:
         if self._writer is None and self.state.state == "starting":
@@ -372,12 +434,23 @@ class Instance:
         if self._writer is None or self._writer.is_closing():
             hint = "Switch it on first" if self.state.state == "off" else "Try again in a moment"
             raise Unavailable(f"the PLC is {self.state.state}: {self.state.message}. {hint}")
+        if self._before_silence is not None:
+            raise Unavailable(f"nothing was changed: {self.state.message}")
         ref, self._next_ref = self._next_ref, self._next_ref + 1
-        packed = pack(make(ref))
+        question = make(ref)
+        packed = pack(question)
         future: asyncio.Future[object] = asyncio.get_running_loop().create_future()
         self._answers[ref] = future
-        self._writer.write(packed)
-        return await future
+        self._write(self._writer, packed)
+        seconds = self._patience.work_s if isinstance(question, _WORK) else self._patience.answer_s
+        try:
+            return await asyncio.wait_for(future, seconds)
+        except TimeoutError:
+            raise Unavailable(
+                f"the PLC has not answered this within {seconds:g} s. It may still be done: look before you repeat it"
+            ) from None
+        finally:
+            self._answers.pop(ref, None)
 
     async def _reached(self) -> None:
         """Waits a while for a process that is on its way."""
@@ -395,16 +468,16 @@ class Instance:
         if future is not None and not future.done():
             future.set_result(message)
 
-    def _fail_answers(self) -> None:
+    def _fail_answers(self, why: str = "the PLC's process died before it answered. See the log, and repeat") -> None:
         for future in self._answers.values():
             if not future.done():
-                future.set_exception(Unavailable("the PLC's process died before it answered. See the log, and repeat"))
+                future.set_exception(Unavailable(why))
         self._answers.clear()
 
 
-def _reap(process: Process) -> int | None:
+def _reap(process: Process, grace_s: float) -> int | None:
     """Collects a process whose socket is closed: it ends by itself, or is ended. Returns how it ended."""
-    code = process.wait(3)
+    code = process.wait(grace_s)
     if code is None:
         process.kill()
         code = process.wait()

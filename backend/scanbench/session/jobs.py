@@ -11,6 +11,11 @@ from scanbench.session.nursery import NoProcess, Process, nursery
 
 log = logging.getLogger("scanbench")
 DIED = "the process that computes it died: try again"
+ANSWER_S = 120.0
+"""So long a question of people is waited for; then the process is ended that computes it."""
+SLOW = f"it took longer than {ANSWER_S:g} s, and was given up: ask for fewer scans, or try again"
+_UNREAD_BYTES = 64 << 20
+"""More than this not read by a process: it is ended."""
 
 
 class Job:
@@ -31,6 +36,9 @@ class Job:
             self._waiting.append(packed)
         else:
             self._writer.write(packed)
+            if self._writer.transport.get_write_buffer_size() > _UNREAD_BYTES:
+                log.error("a job process does not read what it is asked: it is ended")
+                self._kill()
 
     async def end(self) -> None:
         """Ends the process, whatever it does."""

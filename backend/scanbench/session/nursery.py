@@ -93,9 +93,12 @@ Process = HostProcess | _Single
 
 
 class Nursery:
-    """Starts hosts. Thread-safe; a nursery that died is replaced by the next `spawn`."""
+    """Starts hosts. Thread-safe; a nursery that died, or does not answer, is replaced by the next `spawn`."""
 
-    def __init__(self) -> None:
+    def __init__(self, reply_s: float = 60.0, grace_s: float = 3.0) -> None:
+        """`reply_s` is how long it may take to fork, the start of Python included."""
+        self.reply_s, self._grace_s = reply_s, grace_s
+        self._closing = False
         self._lock = threading.Lock()
         self._process: subprocess.Popen[bytes] | None = None
         self._sock: socket.socket | None = None
@@ -128,17 +131,27 @@ class Nursery:
         raise NoProcess(f"no process could be started: {answer}")
 
     def close(self) -> None:
-        """Ends the process; hosts go on."""
-        with self._lock:
+        """Ends the process, whatever it does; hosts go on. Who waits for a host just now gets `NoProcess`."""
+        self._closing = True
+        if not self._lock.acquire(timeout=self._grace_s):
+            process = self._process
+            if process is not None:  # whoever has the lock waits for its reply
+                process.kill()
+            self._lock.acquire()
+        try:
             self._end()
+        finally:
+            self._closing = False
+            self._lock.release()
 
     def _asked(self, request: bytes, sock: socket.socket) -> bytes:
         """The reply, empty when the nursery is gone."""
         channel = self._connected()
+        channel.settimeout(self.reply_s)
         try:
             socket.send_fds(channel, [request], [sock.fileno()])
             reply = channel.recv(_LARGEST_REPLY)
-        except ConnectionError:
+        except (ConnectionError, TimeoutError):
             reply = b""
         if not reply:
             self._end()
@@ -146,6 +159,8 @@ class Nursery:
 
     def _connected(self) -> socket.socket:
         if self._sock is None:
+            if self._closing:
+                raise NoProcess("no process is started any more: the server ends")
             _adopt_orphans()
             ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
             with theirs:
@@ -166,7 +181,7 @@ class Nursery:
             self._sock = None
         if self._process is not None:
             try:
-                self._process.wait(3)
+                self._process.wait(self._grace_s)
             except subprocess.TimeoutExpired:
                 self._process.kill()
                 self._process.wait()

@@ -7,7 +7,7 @@ from pathlib import Path
 
 from scanbench.runtime.clock import fresh_token
 from scanbench.session.events import ComparisonChanged, Event, RerunChanged
-from scanbench.session.jobs import DIED, Job
+from scanbench.session.jobs import ANSWER_S, DIED, SLOW, Job
 from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.session.verify_protocol import (
@@ -54,7 +54,8 @@ class _Rerun:
 class Pasts:
     """All of a server."""
 
-    def __init__(self, runs: Path, cache: Path, open: Open) -> None:
+    def __init__(self, runs: Path, cache: Path, open: Open, answer_s: float = ANSWER_S) -> None:
+        self._answer_s = answer_s
         self._runs, self._cache, self._open = runs, cache, open
         self._asking: Job | None = None
         self._answers: dict[int, asyncio.Future[object]] = {}
@@ -112,13 +113,19 @@ class Pasts:
     async def _ask(self, make: Callable[[int], object]) -> object:
         if self._asking is None:
             self._asking = Job(self._cache, self._on_answer, self._on_asking_end)
+        job = self._asking
         if self._idle is not None:
             self._idle.cancel()
             self._idle = None
         ref = self._number()
         future = self._answers[ref] = asyncio.get_running_loop().create_future()
-        self._asking.ask(make(ref))
-        answer = await future
+        job.ask(make(ref))
+        try:
+            answer = await asyncio.wait_for(future, self._answer_s)
+        except TimeoutError:
+            self._answers.pop(ref, None)
+            self._do(job.end())  # what else it was asked is told that it died
+            raise Refused(SLOW) from None
         if isinstance(answer, str):
             raise Refused(answer)
         return answer

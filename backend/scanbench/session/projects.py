@@ -6,9 +6,8 @@ from collections.abc import Callable, Mapping, Sequence
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import USER_ERRORS
 from scanbench.session.builds import INTERVAL_NS, BuildOutcome, Change, Checker, CheckOutcome
-from scanbench.session.instance import Unavailable
 from scanbench.session.protocol import Sources
-from scanbench.session.refused import Refused
+from scanbench.session.refused import Refused, Unavailable
 from scanbench.session.session import Session
 from scanbench.store.records import FileInfo, FileRow, ProjectRow
 from scanbench.store.store import Store

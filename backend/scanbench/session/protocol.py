@@ -202,11 +202,21 @@ class WantSources:
 
 
 @dataclass(frozen=True, slots=True)
+class Ping:
+    """Asks whether the process is there; answered with `Pong` at once, whatever the PLC does."""
+
+
+@dataclass(frozen=True, slots=True)
 class Quit:
     """Ends the process."""
 
 
 # ---- host to parent ------------------------------------------------------------------------------------------------
+
+
+@dataclass(frozen=True, slots=True)
+class Pong:
+    """Answer to `Ping`."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from scanbench.faults.reaction import Reaction
 from scanbench.session import job_protocol
-from scanbench.session.jobs import DIED, Job
+from scanbench.session.jobs import ANSWER_S, DIED, SLOW, Job
 
 IDLE_S = 60.0
 """So long without a question, and the process ends."""
@@ -14,8 +14,8 @@ IDLE_S = 60.0
 class Reactions:
     """Answers one question after the other, in the order in which they came."""
 
-    def __init__(self, cache: Path) -> None:
-        self._cache = cache
+    def __init__(self, cache: Path, answer_s: float = ANSWER_S) -> None:
+        self._cache, self._answer_s = cache, answer_s
         self._job: Job | None = None
         self._answers: dict[int, asyncio.Future[job_protocol.Reacted]] = {}
         self._next_ref = 1
@@ -31,8 +31,14 @@ class Reactions:
         ref, self._next_ref = self._next_ref, self._next_ref + 1
         future: asyncio.Future[job_protocol.Reacted] = asyncio.get_running_loop().create_future()
         self._answers[ref] = future
-        self._job.ask(job_protocol.FindReaction(ref, str(run), error, scan, end, window))
-        answer = await future
+        job = self._job
+        job.ask(job_protocol.FindReaction(ref, str(run), error, scan, end, window))
+        try:
+            answer = await asyncio.wait_for(future, self._answer_s)
+        except TimeoutError:
+            self._answers.pop(ref, None)
+            self._end(job)  # what else it was asked is told that it died
+            return SLOW
         return answer.message if answer.reaction is None else answer.reaction
 
     async def close(self) -> None:
@@ -59,9 +65,12 @@ class Reactions:
     def _rest(self) -> None:
         job, self._job = self._job, None
         if job is not None:
-            task = asyncio.get_running_loop().create_task(job.end())
-            self._closing.add(task)
-            task.add_done_callback(self._closing.discard)
+            self._end(job)
+
+    def _end(self, job: Job) -> None:
+        task = asyncio.get_running_loop().create_task(job.end())
+        self._closing.add(task)
+        task.add_done_callback(self._closing.discard)
 
     def _on_end(self, job: Job) -> None:
         """It died: whoever still waits learns it. One that was ended because it rested was not asked any more."""

@@ -22,13 +22,13 @@ from scanbench.session.builds import BuildOutcome
 from scanbench.session.debug_protocol import DebugAnswer, DebugRequest
 from scanbench.session.debugging import Debugging
 from scanbench.session.events import Event, LogEntry, PlcState, Subscriber, User
-from scanbench.session.instance import Instance, Remembered, Unavailable
+from scanbench.session.instance import Instance, Remembered
 from scanbench.session.keeper import Keeper
 from scanbench.session.load import Load, Loads
 from scanbench.session.marks import Marks, kind_of
 from scanbench.session.reacting import Raised, Reacting
 from scanbench.session.reactions import Reactions
-from scanbench.session.refused import Refused
+from scanbench.session.refused import Refused, Unavailable
 from scanbench.session.trace_protocol import TracesAre
 from scanbench.session.tracing import Tracing
 from scanbench.session.watches import Watches
@@ -401,6 +401,10 @@ class Session:
         if self._past_rows and not state.past_by:
             self._past_rows = []
             self._tell_rows(self._history.rows)
+        if state.state != before.state and "silent" in (state.state, before.state):
+            text = state.message if state.state == "silent" else "the PLC's process answers again"
+            if state.state in ("silent", *_LIVING):
+                self._add_line(LogEntry(wall_time(), state.scan, "server", text, "system"))
         if state.state != before.state and state.state in ("restarting", "failed", "off"):
             self._unwatched = True
             if state.state == "off":

@@ -6,8 +6,7 @@ from dataclasses import asdict, dataclass, replace
 from typing import cast
 
 from scanbench.session import events, protocol
-from scanbench.session.instance import Unavailable
-from scanbench.session.refused import Refused
+from scanbench.session.refused import Refused, Unavailable
 from scanbench.session.trace_protocol import DefineTrace, DriveTrace, ReadTrace, TraceRead, TracesAre, TraceStatus
 from scanbench.store.records import Json, NotFound
 from scanbench.taps.trace import TraceDefinition, TraceTrigger

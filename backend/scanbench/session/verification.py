@@ -12,7 +12,7 @@ from typing import Literal
 
 from scanbench.session import debug_protocol, protocol
 from scanbench.session.events import Event, StateChanged, VerificationStatus, VerifyPace, VerifyWish
-from scanbench.session.jobs import DIED, Job
+from scanbench.session.jobs import ANSWER_S, DIED, SLOW, Job
 from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.session.verify_protocol import (
@@ -398,8 +398,14 @@ class Verification:
         if self._gone:
             raise Refused("its process has ended: begin another verification")
         future: asyncio.Future[object] = asyncio.get_running_loop().create_future()
-        self._answers[self._send(make)] = future
-        return await future
+        ref = self._send(make)
+        self._answers[ref] = future
+        try:
+            return await asyncio.wait_for(future, ANSWER_S)
+        except TimeoutError:
+            self._answers.pop(ref, None)
+            self._do(self._job.end())
+            raise Refused(SLOW) from None
 
     def _on_message(self, message: object) -> None:
         ref = getattr(message, "ref", None)

@@ -24,7 +24,7 @@ from scanbench.session.projects import Projects
 from scanbench.session.protocol import Driven
 from scanbench.session.reactions import Reactions
 from scanbench.session.records import Records
-from scanbench.session.refused import Refused
+from scanbench.session.refused import Refused, Unavailable
 from scanbench.session.runs import discard, discard_all, fresh_path, run_path, sources_of, sweep
 from scanbench.session.samples import samples
 from scanbench.session.session import LOG_LINES, Session
@@ -92,13 +92,14 @@ class Workbench:
 
     async def _warm(self) -> None:
         """Has the checker ready before somebody edits what runs."""
-        await self._checker.warm(next(iter(self.models.values())))
+        with suppress(Unavailable):
+            await self._checker.warm(next(iter(self.models.values())))
         for project in {session.project_id for session in self.sessions}:
-            with suppress(NotFound, Refused):
+            with suppress(NotFound, Refused, Unavailable):
                 await self.projects.check(project, {})
 
     async def close(self) -> None:
-        """Ends every PLC, and writes what is still to be written."""
+        """Ends every PLC, and writes what is still to be written. Each process has a grace period, then it is killed: so this ends."""
         if self._warming is not None:
             self._warming.cancel()
             await asyncio.gather(self._warming, return_exceptions=True)
@@ -106,10 +107,13 @@ class Workbench:
         await self.trace_records.close()
         await self.verifications.close()
         await self.pasts.close()
-        await asyncio.gather(*(session.stop() for session in self._sessions.values()))
+        await asyncio.gather(
+            *(session.stop() for session in self._sessions.values()),
+            self._checker.close(),
+            asyncio.to_thread(nursery().close),  # a process that is on its way does not come any more
+        )
         await self._reactions.close()
         await self._keeper.close()
-        await self._checker.close()
 
     async def delete_project(self, id: int) -> None:
         """Deletes a project that no PLC runs, with its sweeps and states."""

@@ -12,8 +12,7 @@ from starlette.exceptions import HTTPException
 
 from scanbench import __version__
 from scanbench.runtime.resource import is_no_space
-from scanbench.session.instance import Unavailable
-from scanbench.session.refused import Refused
+from scanbench.session.refused import Refused, Unavailable
 from scanbench.session.workbench import Workbench
 from scanbench.store.records import Conflict, ListConflict, NameTaken, NotFound, NotStorable, StoreError
 from scanbench.web import messages as wire

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import uvicorn
 
+from scanbench.engines.lifeline import end_children
 from scanbench.plcmodel.load import NoModels
 from scanbench.session.workbench import Workbench
 from scanbench.store.database import database_url
@@ -81,7 +82,7 @@ def shown_address(host: str, gate: Gate) -> str:
 
 
 class _Server(uvicorn.Server):
-    """Says when it is ready."""
+    """Says when it is ready, and leaves no process behind."""
 
     def __init__(self, config: uvicorn.Config, ready: Callable[[], None]) -> None:
         super().__init__(config)
@@ -92,6 +93,11 @@ class _Server(uvicorn.Server):
         await super().startup(sockets)
         if self.started and not self.should_exit:
             self._ready()
+
+    async def shutdown(self, sockets: list[socket.socket] | None = None) -> None:
+        """As uvicorn does, which ends the PLCs; then ends what is left, such as helpers of Python's own."""
+        await super().shutdown(sockets)
+        end_children()
 
 
 def _bind(host: str, port: int | None, announce: Callable[[str], None]) -> socket.socket:

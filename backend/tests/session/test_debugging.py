@@ -7,7 +7,7 @@ from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.session import debug_protocol, events, protocol
 from scanbench.session.debug_protocol import BreakpointsAre, DebugAnswer, DebugRequest, SetBreakpoints
 from scanbench.session.debugging import Debugging
-from scanbench.session.instance import Unavailable
+from scanbench.session.refused import Unavailable
 
 
 class Host:

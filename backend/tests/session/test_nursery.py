@@ -105,6 +105,16 @@ def test_a_host_ends_when_it_is_told_to(tmp_path: Path) -> None:
         assert talk.hear(protocol.StartFailed) is None
 
 
+def test_a_host_says_that_it_is_there_also_before_its_plc_runs(tmp_path: Path) -> None:
+    nursery = Nursery()
+    talk = Talk(nursery, tmp_path)
+    talk.say(protocol.Ping())
+    assert isinstance(talk.hear(protocol.Pong), protocol.Pong)
+    talk.sock.close()
+    talk.process.wait(PATIENCE_S)
+    nursery.close()
+
+
 def test_a_host_ends_when_nobody_speaks_to_it_any_more(tmp_path: Path) -> None:
     with hosts(tmp_path, 1) as (_, (talk,)):
         talk.sock.close()
@@ -139,6 +149,28 @@ def test_hosts_survive_their_nursery(tmp_path: Path) -> None:
         born_later.process.kill()
         assert born_later.process.wait() == -signal.SIGKILL
         born_later.sock.close()
+
+
+def test_a_frozen_nursery_is_given_up(tmp_path: Path) -> None:
+    nursery = Nursery(grace_s=0.1)
+    nursery.start()
+    Talk(nursery, tmp_path).sock.close()
+    frozen = nursery.pid
+    assert frozen is not None
+    os.kill(frozen, signal.SIGSTOP)
+    patience, nursery.reply_s = nursery.reply_s, 0.01
+    ours, theirs = socket.socketpair()
+    with ours, theirs, pytest.raises(NoProcess):
+        nursery.spawn(theirs, None)
+    nursery.reply_s = patience
+    talk = Talk(nursery, tmp_path, 1)
+    talk.start()
+    assert talk.answers()
+    talk.sock.close()
+    assert not runs(frozen)
+    assert nursery.pid is not None
+    os.kill(nursery.pid, signal.SIGSTOP)
+    nursery.close()
 
 
 _PARENT = """

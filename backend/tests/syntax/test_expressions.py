@@ -53,7 +53,10 @@ BROKEN = [
     ("x := a[1;", "S003 2:9 `]` expected to close the index, found `;`."),
     ("x := a.;", "S003 2:8 the name of a member expected, found `;`."),
     ("x := a.TO;", "S003 2:8 the name of a member expected; `TO` is a keyword and cannot be a name, found `TO`."),
-    ("x := a.%Q3;", "S003 2:8 a part of a variable is written like x.%X3, x.%B1, x.%W0, x.%D0 or x.%B1.3, found `%Q3`."),
+    (
+        "x := a.%Q3;",
+        "S003 2:8 a part of a variable is written like x.%X3, x.%B1, x.%W0, x.%D0 or x.%B1.3, found `%Q3`.",
+    ),
     ("x := f(1, 2;", "S003 2:12 `)` expected to close the call, found `;`."),
     ("x := AND a;", "S003 2:6 an expression (a value, variable or call) expected, found `AND`."),
     ('x := "Motor".run;', "X001 2:6 Names in quotes are not supported; write Motor."),

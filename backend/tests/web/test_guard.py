@@ -106,8 +106,7 @@ def test_the_printed_address_is_the_public_one() -> None:
                                  ("/?token=key", 303, "no-store"), ("/assets/main.js", 200, None)]
 )  # fmt: skip
 def test_every_answer_has_the_headers(path: str, status: int, kept: str | None) -> None:
-    headers = {"Authorization": "none"} if status in (401, 303) else {}
-    answer = ask("localhost", path=path, **headers)
+    answer = ask("localhost", path=path, Authorization="none" if status in (401, 303) else "Bearer key")
     assert answer.status_code == status
     assert answer.headers.get("Cache-Control") == kept
     policy = answer.headers["Content-Security-Policy"].split("; ")

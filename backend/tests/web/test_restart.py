@@ -74,6 +74,25 @@ def test_a_restarted_server_goes_on_with_every_run(tmp_path: Path, kill: signal.
             assert (state["state"], state["scan"], state["speed"]) == ("paused", scan, 0)
 
 
+def children(pid: int) -> list[int]:
+    found = [int(each) for each in Path(f"/proc/{pid}/task/{pid}/children").read_text().split()]
+    threads = [path for path in Path(f"/proc/{pid}/task").iterdir() if path.name != str(pid)]
+    return found + [int(each) for path in threads for each in (path / "children").read_text().split()]
+
+
+def test_a_server_ends_with_all_its_children_also_frozen_ones(tmp_path: Path) -> None:
+    with Server(tmp_path) as server:
+        instance = server.instance("frozen", "CJ1M-CPU63", main=SOURCE)
+        until(lambda: server.state(instance)["state"] == "running", 30)
+        pids = children(server.process.pid)
+        assert len(pids) >= 5  # the samples and this one, the checker, the nursery
+        for pid in pids:
+            os.kill(pid, signal.SIGSTOP)
+        server.process.terminate()
+        assert server.process.wait(60) == -signal.SIGTERM  # uvicorn ends in order, and then by the signal
+        until(lambda: not any(map(alive, pids)), 30)
+
+
 def test_a_plc_that_dies_again_and_again_is_given_up_and_can_be_revived(server: Server) -> None:
     instance = server.instance("mortal", "CJ1M-CPU63", main=SOURCE)
     with server.browser(instance) as browser:

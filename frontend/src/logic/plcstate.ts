@@ -37,6 +37,7 @@ const LOOKS: Record<RunState, { tone: Tone; icon: StateIcon }> = {
   fatal: { tone: "fatal", icon: "fatal" },
   trapped: { tone: "fatal", icon: "fatal" },
   restarting: { tone: "halted", icon: "refresh" },
+  silent: { tone: "stale", icon: "lost" },
   failed: { tone: "fatal", icon: "error" },
   past: { tone: "past", icon: "past" },
   off: { tone: "stopped", icon: "off" },
@@ -73,6 +74,8 @@ function detailOf(state: InstanceState): string {
     case "past":
       if (state.halt && state.halt.file !== "") return t("debug.past", { line: state.halt.line });
       return t("state.readonly", { scan: grouped(state.scan) });
+    case "silent":
+      return t("state.silent.detail");
     case "off":
       return t("state.switchedoff");
     case "no_space":

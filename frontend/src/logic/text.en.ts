@@ -472,6 +472,9 @@ export const english = {
     "Enter the key once in this browser. It is in the address that the server printed at its start, after ?token=; the person who started the server has it. What you wrote and did not save is kept in this browser.",
   "shut.locked.key": "Key, or the whole address with ?token=",
   "shut.locked.open": "Open",
+  "silent.about":
+    "Its process is held up. The values are the last ones it sent, and nothing can be changed. It goes on by itself when it can; to end it, switch it off.",
+  "silent.title": "The PLC does not answer.",
   splitter: "Width of the explorer",
   "start.label": "Start",
   "start.new": "New file:",
@@ -494,6 +497,8 @@ export const english = {
   "state.restarting": "Restarting",
   "state.running": "Running",
   "state.searching": "searching back…",
+  "state.silent": "Does not answer",
+  "state.silent.detail": "last values shown",
   "state.starting": "Starting",
   "state.stopped": "Stopped",
   "state.trapped": "Trapped",

@@ -473,6 +473,9 @@ export const japanese: Record<TextKey, string> = {
     "このブラウザで一度だけキーを入力してください。キーはサーバー起動時に表示されたアドレスの ?token= の後にあり、サーバーを起動した人が持っています。保存していない内容はこのブラウザに残っています。",
   "shut.locked.key": "キー、または ?token= を含むアドレス全体",
   "shut.locked.open": "開く",
+  "silent.about":
+    "プロセスが止まっています。表示中の値は最後に届いた値で、変更はできません。動けるようになると自動で続行します。終了するには PLC の電源を切ってください。",
+  "silent.title": "PLC が応答しません。",
   splitter: "エクスプローラの幅",
   "start.label": "開始",
   "start.new": "新しいファイル:",
@@ -495,6 +498,8 @@ export const japanese: Record<TextKey, string> = {
   "state.restarting": "再起動中",
   "state.running": "運転中",
   "state.searching": "過去を検索中…",
+  "state.silent": "応答なし",
+  "state.silent.detail": "最後の値を表示中",
   "state.starting": "起動中",
   "state.stopped": "停止",
   "state.trapped": "プログラム異常停止",

@@ -26,7 +26,7 @@ usePlc.subscribe(({ state: now }, { state: before }) => {
 /** Whether the PLC cannot tell its variables now: before it runs, and while it is switched off. */
 export function isAway(): boolean {
   const { state } = usePlc.getState();
-  return state === null || ["off", "starting", "restarting", "failed"].includes(state.state);
+  return state === null || ["off", "starting", "restarting", "silent", "failed"].includes(state.state);
 }
 
 /** Fetches the members below a path ('' is the top: programs and globals), once. */

@@ -959,7 +959,8 @@ export interface paths {
         get?: never;
         /**
          * On Define Trace
-         * @description Another definition for a trace; what was recorded is forgotten, unless only the name changed.
+         * @description Another definition for a trace; what was recorded is forgotten. Without `start`, other signals leave what was recorded
+         *     of those that stay, and another name leaves everything.
          */
         put: operations["on_define_trace_api_instances__instance__traces__trace__put"];
         post?: never;
@@ -3660,7 +3661,7 @@ export interface components {
              * State
              * @enum {string}
              */
-            state: "starting" | "running" | "paused" | "halted" | "stopped" | "fatal" | "trapped" | "restarting" | "failed" | "past" | "off" | "no_space";
+            state: "starting" | "running" | "paused" | "halted" | "stopped" | "fatal" | "trapped" | "restarting" | "silent" | "failed" | "past" | "off" | "no_space";
             /**
              * Target
              * @description where a run that was asked for ends: `scan 4711`, `until Main.count > 3`; or empty

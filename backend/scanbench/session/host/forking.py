@@ -20,6 +20,7 @@ from pathlib import Path
 import msgpack  # type: ignore[import-untyped]
 
 from scanbench.check.incremental import Checks
+from scanbench.engines.lifeline import end_with_parent
 from scanbench.plcmodel.load import NoModels
 from scanbench.session.host.build import Builder, all_models
 from scanbench.session.host.host import serve
@@ -36,6 +37,7 @@ def main() -> int:
     """Forks until the socket is closed."""
     signal.signal(signal.SIGINT, signal.SIG_IGN)  # Ctrl-C is the server's business
     server = os.getppid()
+    end_with_parent(server)  # also when it is stopped, and so does not see that the socket is closed
     with socket.socket(fileno=int(sys.argv[1])) as channel:
         channel.set_inheritable(False)
         _warm()

@@ -116,6 +116,9 @@ class Host:
             self._start = message
             self._started.set()
             return
+        if isinstance(message, protocol.Ping):
+            self._link.post(protocol.Pong())
+            return
         with self._handover:
             if self._loop is None:
                 self._waiting.append(message)

@@ -13,7 +13,7 @@ from scanbench.runtime.clock import monotonic_ns
 from scanbench.session.codec import Splitter, pack
 
 BACKLOG_BYTES = 4 << 20
-"""More than this unsent: the parent does not keep up, and frames are dropped."""
+"""More than this unsent: the parent does not keep up, and is told no more than answers until it does."""
 _LAST_WORDS_S = 2.0
 _AT_ONCE = 256
 
@@ -92,8 +92,10 @@ class Link:
 
     def _send(self) -> bool:
         """Sends as much as goes without waiting; false when the other end is gone. Not all at once, as reading and ticks come
-        first even when the loop posts without end."""
+        first even when the loop posts without end. What a slow parent has yet to read stays messages, not bytes."""
         for _ in range(min(len(self._queue), _AT_ONCE)):
+            if self.backlogged:
+                break
             message = self._queue.popleft()
             self._unsent += pack(message() if callable(message) else message)
         try:

@@ -129,12 +129,18 @@ class Services:
     # ---- at each tick ---------------------------------------------------------------------------------------------
 
     def tick(self) -> None:
-        """Tells what changed."""
+        """Tells what changed; when the parent does not keep up, it is told what changed until then once it does."""
         now = monotonic_ns()
+        if self._link.backlogged:
+            self._course.look()
+            if now >= self._counted_at:
+                self._counted_at = now + COUNTING_NS
+                self._timeline.note()
+            return
         self.entered()
         self._course.look()
         header = self._resource.header
-        if len(self._plan) and not self._link.backlogged:
+        if len(self._plan):
             frame = self._plan.sample(self._resource.memory, header.scan, self._time_ns)
             if frame is not None:
                 self._link.post(protocol.Frame(frame, self._timeline.live_scan))

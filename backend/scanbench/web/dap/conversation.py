@@ -9,8 +9,7 @@ from typing import Protocol
 from pydantic import ValidationError
 
 from scanbench.session.events import Event, User
-from scanbench.session.instance import Unavailable
-from scanbench.session.refused import Refused
+from scanbench.session.refused import Refused, Unavailable
 from scanbench.web.dap import shapes
 from scanbench.web.dap.answers import fault, refusal, response
 from scanbench.web.dap.debuggee import Debuggee

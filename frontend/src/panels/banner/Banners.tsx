@@ -33,6 +33,7 @@ function PlcBanner() {
     case "fatal":
       return <FatalBanner state={state} />;
     case "restarting":
+    case "silent":
     case "failed":
       return <RestartingBanner state={state} />;
     case "past":
