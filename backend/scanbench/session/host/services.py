@@ -144,12 +144,14 @@ class Services:
             frame = self._plan.sample(self._resource.memory, header.scan, self._time_ns)
             if frame is not None:
                 self._link.post(protocol.Frame(frame, self._timeline.live_scan))
-        self._tell_standing()  # before the state: who sees it run again after a death also sees all that was acknowledged
-        self._tell_forces(now >= self._counted_at)
+        self._tell_forces(
+            now >= self._counted_at
+        )  # first: who sees it run again after a death also sees the last of them
         state = self.state
         if state != self._last_state and (now >= self._state_at or self._differs(state)):
             self._last_state, self._state_at = state, now + COUNTING_NS
             self._link.post(state)
+        self._tell_standing()  # behind it: what is present is read as the past's or as live, by the state
         if now >= self._counted_at:
             self._counted_at = now + COUNTING_NS
             self._diagnose()
