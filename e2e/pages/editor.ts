@@ -44,7 +44,35 @@ export class Editor {
 
   /** The live values of a name, as they are shown after the lines that mention it. */
   inlineValue(name: string): Locator {
-    return this.region.locator('.inlinerow > span').filter({ hasText: new RegExp(`^${name}`) }).locator('b').first();
+    return this.region
+      .locator('.inlinerow > span')
+      .filter({ hasText: new RegExp(`^${name}`) })
+      .locator('b')
+      .first();
+  }
+
+  /** The values of a name in the colour of a force. */
+  forcedValue(name: string): Locator {
+    return this.region.locator('.inlinerow > .forced').filter({ hasText: new RegExp(`^${name}`) });
+  }
+
+  /** Whether the values of a name are shown after the end of lines that mention it, each at the height of its own. */
+  async valuesAreBeside(name: string): Promise<boolean> {
+    return this.region.evaluate((region, wanted) => {
+      const lines = [...region.querySelectorAll('.view-line')].map((line) => ({
+        text: line.textContent ?? '',
+        top: line.getBoundingClientRect().top,
+        end: line.firstElementChild?.getBoundingClientRect().right ?? 0,
+      }));
+      const rows = [...region.querySelectorAll<HTMLElement>('.inlinerow')].filter(
+        (row) => !row.hidden && row.firstChild?.textContent?.startsWith(wanted),
+      );
+      const beside = (row: HTMLElement) => {
+        const { top, left } = row.getBoundingClientRect();
+        return lines.some((line) => Math.abs(line.top - top) < 2 && line.end <= left && line.text.includes(wanted));
+      };
+      return rows.length > 0 && rows.every(beside);
+    }, name);
   }
 
   get conflict(): Locator {

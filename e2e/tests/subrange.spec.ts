@@ -47,6 +47,26 @@ test('a value outside of its subrange is limited, listed, marked, and leads to t
     await jo.watch.shows('Main.text', '"Grüße"');
   });
 
+  await test.step('values stay after their own lines with the find widget open and with the checks shown', async () => {
+    await main.caretAfter('z := x + y;');
+    await jo.page.keyboard.press('Control+F');
+    await expect(main.region.getByRole('textbox', { name: 'Find' })).toBeFocused();
+    await expect.poll(() => main.valuesAreBeside('err')).toBe(true);
+    await main.region.getByRole('button', { name: 'Show embedded checks' }).click();
+    await expect(main.region.locator('.view-line').filter({ hasText: '⊂' }).first()).toBeVisible();
+    for (const name of ['err', 'z', 'x']) await expect.poll(() => main.valuesAreBeside(name), name).toBe(true);
+  });
+
+  await test.step('a force gives its colour to the value in the text at once, and takes it away', async () => {
+    await expect(main.forcedValue('err')).toHaveCount(0);
+    await jo.watch.fromMenu('Main.err', 'Force to TRUE');
+    await expect(main.forcedValue('err').first()).toBeVisible();
+    await jo.watch.releaseOf('Main.err').click();
+    await expect(main.forcedValue('err')).toHaveCount(0);
+    await main.region.getByRole('button', { name: 'Show embedded checks' }).click();
+    await jo.page.keyboard.press('Escape');
+  });
+
   await test.step('nothing is listed as long as all is well', async () => {
     await jo.diagnostics.show();
     await expect(jo.page.getByText('No violations.')).toBeVisible();

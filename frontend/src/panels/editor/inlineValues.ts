@@ -7,7 +7,7 @@ import { pouAt } from "../../logic/explorer";
 import { type NamedVariable, variablesIn } from "../../logic/inline";
 import { t } from "../../logic/text";
 import { useDocuments } from "../../store/documents";
-import { forceOf, useForces } from "../../store/forces";
+import { forcedAt, useForces } from "../../store/forces";
 import { useMembers } from "../../store/members";
 import { usePlc } from "../../store/plc";
 import { usePrefs } from "../../store/prefs";
@@ -32,6 +32,8 @@ interface Shown {
 interface Row {
   key: string;
   element: HTMLElement;
+  /** Shows which values are forced now. */
+  paint: () => void;
   release: () => void;
 }
 
@@ -66,6 +68,7 @@ export function showInlineValues(code: editor.IStandaloneCodeEditor, path: strin
     const before = unwatch;
     unwatch = watch([...paths]);
     before();
+    for (const { paint } of rows.values()) paint();
     place(code, rows, layer);
   }
 
@@ -78,6 +81,9 @@ export function showInlineValues(code: editor.IStandaloneCodeEditor, path: strin
     code.onDidLayoutChange(schedule),
     code.onDidChangeModelContent(schedule),
     code.onDidChangeHiddenAreas(schedule),
+    // The find widget makes room above the first line, and what is written into a line by others makes it longer.
+    code.onDidChangeViewZones(schedule),
+    code.onDidChangeModelDecorations(schedule),
   ];
   const stops = [
     useSeenAs.subscribe(schedule),
@@ -160,6 +166,7 @@ function valuesOf(named: readonly NamedVariable[], pou: string, inFrame: boolean
 function build({ values, old, next }: RowWanted, layer: HTMLElement): Omit<Row, "key"> {
   const element = document.createElement("div");
   element.className = `inlinerow${old ? " old" : ""}`;
+  const paints: (() => void)[] = [];
   const releases = values.map((value) => {
     const cell = document.createElement("span");
     const text = document.createElement("b");
@@ -169,9 +176,9 @@ function build({ values, old, next }: RowWanted, layer: HTMLElement): Omit<Row, 
       text.textContent = value.text;
       return () => undefined;
     }
-    const force = forceOf(useForces.getState(), value.path);
-    cell.classList.toggle("forced", force !== undefined);
-    return bindCell(value.path, "default", (reading) => {
+    const { path } = value;
+    paints.push(() => cell.classList.toggle("forced", forcedAt(path) !== undefined));
+    return bindCell(path, "default", (reading) => {
       text.textContent = reading.text;
       cell.hidden = reading.text === "";
       cell.classList.toggle("new", reading.changed && usePlc.getState().state?.halt != null);
@@ -184,7 +191,11 @@ function build({ values, old, next }: RowWanted, layer: HTMLElement): Omit<Row, 
     element.append(said);
   }
   layer.append(element);
-  return { element, release: () => releases.forEach((release) => void release()) };
+  return {
+    element,
+    paint: () => paints.forEach((paint) => void paint()),
+    release: () => releases.forEach((release) => void release()),
+  };
 }
 
 function place(code: editor.IStandaloneCodeEditor, rows: ReadonlyMap<number, Row>, layer: HTMLElement): void {
@@ -196,6 +207,20 @@ function place(code: editor.IStandaloneCodeEditor, rows: ReadonlyMap<number, Row
   for (const [line, { element }] of rows) {
     const at = model && code.getScrolledVisiblePosition({ lineNumber: line, column: model.getLineMaxColumn(line) });
     element.hidden = !at;
-    if (at) element.style.transform = `translate(${at.left - contentLeft + 24}px, ${at.top}px)`;
+    if (!model || !at) continue;
+    const behind = at.left - contentLeft + insertedWidth(code, model, line);
+    element.style.transform = `translate(${behind + 24}px, ${at.top}px)`;
   }
+}
+
+/** How much wider a line is drawn than its text: subrange checks and what readers say are written into it. */
+function insertedWidth(code: editor.IStandaloneCodeEditor, model: editor.ITextModel, line: number): number {
+  const inserts = model.getLineDecorations(line).some(({ options }) => options.after || options.before);
+  if (!inserts) return 0;
+  const top = code.getTopForLineNumber(line);
+  const drawn = [...(code.getDomNode()?.querySelectorAll<HTMLElement>(".view-line") ?? [])].find(
+    ({ style }) => Number.parseFloat(style.top) === top,
+  );
+  const text = code.getOffsetForColumn(line, model.getLineMaxColumn(line));
+  return Math.max(0, (drawn?.firstElementChild?.getBoundingClientRect().width ?? 0) - text);
 }
