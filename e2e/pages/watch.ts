@@ -55,7 +55,7 @@ export class Watch {
     await this.name(path).click({ button: 'right' });
     // A key stands behind some names.
     await this.page
-      .getByRole(role, { name: new RegExp(`^${item.replace(/[^\w ]/g, '\\$&')}( (Shift\\+)?F7)?$`) })
+      .getByRole(role, { name: new RegExp(`^${item.replace(/[^\w ]/g, '\\$&')}( Space| (Shift\\+)?F7)?$`) })
       .click();
   }
 

@@ -4,6 +4,13 @@ test('a forced output stays as it is until it is released', async ({ openAs }) =
   const mika = await openAs('Mika');
   await mika.runs();
 
+  await test.step('a double click writes the other value of a BOOL, the menu either', async () => {
+    await mika.watch.value('reset').dblclick();
+    await mika.watch.shows('reset', 'TRUE');
+    await mika.watch.fromMenu('reset', 'Write FALSE');
+    await mika.watch.shows('reset', 'FALSE');
+  });
+
   await test.step('forced to FALSE, start does not move it', async () => {
     await mika.watch.shows('motor', 'FALSE');
     await mika.watch.fromMenu('motor', 'Force to FALSE');

@@ -558,6 +558,7 @@ export const english = {
   "watch.label": "Watch",
   "watch.members": "{count} members",
   "watch.noinstance": "No virtual PLC is chosen. Choose one at the top left to see its values.",
+  "watch.write.to": "Write {value}",
   "watch.notinversion": "not in version {version}",
   "watch.notfound": "not known",
   "watch.offers": "Matching variables and addresses",

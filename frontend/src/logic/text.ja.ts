@@ -558,6 +558,7 @@ export const japanese: Record<TextKey, string> = {
   "watch.label": "ウォッチ",
   "watch.members": "メンバ {count}",
   "watch.noinstance": "仮想 PLC が選ばれていません。左上で選んでください。",
+  "watch.write.to": "{value} を書込み",
   "watch.notinversion": "バージョン {version} にはありません",
   "watch.notfound": "不明",
   "watch.offers": "該当する変数とアドレス",

@@ -234,6 +234,12 @@ export async function write(path: string, root: string, value: string): Promise<
   landed("write", path, value, answer);
 }
 
+/** Writes the other value of a BOOL whose value is known. */
+export async function toggle(row: { path: string; root: string }): Promise<void> {
+  const other = { TRUE: "FALSE", FALSE: "TRUE" }[shownText(row)];
+  if (other !== undefined) await write(row.path, row.root, other);
+}
+
 export async function force(path: string, root: string, value: string): Promise<void> {
   const answer = await send({ type: "force", path, value: meant(path, root, value), site: siteOf(path) });
   landed("force", path, value, answer);

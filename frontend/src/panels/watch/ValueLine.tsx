@@ -5,13 +5,14 @@ import { memberName, type ValueRow } from "../../logic/watchrows";
 import { useForcedAt, useForces } from "../../store/forces";
 import { useForbidden } from "../../store/plc";
 import { useWatches } from "../../store/watches";
-import { releaseForce, removeFromWatch, select, toggleOpen, useWatchList } from "../../store/watchlist";
+import { releaseForce, removeFromWatch, select, toggle, toggleOpen, useWatchList } from "../../store/watchlist";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import type { ForceInfo, PlcSymbol } from "../../wire/types";
 import { AddressCell, BoundCell } from "./BoundCell";
 import { ChangeCell } from "./ChangeCell";
 import { CurrentCell } from "./CurrentCell";
+import { mayWrite } from "./gridKeys";
 import { usePicked } from "./usePicked";
 import { ROW_DRAG } from "./useRowDrop";
 
@@ -56,6 +57,10 @@ export function ValueLine({ row, style, index, selected, target, onMenu }: Props
       data-path={row.path}
       data-index={index}
       onClick={() => select(row.path)}
+      onDoubleClick={({ target }) => {
+        const entry = (target as HTMLElement).closest("input, button");
+        if (entry === null && symbol?.kind === "bool" && mayWrite()) void toggle(row);
+      }}
       onContextMenu={(event) => {
         event.preventDefault();
         select(row.path);

@@ -1,18 +1,27 @@
 /** The keys of the watch table, with the selected row. */
 import type { KeyboardEvent } from "react";
+import { forbidden } from "../../logic/permits";
 import type { WatchRow } from "../../logic/watchrows";
+import { usePlc } from "../../store/plc";
 import { useWatches } from "../../store/watches";
 import {
   force,
   releaseForce,
   removeFromWatch,
   shownText,
+  toggle,
   toggleGroup,
   toggleOpen,
   useWatchList,
 } from "../../store/watchlist";
 import { undoEdit } from "../../store/watchlists";
 import { copyText } from "./rowMenu";
+
+/** Without a connection, in the past and where a mode forbids it, no key writes. */
+export const mayWrite = () => {
+  const { state, link } = usePlc.getState();
+  return forbidden(state, link.state === "open", "write") === null;
+};
 
 /** False when the key means nothing here. */
 export function gridKey(event: KeyboardEvent<HTMLDivElement>, row: WatchRow | undefined): boolean {
@@ -42,6 +51,9 @@ export function gridKey(event: KeyboardEvent<HTMLDivElement>, row: WatchRow | un
     case "Enter":
     case "F2":
       grid.querySelector<HTMLElement>(".gr.on input")?.focus();
+      return true;
+    case " ":
+      if (symbol?.kind === "bool" && mayWrite()) void toggle(row);
       return true;
     case "F7":
       if (event.shiftKey) void releaseForce(row.path);

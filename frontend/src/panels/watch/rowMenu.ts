@@ -2,6 +2,7 @@ import { formatsFor } from "../../logic/formats";
 import { chosenFor } from "../../logic/paths";
 import { forbidden } from "../../logic/permits";
 import { t } from "../../logic/text";
+import type { TextKey } from "../../logic/text.en";
 import { moveEntry, removeGroup } from "../../logic/watchlist";
 import { actualOf, type GroupRow, type ValueRow } from "../../logic/watchrows";
 import { useBindings } from "../../store/bindings";
@@ -21,12 +22,15 @@ import {
   shownText,
   toggleGroup,
   useWatchList,
+  write,
 } from "../../store/watchlist";
 import { editList, told, undoEdit, useWatchLists } from "../../store/watchlists";
 import { showWriter } from "../../store/writer";
 import type { MenuItem } from "../../ui/Menu";
 import type { PlcSymbol } from "../../wire/types";
 import { siteShown } from "./sites";
+
+const BOOLS = ["TRUE", "FALSE"] as const;
 
 /** What can be done with a row of the watch table. */
 export function rowMenu(row: ValueRow, onNewGroup: (path: string) => void): MenuItem[] {
@@ -60,6 +64,7 @@ function forceItems(row: ValueRow, symbol: PlcSymbol | null): MenuItem[] {
   if (!symbol?.writable || symbol.expandable) return [];
   const plc = usePlc.getState();
   const locked = forbidden(plc.state, plc.link.state === "open", "force");
+  if (symbol.kind === "bool") return [...boolItems(row, locked), ...releaseItems(row, locked)];
   const typed = useWatchList.getState().drafts.get(path);
   const shown = typed || shownText(row);
   return [
@@ -70,6 +75,33 @@ function forceItems(row: ValueRow, symbol: PlcSymbol | null): MenuItem[] {
       disabled: locked !== null || shown === "",
       onSelect: () => void force(path, root, shown),
     },
+    ...releaseItems(row, locked),
+  ];
+}
+
+/** A BOOL has two values: both are offered, whatever it is now. */
+function boolItems({ path, root }: ValueRow, locked: TextKey | null): MenuItem[] {
+  const plc = usePlc.getState();
+  const unwritable = forbidden(plc.state, plc.link.state === "open", "write");
+  const shown = shownText({ path, root });
+  const writes = BOOLS.map((value) => ({
+    label: t("watch.write.to", { value }),
+    hint: unwritable ? t(unwritable) : shown !== "" && shown !== value ? "Space" : undefined,
+    disabled: unwritable !== null,
+    onSelect: () => void write(path, root, value),
+  }));
+  const forces = BOOLS.map((value) => ({
+    label: t("force.to", { value }),
+    icon: "forced" as const,
+    hint: locked ? t(locked) : shown === value ? "F7" : undefined,
+    disabled: locked !== null,
+    onSelect: () => void force(path, root, value),
+  }));
+  return [...writes, ...forces];
+}
+
+function releaseItems({ path }: ValueRow, locked: TextKey | null): MenuItem[] {
+  return [
     {
       label: t("force.release"),
       icon: "unforce",
