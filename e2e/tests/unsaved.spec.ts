@@ -85,10 +85,21 @@ test('what is typed is never lost unsaid: closing asks, a build that fails says 
   });
 });
 
-test('a project needs its model: until the models are there, nothing can be made', async ({ openAs }) => {
+test('a project needs its model; nothing that a page asks of itself is refused', async ({ openAs, server }) => {
   const mika = await openAs('Mika');
   const { page } = mika;
   await mika.runs();
+  const refused: string[] = [];
+  page.on('response', (response) => {
+    if (response.status() >= 400) refused.push(`${response.status()} ${response.url()}`);
+  });
+  await mika.explorer.tree.getByRole('treeitem', { name: 'Belt', exact: true }).first().dblclick();
+  const belt = mika.editor('Belt.st');
+  await belt.caretAfter('position := position + STEP;');
+  // What is typed before a point is no variable most of the time.
+  const asked = page.waitForResponse(/symbols\?.*path=Main\.belt\.nothing/);
+  await page.keyboard.type(' nothing.');
+  await asked;
   let arrive = () => {};
   const models = new Promise<void>((resolve) => {
     arrive = resolve;
@@ -114,4 +125,14 @@ test('a project needs its model: until the models are there, nothing can be made
   await dialog.getByRole('button', { name: 'Create' }).click();
   await expect(dialog).toBeHidden();
   await expect(mika.top.picker).toContainText('late');
+  // By its address, while the tabs are still those of the other project.
+  const { origin } = new URL(server.address);
+  await page.goto(`${origin}/i/1`);
+  await expect(belt.region).toBeVisible();
+  await mika.runs();
+  await page.goto(`${origin}/i/2`);
+  await mika.runs();
+  await expect(mika.editor('Main.st').region).toBeVisible();
+  await expect(belt.region).toBeHidden();
+  expect(refused).toEqual([]);
 });

@@ -113,10 +113,11 @@ async def on_delete_instance(bench: Bench, instance: Id) -> None:
 
 
 @router.get("/instances/{instance}/symbols")
-async def on_symbols(bench: Bench, instance: Id, path: str = "") -> list[wire.Symbol]:
-    """The members below a path; programs and globals below ''."""
+async def on_symbols(bench: Bench, instance: Id, path: str = "", offer: bool = False) -> list[wire.Symbol]:
+    """The members below a path; programs and globals below ''. With `offer` a path that is no variable (it is being typed)
+    has none, instead of being refused."""
     found = await bench.session(instance).look_up("members", path)
-    if found.message:
+    if found.message and not offer:
         raise Refused(found.message, found.near)
     return list(map(translate.symbol, found.symbols))
 

@@ -298,6 +298,7 @@ export const english = {
   "file.delete.hint": "The running program stays as it is until the next build.",
   "file.delete.menu": "Delete {path}…",
   "file.delete.title": "Delete {path}",
+  "file.gone": "There is no file {path} in this project. It was deleted, or belongs to another project.",
   "file.name": "Name",
   "file.new": "New file",
   "file.new.about":

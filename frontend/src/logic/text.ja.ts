@@ -300,6 +300,7 @@ export const japanese: Record<TextKey, string> = {
   "file.delete.hint": "実行中のプログラムは次のビルドまで変わりません。",
   "file.delete.menu": "{path} を削除…",
   "file.delete.title": "{path} を削除",
+  "file.gone": "このプロジェクトにファイル {path} はありません。削除されたか、別のプロジェクトのものです。",
   "file.name": "名前",
   "file.new": "新しいファイル",
   "file.new.about":

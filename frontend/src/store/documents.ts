@@ -125,7 +125,11 @@ export async function openDocument(path: string): Promise<void> {
 
 /** Null when there is no such file, which is no failure for a browser that still holds a text of it. */
 async function storedFile(project: number, path: string, mayBeGone: boolean): Promise<FileText | null> {
-  if (mayBeGone && !(await rest.files(project)).some((file) => file.path === path)) return null;
+  const known = get().files.some((file) => file.path === path);
+  if (!known && !(await rest.files(project)).some((file) => file.path === path)) {
+    if (mayBeGone) return null;
+    throw new Error(t("file.gone", { path }));
+  }
   return rest.file(project, path);
 }
 

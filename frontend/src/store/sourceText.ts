@@ -8,7 +8,9 @@ export async function savedText(path: string): Promise<string | null> {
   const open = useDocuments.getState().open[path];
   if (open) return open.savedText;
   const project = useBench.getState().project?.id;
+  const { files, project: listed } = useDocuments.getState();
   if (project === undefined) return null;
+  if (listed === project && files.length > 0 && !files.some((file) => file.path === path)) return null;
   try {
     return (await rest.file(project, path)).text;
   } catch {

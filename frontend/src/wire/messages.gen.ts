@@ -874,7 +874,8 @@ export interface paths {
         };
         /**
          * On Symbols
-         * @description The members below a path; programs and globals below ''.
+         * @description The members below a path; programs and globals below ''. With `offer` a path that is no variable (it is being typed)
+         *     has none, instead of being refused.
          */
         get: operations["on_symbols_api_instances__instance__symbols_get"];
         put?: never;
@@ -8054,6 +8055,7 @@ export interface operations {
     on_symbols_api_instances__instance__symbols_get: {
         parameters: {
             query?: {
+                offer?: boolean;
                 path?: string;
             };
             header?: never;

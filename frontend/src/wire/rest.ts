@@ -253,6 +253,9 @@ export const rest = {
 
   symbols: (instance: number, path: string) =>
     json<PlcSymbol[]>("GET", `/instances/${instance}/symbols?path=${encodeURIComponent(path)}`),
+  /** The same of a path that is being typed: one that is no variable (yet) has no members. */
+  offeredSymbols: (instance: number, path: string) =>
+    json<PlcSymbol[]>("GET", `/instances/${instance}/symbols?offer=true&path=${encodeURIComponent(path)}`),
   /** A version of the program as it ran in the instance. */
   programText: (instance: number, version: number) =>
     json<ProgramText>("GET", `/instances/${instance}/program?version=${version}`),

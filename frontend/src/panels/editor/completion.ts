@@ -1,6 +1,7 @@
 /** What can be written here: variables of the POU as they run, globals, POUs, keywords; behind a point the members. */
+import { offeredMembers } from "../../store/completion";
 import { useDocuments } from "../../store/documents";
-import { loadMembers, useMembers } from "../../store/members";
+import { useMembers } from "../../store/members";
 import { loadNames, pathOf, seenAsNow } from "../../store/seenAs";
 import type { PlcSymbol, Pou } from "../../wire/types";
 import { type IPosition, type IRange, languages } from "./monaco";
@@ -47,8 +48,8 @@ async function members(pou: string | undefined, owner: string, range: IRange): P
   const instance = pou === undefined ? undefined : seenAsNow(pou);
   const path = (pou !== undefined && pathOf(pou, `${owner}.`)?.replace(/\.$/, "")) || owner;
   const fixed = path.replace(/\[[^\]]*[\p{L}_][^\]]*\]/gu, "[1]");
-  const found = await loadMembers(fixed);
-  const inside = found.length > 0 || instance === undefined ? found : await loadMembers(`${instance}.${owner}`);
+  const found = await offeredMembers(fixed);
+  const inside = found.length > 0 || instance === undefined ? found : await offeredMembers(`${instance}.${owner}`);
   return inside.map((symbol) => item(symbol, "0", range));
 }
 
