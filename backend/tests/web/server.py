@@ -23,6 +23,9 @@ if __name__ == "__main__":
 
 Message = dict[str, Any]
 
+PATIENCE_S = 120
+"""Only what hangs takes so long, also on a loaded machine."""
+
 
 class Server:
     """`scanbench serve` without the command line."""
@@ -41,7 +44,9 @@ class Server:
         self.address = line[line.index("http://") :].strip()
         self.base, _, self.token = self.address.partition("/?token=")
         self.port = int(self.base.rpartition(":")[2])
-        self.http = httpx.Client(base_url=self.base, headers={"Authorization": f"Bearer {self.token}"}, timeout=30)
+        self.http = httpx.Client(
+            base_url=self.base, headers={"Authorization": f"Bearer {self.token}"}, timeout=PATIENCE_S
+        )
 
     def __enter__(self) -> Self:
         return self
@@ -108,7 +113,7 @@ class Browser:
     ) -> None:
         self._connection.__exit__(kind, error, trace)
 
-    def take(self, timeout: float = 5) -> None:
+    def take(self, timeout: float = PATIENCE_S) -> None:
         """The next message or frame."""
         data = self.socket.recv(timeout)
         if isinstance(data, bytes):
@@ -122,7 +127,7 @@ class Browser:
                         self.sizes[item["path"]] = item["symbol"]["size"]
             self.messages.append(message)
 
-    def wait(self, condition: Callable[[], bool], timeout: float = 10) -> None:
+    def wait(self, condition: Callable[[], bool], timeout: float = PATIENCE_S) -> None:
         """Takes what comes until the condition holds."""
         end = time.monotonic() + timeout
         while not condition():
@@ -130,7 +135,7 @@ class Browser:
             assert left > 0, f"not within {timeout} s; last messages: {self.messages[-5:]}"
             self.take(left)
 
-    def wait_for(self, kind: str, timeout: float = 10, **fields: object) -> Message:
+    def wait_for(self, kind: str, timeout: float = PATIENCE_S, **fields: object) -> Message:
         """The first message of this kind with these fields, which is taken out."""
         found: list[Message] = []
 
@@ -158,7 +163,7 @@ class Browser:
         data = self.values.get(self.ids[path])
         return None if data is None else int.from_bytes(data[: self.sizes[path]], "little", signed=True)
 
-    def wait_state(self, state: str, timeout: float = 10) -> Message:
+    def wait_state(self, state: str, timeout: float = PATIENCE_S) -> Message:
         found: list[Message] = []
 
         def here() -> bool:

@@ -72,7 +72,7 @@ def test_a_probability_and_taking_it_back(server: Server) -> None:
         disturb(server, instance, kind="flip", path="Main.seen", probability=0.5, seed=7)
         disturb(server, instance, kind="result", site="main.st:6", probability=0.25, seed=7)
         assert browser.ask(type="run", action="continue", speed=0, scans=200)["ok"]
-        browser.wait(lambda: server.state(instance)["state"] == "paused", 30)
+        browser.wait(lambda: server.state(instance)["state"] == "paused")
         fired = [each["fired"] for each in server.http.get(path).json()]
         assert 60 < fired[0] < 140
         assert 20 < fired[1] < 80

@@ -89,7 +89,7 @@ def test_a_replay_with_another_error_is_compared(server: Server) -> None:
             first: Message = server.http.get(f"{path}/comparisons").json()[0]
             return bool(first["result"] or first["message"])
 
-        browser.wait(over, 30)
+        browser.wait(over)
         result = server.http.get(f"{path}/comparisons").json()[0]["result"]
         assert (result["scan"], result["cause"]) == (scan + 3, "command")
         assert any(each["path"] == "Main.errors" for each in result["changes"]["changes"])

@@ -41,7 +41,7 @@ def row_of(browser: Browser, id: str, **fields: object) -> Message:
                 found.extend(row for row in message["rows"] if row["id"] == id)
         return any(all(row[name] == value for name, value in fields.items()) for row in found)
 
-    browser.wait(here, 30)
+    browser.wait(here)
     return found[-1]
 
 
@@ -55,7 +55,7 @@ def reaction_of(browser: Browser, id: str) -> Message:
                 found.extend(row["reaction"] for row in message["rows"] if row["id"] == id and row["reaction"])
         return any(each["state"] != "recording" for each in found)
 
-    browser.wait(here, 60)
+    browser.wait(here)
     return next(each for each in found if each["state"] != "recording")
 
 
@@ -208,7 +208,7 @@ def test_a_fault_with_a_shape_comes_and_goes(server: Server) -> None:
         assert browser.ask(
             type="arm", errors=[{"id": "basic-io-error"}], shape={"kind": "intermittent", "scans": 2, "period": 10}
         )["ok"]
-        browser.wait(lambda: any(fault["raised"] > 2 for fault in _last_armed(browser)), 20)
+        browser.wait(lambda: any(fault["raised"] > 2 for fault in _last_armed(browser)))
         assert (
             reaction_of(browser, "basic-io-error")["verdict"] == "reacted"
         )  # of its first time, while it comes and goes

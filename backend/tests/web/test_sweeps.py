@@ -15,7 +15,7 @@ def finished(browser: Browser, sweep: int) -> Message:
         found[:] = [each for each in told if each["id"] == sweep and each["status"] != "running"]
         return bool(found)
 
-    browser.wait(here, 120)
+    browser.wait(here)
     return found[-1]
 
 
@@ -106,7 +106,7 @@ def test_a_sweep_is_cancelled_and_resumed(server: Server) -> None:
         second = server.http.post(f"/api/instances/{instance}/sweeps", json={})
         assert second.status_code == 422
         assert "runs" in second.json()["message"]
-        browser.wait(lambda: _done(browser, sweep) >= 1, 60)
+        browser.wait(lambda: _done(browser, sweep) >= 1)
         stopped = server.http.post(f"/api/sweeps/{sweep}/cancel").json()
         assert stopped["status"] == "cancelled"
         assert 0 < stopped["done"] < stopped["total"]

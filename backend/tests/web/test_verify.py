@@ -53,7 +53,7 @@ def ended(browser: Browser, server: Server, instance: int, id: int, state: str =
         assert found[0]["state"] in (state, "failed") or found[0]["state"] in ("verifying", "waiting", "starting")
         return bool(found[0]["state"] == state or found[0]["state"] == "failed")
 
-    browser.wait(over, 30)
+    browser.wait(over)
     assert found[0]["state"] == state, found[0]
     return found[0]
 
@@ -87,7 +87,7 @@ def test_live_and_nothing_differs(server: Server) -> None:
         browser.wait_state("running")
         begun = begin(server, instance, range={"pou": "Ramp"})
         assert (begun["title"], begun["source"]) == ("Ramp", "live")
-        browser.wait(lambda: info(server, instance, begun["id"])["compared"] > 50, 30)
+        browser.wait(lambda: info(server, instance, begun["id"])["compared"] > 50)
         paused(browser)
         stands = info(server, instance, begun["id"])
         assert (stands["differing"], stands["skipped"]) == (0, 0)
@@ -150,14 +150,14 @@ def test_scan_by_scan_the_plc_waits(server: Server) -> None:
         for _ in range(3):
             reply = server.http.patch(f"/api/verifications/{begun['id']}", json={"action": "go_on"})
             assert reply.status_code == 200, reply.text
-        browser.wait(lambda: info(server, instance, begun["id"])["scan"] == scan + 2, 30)
+        browser.wait(lambda: info(server, instance, begun["id"])["scan"] == scan + 2)
         assert paused(browser) == scan + 3
         assert info(server, instance, begun["id"])["skipped"] == 0
         server.http.patch(f"/api/verifications/{begun['id']}", json={"auto": True})
-        browser.wait(lambda: (info(server, instance, begun["id"])["scan"] or 0) > scan + 10, 30)
+        browser.wait(lambda: (info(server, instance, begun["id"])["scan"] or 0) > scan + 10)
         free = server.http.patch(f"/api/verifications/{begun['id']}", json={"pace": "free"}).json()
         browser.wait_state("running")  # it had only waited for the verification
-        browser.wait(lambda: info(server, instance, begun["id"])["compared"] > free["compared"] + 50, 30)
+        browser.wait(lambda: info(server, instance, begun["id"])["compared"] > free["compared"] + 50)
         stopped = server.http.patch(f"/api/verifications/{begun['id']}", json={"action": "stop"}).json()
         assert stopped["state"] == "stopped"
 
@@ -272,9 +272,9 @@ def test_what_a_fast_plc_has_skipped_is_counted(server: Server) -> None:
         begun = begin(server, instance)
         first = begun["first"]
         assert browser.ask(type="run", action="continue", speed=0)["ok"]
-        browser.wait(lambda: info(server, instance, begun["id"])["skipped"] > 1000, 60)
+        browser.wait(lambda: info(server, instance, begun["id"])["skipped"] > 1000)
         last = paused(browser)
-        browser.wait(lambda: info(server, instance, begun["id"])["scan"] == last - 1, 60)
+        browser.wait(lambda: info(server, instance, begun["id"])["scan"] == last - 1)
         stands = info(server, instance, begun["id"])
         assert stands["compared"] + stands["skipped"] == last - first
         assert stands["differing"] == 0
@@ -292,12 +292,12 @@ def test_it_ends_with_its_run_and_lets_the_plc_go(server: Server) -> None:
         assert server.http.delete(f"/api/verifications/{begun['id']}").status_code == 204
         browser.wait_state("running")  # it had only waited for the verification
         begun = begin(server, instance)
-        browser.wait(lambda: info(server, instance, begun["id"])["compared"] > 5, 30)
+        browser.wait(lambda: info(server, instance, begun["id"])["compared"] > 5)
         assert browser.ask(type="new_run")["ok"]
         stands = ended(browser, server, instance, begun["id"], "failed")
         assert "new run" in stands["message"]
         assert server.http.get(f"/api/verifications/{begun['id']}/rows").status_code == 200
-        browser.wait(lambda: server.state(instance)["state"] == "running", 30)
+        browser.wait(lambda: server.state(instance)["state"] == "running")
         begun = begin(server, instance, pace="scan")
         paused(browser)
         scans(browser, 2)
@@ -332,7 +332,7 @@ def test_the_run_time_error_of_the_plc_is_the_difference(server: Server, pace: s
         else:
             assert server.http.patch(path, json={"auto": True, "action": "go_on"}).status_code == 200
         browser.wait_state("trapped")
-        browser.wait(lambda: "run-time error" in info(server, instance, begun["id"])["message"], 30)
+        browser.wait(lambda: "run-time error" in info(server, instance, begun["id"])["message"])
         stands = info(server, instance, begun["id"])
         assert (stands["state"], stands["scan"], stands["first_scan"]) == ("waiting", scan + 1, scan + 1)
         told = [each for row in rows(server, begun["id"], differing=True)["rows"] for each in row["differences"]]
@@ -353,7 +353,7 @@ def test_the_run_time_error_of_the_plc_is_the_difference(server: Server, pace: s
         paused(browser)
         scans(browser, 2)
         last = paused(browser)
-        browser.wait(lambda: info(server, instance, begun["id"])["scan"] == last - 1, 30)
+        browser.wait(lambda: info(server, instance, begun["id"])["scan"] == last - 1)
         stands = info(server, instance, begun["id"])
         assert stands["compared"] == before["compared"] + last - scan - 2
         assert stands["differing"] == before["differing"]
