@@ -2,6 +2,7 @@ import { describe, expect, it } from "vitest";
 import type { VerifyColumn } from "../wire/types";
 import {
   arranged,
+  heldAcross,
   inOrder,
   moved,
   movedTo,
@@ -97,6 +98,22 @@ describe("tracks", () => {
       expect(track.left).toBe(tracks.slice(0, at).reduce((sum, { width }) => sum + width, 0));
     });
     expect(wholeWidth(tracks)).toBe((tracks.at(-1)?.left ?? 0) + (tracks.at(-1)?.width ?? 0));
+  });
+
+  it("what one looks at stays where it is when columns are inserted in front of it", () => {
+    const of = (count: number) =>
+      tracksOf(
+        unitsOf([...[...Array(count)].map((_, at) => column(`out${at}`, true, false)), column("in", false, true)]),
+        [],
+        PLAIN,
+      );
+    const [before, now] = [of(3), of(9)];
+    const place = (tracks: typeof before, key: string) => tracks.find((track) => track.key === key)?.left ?? Number.NaN;
+    const scrolled = place(before, "input:in") - 154;
+    expect(place(now, "input:in") - heldAcross(before, now, scrolled)).toBe(154);
+    expect(place(now, "input:in") - heldAcross(before, now, scrolled + 10)).toBe(144);
+    expect(heldAcross(before, now, 0)).toBe(0);
+    expect(heldAcross(before, tracksOf([], [], PLAIN), 40)).toBe(40);
   });
 
   it("of hundreds only those in the window are drawn, with what stays in sight", () => {

@@ -142,6 +142,17 @@ export function tracksOf(units: readonly Unit[], pinned: readonly string[], kind
 
 export const wholeWidth = (tracks: readonly Track[]) => tracks.reduce((sum, { width }) => sum + width, 0);
 
+/** How far to scroll, so that what one looks at stays where it is when columns are inserted in front of it. */
+export function heldAcross(before: readonly Track[], now: readonly Track[], left: number): number {
+  const covered = (tracks: readonly Track[]) => wholeWidth(tracks.filter(({ sticky }) => sticky));
+  const edge = left + covered(before);
+  const first = before.find((track) => !track.sticky && track.left + track.width > edge);
+  const same = now.find((track) => track.key === first?.key && !track.sticky);
+  // Whoever is at the beginning stays there.
+  if (left <= 0 || !first || !same) return left;
+  return Math.max(0, left + same.left - covered(now) - (first.left - covered(before)));
+}
+
 /** Those that are drawn: what stays in sight, and what stands in the window, with some room around it. */
 export function tracksInSight(tracks: readonly Track[], left: number, width: number, around = 240): Track[] {
   return tracks.filter(

@@ -11,7 +11,15 @@ import {
 } from "react";
 import { t } from "../../logic/text";
 import { firstDifferingUnit, isGoing } from "../../logic/verify";
-import { arranged, type Track, tracksInSight, tracksOf, unitsOf, wholeWidth } from "../../logic/verifyColumns";
+import {
+  arranged,
+  heldAcross,
+  type Track,
+  tracksInSight,
+  tracksOf,
+  unitsOf,
+  wholeWidth,
+} from "../../logic/verifyColumns";
 import type { ShownVerification } from "../../store/verify";
 import { useArrangement } from "../../store/verifyColumns";
 import {
@@ -50,6 +58,7 @@ export function Table({ shown }: { shown: ShownVerification }) {
   );
   const [menu, setMenu] = useState<{ items: MenuItem[]; at: { x: number; y: number } } | null>(null);
   const across = useAcross(grid);
+  useHeldAcross(grid, tracks, across.onScroll);
   const drawn = useMemo(() => tracksInSight(tracks, across.left, across.width), [tracks, across]);
   const count = lineCount(rows);
   const follow = useFollowing(grid, isGoing(info) && info.source === "live" && info.pace === "free", rows.selected);
@@ -228,6 +237,21 @@ function useAcross(grid: { current: HTMLDivElement | null }) {
     return () => sized.disconnect();
   }, [grid, note]);
   return useMemo(() => ({ ...sight, onScroll: note }), [sight, note]);
+}
+
+/** A variable that is used for the first time has its column among the others: what one looks at stays where it is. */
+function useHeldAcross(grid: { current: HTMLDivElement | null }, tracks: readonly Track[], note: () => void): void {
+  const before = useRef(tracks);
+  useLayoutEffect(() => {
+    const old = before.current;
+    before.current = tracks;
+    const element = grid.current;
+    if (!element || old.length === tracks.length) return;
+    const left = heldAcross(old, tracks, element.scrollLeft);
+    if (left === element.scrollLeft) return;
+    element.scrollLeft = left;
+    note();
+  }, [tracks, grid, note]);
 }
 
 /** Rows that are forgotten go at the front: what one reads stays where it is. */
