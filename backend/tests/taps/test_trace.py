@@ -233,10 +233,11 @@ def test_other_signals_leave_what_was_recorded_of_those_that_stay() -> None:
     assert found.values[1].tolist()[:30] == before.values[2].tolist()
     assert found.values[2].tolist() == list(range(1, 51))
     assert [each.text for each in bench.trace.signals] == ["Main.a", "Main.r", "Main.n"]
-    assert bench.trace.state == "recording"
+    states = [bench.trace.state]
     bench.trace.stop()
     bench.choose("Main.n", "Main.on")
-    assert bench.trace.state == "stopped"
+    states.append(bench.trace.state)
+    assert states == ["recording", "stopped"]
     assert bench.trace.buffer.read(0, 1000).valid.tolist() == [0b01] * 50
 
 
@@ -244,7 +245,6 @@ def test_other_signals_leave_the_trigger_and_the_record_that_is_shown() -> None:
     bench = Bench(triggered("Main.a", "rises", "50", scans=40, repeat=True))
     bench.start()
     bench.run(110)
-    assert (bench.trace.state, bench.trace.hits, bench.trace.triggered) == ("armed", 1, 49)
     shown = bench.scans()
     bench.choose("Main.n", "Main.a")
     assert (bench.trace.state, bench.trace.hits, bench.trace.triggered) == ("armed", 1, 49)
