@@ -197,8 +197,8 @@ class Deciding:
         for task in self._program.tasks:
             if task.single is not None:
                 yield ref_of(task.single)
-        for each in self._program.plant:
-            yield Ref(Base.IMAGE, each.offset, each.offset + max(1, each.pou.instance.size))
+        for instance in self._program.plant:
+            yield Ref(Base.IMAGE, instance.offset, instance.offset + max(1, instance.pou.instance.size))
 
     # ---- questions ------------------------------------------------------------------------------------------------
 

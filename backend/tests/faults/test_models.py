@@ -160,3 +160,28 @@ def _most(error: ErrorEntry) -> int:
     """The most that its details can add to its code."""
     adding = ([a for a in detail.addresses if a.add_to_code] for detail in error.details)
     return sum(max((a.value or a.maximum or 0xFF for a in addresses), default=0) for addresses in adding)
+
+
+def choices(name: str, error: str, detail: str) -> list[str]:
+    entry = model(name).error(error)
+    found = None if entry is None else entry.detail(detail)
+    assert found is not None
+    return [each.id for each in found.addresses]
+
+
+def test_no_detail_is_offered_for_hardware_that_a_model_does_not_have() -> None:
+    racks = {
+        name: "expansion-racks" in choices(name, "too-many-io", "cause")
+        for name in MODELS
+        if name[:2] in ("CJ", "CS", "CP")
+    }
+    without = {"CJ1M-CPU11", "CJ1M-CPU12", "CJ1M-CPU21", "CJ1M-CPU22", "CP1H-XA40D"}
+    assert {name for name, has in racks.items() if not has} == without
+    assert "units-on-rack" not in choices("CP1H-XA40D", "too-many-io", "cause")
+    assert "memory-card-transfer" not in choices("CP1H-XA40D", "memory-error", "location")
+    # only a CS1 has C200H units and SYSMAC BUS, whose refresh an interrupt task can hold up
+    for name in racks:
+        assert ("too-long" in choices(name, "interrupt-task-error", "cause")) == name.startswith("CS1")
+    cj = model("CJ1M-CPU13").error("interrupt-task-error")
+    assert cj is not None
+    assert cj.details[0].default == "duplicate-refresh"

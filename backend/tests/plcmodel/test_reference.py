@@ -28,7 +28,7 @@ C100 A401.06 | Spin 1..511 +
 """
 NONFATAL = """
 4100 A402.15 | Spin A360[1..511] +
-008B A402.13 | List A426.15-15=0,1 | Edit A426.00-11 0..255
+008B A402.13 | INTERRUPT
 009A A402.12 | Spin A408.08-15 0..RACK | Spin A408.00-07 0..SLOT
 009B A402.10 | Edit A406.00-15 0..65535
 00E7 A402.09
@@ -56,20 +56,23 @@ DUPLEX = f"""
 0600 A402.14 also A316.03 | Spin A436[0..15] +
 """
 CJ_CAUSES, CS_CAUSES = "0,1,5,7", "0,1,2,3,4,5"
+NO_RACKS, NO_UNITS = "0,1,7", "0,1"
+INTERRUPTS = {False: "List A426.15-15=1 | Edit A426.00-11 0..95", True: "List A426.15-15=0,1 | Edit A426.00-11 0..255"}
+"""Only a CS1 has units whose refresh an interrupt task can hold up."""
 CJ = "-82F0 -02F0 -00A0"
 MODELS: dict[str, tuple[str, str, int, int, str]] = {
-    "CJ1M-CPU11": (f"{CJ} -80EA", "", 0, 9, CJ_CAUSES),
-    "CJ1M-CPU12": (f"{CJ} -80EA", "", 0, 9, CJ_CAUSES),
+    "CJ1M-CPU11": (f"{CJ} -80EA", "", 0, 9, NO_RACKS),
+    "CJ1M-CPU12": (f"{CJ} -80EA", "", 0, 9, NO_RACKS),
     "CJ1M-CPU13": (CJ, "", 1, 9, CJ_CAUSES),
-    "CJ1M-CPU21": (f"{CJ} -80EA", "", 0, 9, CJ_CAUSES),
-    "CJ1M-CPU22": (f"{CJ} -80EA", "", 0, 9, CJ_CAUSES),
+    "CJ1M-CPU21": (f"{CJ} -80EA", "", 0, 9, NO_RACKS),
+    "CJ1M-CPU22": (f"{CJ} -80EA", "", 0, 9, NO_RACKS),
     "CJ1M-CPU23": (CJ, "", 1, 9, CJ_CAUSES),
     "CJ1M-CPU63": ("-82F0 -00A0", "", 3, 9, CJ_CAUSES),  # the example program checks the inner board's flag
     "CJ2M-CPU33": (CJ, FLASH, 3, 9, CJ_CAUSES),
     "CS1G-CPU44H": ("-80CE", "", 7, 9, CS_CAUSES),
     "CS1H-CPU65H": ("-80CE", "", 7, 9, CS_CAUSES),
     "CS1D-CPU65H": ("-80CE", DUPLEX, 7, 9, CS_CAUSES),
-    "CP1H-XA40D": (f"{CJ} -80CE -80CF -80EA", CP_UNITS, 0, 1, CJ_CAUSES),
+    "CP1H-XA40D": (f"{CJ} -80CE -80CF -80EA", CP_UNITS, 0, 1, NO_UNITS),
 }
 """What is missing, what is extra, the last rack, the last slot, the causes of 80E1."""
 ORDER = """
@@ -85,6 +88,9 @@ def rows(name: str) -> set[str]:
     text = f"{FATAL}{NONFATAL}{extra}".replace("RACK", str(rack)).replace("SLOT", str(slot)).replace("CAUSES", causes)
     if name == "CJ1M-CPU63":
         text = text.replace(MEMORY, f"{MEMORY} +")
+    text = text.replace("INTERRUPT", INTERRUPTS[causes == CS_CAUSES])
+    if extra == CP_UNITS:  # no memory card
+        text = text.replace(" A403.09", "")
     gone = missing.replace("-", "").split()
     return {line for line in text.splitlines() if line and line[:4] not in gone}
 

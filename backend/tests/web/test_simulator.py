@@ -160,7 +160,7 @@ def test_how_the_program_reacts_is_found_out_by_itself(server: Server) -> None:
         browser.messages.clear()
         other = [{"id": "basic-io-error", "details": {"slot": "2"}}]
         assert browser.ask(type="generate", errors=other, again=True)["ok"]
-        assert reaction_of(browser, "basic-io-error")["verdict"] == "reacted"  # other details leave it as it is
+        assert reaction_of(browser, "basic-io-error")["verdict"] == "stored_only"  # the lamp is on already
         assert browser.ask(type="recover", ids=None)["ok"]
         # A fatal error ends at once: the PLC stopped, as the model says.
         assert browser.ask(type="generate", errors=[{"id": "io-bus-error"}])["ok"]
@@ -209,9 +209,8 @@ def test_a_fault_with_a_shape_comes_and_goes(server: Server) -> None:
             type="arm", errors=[{"id": "basic-io-error"}], shape={"kind": "intermittent", "scans": 2, "period": 10}
         )["ok"]
         browser.wait(lambda: any(fault["raised"] > 2 for fault in _last_armed(browser)))
-        assert (
-            reaction_of(browser, "basic-io-error")["verdict"] == "reacted"
-        )  # of its first time, while it comes and goes
+        # of its first time, while it comes and goes; the lamp is on already
+        assert reaction_of(browser, "basic-io-error")["verdict"] == "stored_only"
         assert browser.ask(type="disarm", ids=None)["ok"]
         browser.wait(lambda: _last_armed(browser) == [])
         rows = {row["id"]: row for row in server.http.get(f"/api/instances/{instance}/errors").json()}
