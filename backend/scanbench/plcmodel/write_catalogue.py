@@ -14,6 +14,7 @@ from scanbench.plcmodel.drafts import ADDRESS, ALSO, DETAIL, ERROR, DraftDetail,
 _CONTROLS = 16
 """So many stand in one ErrorDetailPattern."""
 _ENTITIES = {"&": "&amp;", "<": "&lt;", ">": "&gt;", '"': "&quot;", "\t": "&#9;", "\n": "&#10;", "\r": "&#13;"}
+_ATTRIBUTE = re.compile(r'(?<= )([\w:]+)="[^"]*"')
 _ESCAPED = re.compile('[&<>"\t\n\r]')
 
 
@@ -24,14 +25,22 @@ class Written:
     text: str = ""
     places: dict[int, tuple[str, Mapping[str, str]]] = field(default_factory=dict)
     """Of a line: what stands there (`errors.2.details.0`), and the attributes' names -> the fields'."""
+    _attributes: dict[int, list[tuple[int, int, str]]] = field(default_factory=dict, compare=False, repr=False)
+    """Of a line that was asked for: where its attributes are, and their names."""
+    _lines: list[str] = field(default_factory=list, compare=False, repr=False)
 
     def field_at(self, line: int, column: int) -> str:
         """The field at this place, such as `errors.2.flag`; the element's where it is no attribute; '' in the frame."""
         path, names = self.places.get(line, ("", {}))
-        content = self.text.split("\n")[line - 1] if path else ""
-        for match in re.finditer(r'([\w:]+)="[^"]*"', content):
-            if match.start() < column <= match.end() and match[1] in names:
-                return f"{path}.{names[match[1]]}"
+        if not names:
+            return path
+        if line not in self._attributes:
+            self._lines = self._lines or self.text.split("\n")
+            found = _ATTRIBUTE.finditer(self._lines[line - 1])
+            self._attributes[line] = [(match.start(), match.end(), match[1]) for match in found]
+        for start, end, name in self._attributes[line]:
+            if start < column <= end and name in names:
+                return f"{path}.{names[name]}"
         return path
 
 
