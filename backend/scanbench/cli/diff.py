@@ -8,7 +8,7 @@ from pathlib import Path
 import typer
 
 from scanbench.check.program import Program
-from scanbench.cli.inputs import find_model_named, usage, with_near
+from scanbench.cli.inputs import DAMAGED, find_model_named, tell_damage, unusable, with_near
 from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.programs import NoProgram
 from scanbench.runtime.runfile import RunFileError
@@ -31,23 +31,21 @@ def diff(
 ) -> None:  # fmt: skip
     """Compare two runs scan by scan: the first scan behind which anything differs, and what.
 
-    Exit 0: the same, as far as both go; 1: different; 2: wrong usage, or files that cannot be compared here.
+    Exit 0: the same, as far as both go; 1: different; 2: wrong usage, or files that cannot be compared here; 4: the same, but
+    a file is damaged, and a part of its run is lost.
     """
     make, _ = past_engines()
     of = programs_of(_Checked().program, make)
     try:
         with Reading(run1, of, ENTRIES, _texts) as one, Reading(run2, of, ENTRIES, _texts) as other:
-            for path, reading in ((run1, one), (run2, other)):
-                damage = reading.follow().recording.damage
-                if damage:
-                    typer.echo(f"scanbench: {path}: the file was damaged: {damage}", err=True)
+            lost = [tell_damage(path, reading.follow().recording) for path, reading in ((run1, one), (run2, other))]
             found = find_divergence(one, other)
     except NoReading as error:
-        usage(with_near(str(error), error.near))
+        unusable(with_near(str(error), error.near), error.__cause__)
     except RunFileError as error:
-        usage(str(error))
+        unusable(str(error), error)
     typer.echo(json.dumps(_data(found)) if as_json else "\n".join(_text(found)))
-    raise typer.Exit(0 if found.scan is None else 1)
+    raise typer.Exit(1 if found.scan is not None else DAMAGED if any(lost) else 0)
 
 
 class _Checked:

@@ -10,8 +10,13 @@ import typer
 from scanbench.plcmodel.load import NoModels, NoSuchModel, load_all, model_directory, model_named
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem
+from scanbench.runtime.recording import Recording
+from scanbench.runtime.runfile import Damaged
 from scanbench.session.from_disk import DEFAULT_MODEL, program_files, project_model, read_text
 from scanbench.session.refused import Refused
+
+DAMAGED = 4
+"""Exit code where a run file is damaged: what was looked at is right, but a part of the run is lost."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -26,6 +31,19 @@ def usage(message: str) -> NoReturn:
     """Prints what is wrong with the call, and ends with exit code 2."""
     typer.echo(f"scanbench: {message}", err=True)
     raise typer.Exit(2)
+
+
+def unusable(message: str, error: BaseException | None) -> NoReturn:
+    """The same of a run file that cannot be used; with `DAMAGED` where it is damaged."""
+    typer.echo(f"scanbench: {message}", err=True)
+    raise typer.Exit(DAMAGED if isinstance(error, Damaged) else 2)
+
+
+def tell_damage(path: Path, recording: Recording) -> bool:
+    """Says on stderr what is wrong with a run file that was opened; whether something of it is lost."""
+    if recording.damage:
+        typer.echo(f"scanbench: {path}: {'' if recording.lost else 'note: '}{recording.damage}", err=True)
+    return recording.lost
 
 
 def with_near(message: str, near: Sequence[str]) -> str:

@@ -8,7 +8,7 @@ from pathlib import Path
 import typer
 
 from scanbench.check.build import check_sources
-from scanbench.cli.inputs import find_model_named, usage
+from scanbench.cli.inputs import DAMAGED, find_model_named, unusable, usage
 from scanbench.cli.interrupt import INTERRUPTED
 from scanbench.cli.run import ENGINES, EngineChoice
 from scanbench.engines.pair import Differs
@@ -29,8 +29,9 @@ def replay(
 ) -> None:  # fmt: skip
     """Replay a run and compare it with every checkpoint in it.
 
-    Exit 0 when every byte was the same; 2: wrong usage, or a file that cannot be replayed here; 3: it came out different; 130:
-    interrupted, the same so far.
+    Exit 0 when every byte was the same; 2: wrong usage, or a file that cannot be replayed here; 3: it came out different;
+    4: the file is damaged, and what it still has was the same; 130: interrupted, the same so far. A last write that did
+    not come to its end, as after a kill, is no damage.
     """
 
     def programs_of(kept: Mapping[int, KeptProgram]) -> Shelf:
@@ -43,11 +44,14 @@ def replay(
         typer.echo(f"scanbench: {path}: interrupted: {_so_far(agreed)}", err=True)
         raise typer.Exit(INTERRUPTED) from None
     except (RunFileError, OSError) as error:
-        usage(f"{path}: {error}")
+        unusable(f"{path}: {error}", error)
     except (Diverged, Differs) as difference:
         typer.echo(f"scanbench: {path}: {difference}", err=True)
         raise typer.Exit(3) from None
     typer.echo(json.dumps(asdict(result)) if as_json else _text(result))
+    if result.lost:
+        typer.echo(f"scanbench: {path}: {result.damage}", err=True)
+        raise typer.Exit(DAMAGED)
 
 
 def _load(kept: KeptProgram, engine_factory: EngineFactory) -> Loaded:
@@ -68,9 +72,9 @@ def _text(result: Replayed) -> str:
     lines = [
         f"begun by {result.by}, {result.created}",
         f"scans {result.first_scan} to {result.scan}: {result.entries} commands, "
-        f"{result.checkpoints} checkpoints, all the same",
+        f"{result.checkpoints} checkpoints, {'what is left of it is' if result.lost else 'all'} the same",
         f"state {result.hash}",
     ]
-    if result.damage:
-        lines.append(f"the file was damaged: {result.damage}")
+    if result.damage and not result.lost:
+        lines.append(f"note: {result.damage}")
     return "\n".join(lines)

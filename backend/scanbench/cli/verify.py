@@ -9,7 +9,7 @@ from typing import NoReturn
 import typer
 
 from scanbench import __version__
-from scanbench.cli.inputs import usage, with_near
+from scanbench.cli.inputs import DAMAGED, usage, with_near
 from scanbench.cli.interrupt import INTERRUPTED
 from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.run_options import AUTHOR, Options
@@ -62,7 +62,8 @@ def verify(
     """Run a program twice and compare: what ran (native code, or a real controller of which there is a trace) and the
     reference interpreter, on the same inputs.
 
-    Exit 0: no difference; 1: there is one; 2: wrong usage, or nothing could be compared; 130: interrupted, no difference so far.
+    Exit 0: no difference; 1: there is one; 2: wrong usage, or nothing could be compared; 4: no difference, but the run
+    file is damaged, and a part of the run is lost; 130: interrupted, no difference so far.
     """
     options = Options(set, force, generate, clear, mode, restart)
     if html is not None:
@@ -85,17 +86,17 @@ def verify(
     typer.echo(to_json(report) if as_json else "\n".join(verify_text(report)))
     if html is not None:
         write_text(html, to_html(report))
-    _end(report, stopped)
+    _end(report, stopped, subject.lost)
 
 
-def _end(report: Report, stopped: "_Stopped | None") -> NoReturn:
+def _end(report: Report, stopped: "_Stopped | None", lost: bool) -> NoReturn:
     if stopped is not None:
         typer.echo(f"scanbench: {stopped.message}", err=True)
     if report.head.differing:
         raise typer.Exit(1)
     if stopped is None and not report.head.compared:
         usage("nothing of these scans could be compared")
-    raise typer.Exit(0 if stopped is None else stopped.code)
+    raise typer.Exit(stopped.code if stopped is not None else DAMAGED if lost else 0)
 
 
 class _Stopped:

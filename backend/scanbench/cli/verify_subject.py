@@ -11,7 +11,7 @@ import typer
 
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
-from scanbench.cli.inputs import below, find_model, read_sources, usage, with_near
+from scanbench.cli.inputs import below, find_model, read_sources, tell_damage, unusable, usage, with_near
 from scanbench.cli.record import check_whole, recorded
 from scanbench.cli.run_options import Options, read_commands, read_interval
 from scanbench.engines.native.engine import NativeEngine
@@ -72,6 +72,8 @@ class Subject:
     note: str = ""
     trapped: bool = False
     """Of a project: a run-time error ended the run, so scans that were wanted are not there; the note says so."""
+    lost: bool = False
+    """The run file is damaged: a part of its run is not there to be verified."""
 
 
 @dataclass(frozen=True, slots=True)
@@ -96,8 +98,8 @@ def opened(given: Given, make: Make) -> Iterator[Subject]:
         yield _trace(given, given.trace)
     elif _is_run(given.path):
         with _run_file(given.path, make) as verifier:
-            about = _about(given.path)
-            yield Subject(verifier, given.path.stem, given.path.name, about, "past")
+            about, lost = _about(given.path)
+            yield Subject(verifier, given.path.stem, given.path.name, about, "past", lost=lost)
     else:
         with tempfile.TemporaryDirectory() as folder:
             path = Path(folder, "run")
@@ -136,7 +138,7 @@ def _run_file(path: Path, make: Make) -> Iterator[Verifier]:
     except OSError as error:
         usage(f"{path} cannot be read: {error.strerror or error}")
     except (RunFileError, NoProgram, Unverifiable) as error:
-        usage(f"{path}: {error}")
+        unusable(f"{path}: {error}", error if isinstance(error, RunFileError) else error.__cause__)
 
 
 def _program_of(kept: KeptProgram) -> Program:
@@ -144,11 +146,10 @@ def _program_of(kept: KeptProgram) -> Program:
     return checked_program(sources, model_of(sources))
 
 
-def _about(path: Path) -> str:
+def _about(path: Path) -> tuple[str, bool]:
+    """The model of a run file, and whether a part of its run is lost."""
     with Recording.open(path, ENTRIES, read_only=True) as recording:
-        if recording.damage:
-            typer.echo(f"scanbench: {path}: the file was damaged: {recording.damage}", err=True)
-        return recording.about.model
+        return recording.about.model, tell_damage(path, recording)
 
 
 # ---- projects ------------------------------------------------------------------------------------------------------
@@ -225,6 +226,7 @@ def _program_for_trace(given: Given) -> tuple[Program, Mapping[str, str]]:
         return _program(given)
     try:
         with Recording.open(given.path, ENTRIES, read_only=True) as recording:
+            tell_damage(given.path, recording)
             kept = sources_in(recording.programs[max(recording.programs)])
         model = model_of(kept)
         sources = sources_of(given.path, {model.name: model})
@@ -232,7 +234,7 @@ def _program_for_trace(given: Given) -> tuple[Program, Mapping[str, str]]:
     except OSError as error:
         usage(f"{given.path} cannot be read: {error.strerror or error}")
     except (RunFileError, NoProgram) as error:
-        usage(f"{given.path}: {error}")
+        unusable(f"{given.path}: {error}", error)
 
 
 def _mapping(path: Path | None, table: Table, program: Program) -> tuple[TraceMapping, str]:

@@ -1,6 +1,7 @@
 """When a checkpoint is due, so that no scan is further than a moment of re-running from one."""
 
 from scanbench.runtime.recording import Recording
+from scanbench.runtime.replay import BETWEEN
 from scanbench.runtime.resource import Measured, Resource
 
 EVERY_NS = 60_000_000
@@ -9,7 +10,6 @@ ENTRIES = 2_000
 """Entries have to be entered again too."""
 _FIRST = 1_000
 """Scans, when nothing was measured yet."""
-_MOST = 1 << 40
 _SHARE = 64
 """A checkpoint at least every so many parts of the file's limit, so that there is always something to drop behind."""
 
@@ -32,10 +32,11 @@ class Checkpoints:
 
     def take_due(self, resource: Resource) -> None:
         """One more if it is time."""
-        busy_ns, _ = self._since(resource)
+        busy_ns, scans = self._since(resource)
         recording = self._recording
         if (
             busy_ns >= EVERY_NS
+            or scans >= BETWEEN
             or recording.behind >= ENTRIES
             or (recording.behind and recording.grown > recording.limit // _SHARE)
         ):
@@ -44,13 +45,14 @@ class Checkpoints:
     def slice(self, resource: Resource) -> int:
         """Scans until the next one is due, as far as the last ones tell what they cost."""
         busy_ns, scans = self._since(resource)
+        left = BETWEEN - scans
         if not scans:
             left_ns, busy_ns, scans = EVERY_NS, resource.measured.busy_ns, resource.measured.scans
         else:
             left_ns = EVERY_NS - busy_ns
         if not scans:
             return _FIRST
-        return max(1, min(_MOST, left_ns * scans // max(1, busy_ns)))
+        return max(1, min(left, left_ns * scans // max(1, busy_ns)))
 
     def _since(self, resource: Resource) -> tuple[int, int]:
         """Time in scans and scans since the last checkpoint."""

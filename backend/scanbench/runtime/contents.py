@@ -25,12 +25,15 @@ from scanbench.check.program import Program
 from scanbench.runtime.clock import iso, wall_time
 from scanbench.runtime.command import Command, Entry, Plan, Swapped
 from scanbench.runtime.fingerprints import libm_fingerprint, model_fingerprint
+from scanbench.runtime.header import Header
 from scanbench.runtime.journal import AnyFold
-from scanbench.runtime.runfile import Block, Kind, RunFile, RunFileError
+from scanbench.runtime.runfile import Block, Damaged, Kind, RunFile, RunFileError
 from scanbench.runtime.thinning import Checkpoint
 
 _VERSION = Struct("<I")
 _DIGEST = 64
+_HEADER = 64
+"""Bytes of a state in which its scan is."""
 _ABOUT_MOST = _DRIVEN_MOST = 1 << 16
 _UNPACKED = 1 << 28
 """Bytes of all programs and entries together: they are in memory as long as the run is open."""
@@ -119,7 +122,30 @@ def read_state(file: RunFile, checkpoint: Checkpoint, size: int) -> bytes:
     for block, state in ((checkpoint.base, base), (checkpoint.block, other)):
         if len(state) != size:
             raise file.unreadable(block, f"it holds {len(state)} bytes, and the image of its program has {size}")
-    return base if checkpoint.whole else delta(other, base)
+    state = base if checkpoint.whole else delta(other, base)
+    _check_header(file, checkpoint, state)
+    return state
+
+
+def _check_header(file: RunFile, checkpoint: Checkpoint, state: bytes) -> None:
+    """A state knows its own scan: a block that says another is not believed, as a replay up to there might have no end."""
+    header = Header(state)
+    if header.scan != checkpoint.scan:
+        raise file.unreadable(
+            checkpoint.block, f"it is kept at scan {checkpoint.scan}, and holds the state of scan {header.scan}"
+        )
+    try:
+        _ = header.mode
+    except ValueError as error:
+        raise file.unreadable(checkpoint.block, str(error)) from error
+
+
+def _check_last(file: RunFile, checkpoint: Checkpoint) -> None:
+    """The same of the last state, of which only the first bytes are read. Those before it are of earlier scans."""
+    base = file.beginning(checkpoint.base, _VERSION.size + _HEADER)[_VERSION.size :]
+    other = base if checkpoint.whole else file.beginning(checkpoint.block, _HEADER)
+    if min(len(base), len(other)) == _HEADER:  # what is too short is refused when it is used
+        _check_header(file, checkpoint, base if checkpoint.whole else delta(other, base))
 
 
 def read_contents(file: RunFile, codec: Codec) -> "Reader":
@@ -133,11 +159,10 @@ def read_contents(file: RunFile, codec: Codec) -> "Reader":
         else:
             break
     if reader is None:
-        raise RunFileError(f"{file.path.name} is damaged at its beginning: nothing of the run can be recovered")
+        raise Damaged(f"{file.path.name} is damaged at its beginning: nothing of the run can be recovered")
     if not reader.found.programs or not reader.found.checkpoints:
-        raise RunFileError(
-            f"{file.path.name} is damaged before its first checkpoint: nothing of the run can be recovered"
-        )
+        raise Damaged(f"{file.path.name} is damaged before its first checkpoint: nothing of the run can be recovered")
+    _check_last(file, reader.found.checkpoints[-1])
     return reader
 
 

@@ -46,6 +46,8 @@ from scanbench.runtime.smaller import (
 from scanbench.runtime.thinning import Checkpoint
 
 DEFAULT_LIMIT = 64 << 20
+_BLOCKS = {Kind.PROGRAM: "program", Kind.ENTRY: "command", Kind.KEYFRAME: "state", Kind.DELTA: "change of the state"}
+"""What is lost with a block, in words."""
 DELTAS = 63
 """Between two keyframes."""
 
@@ -464,5 +466,10 @@ def _put_aside(file: RunFile, damage: Damage, last_scan: int, read_only: bool) -
         text = f"{name} is damaged at byte {damage.offset}"
     text += f". Everything before it was recovered, up to scan {last_scan}"
     if damage.last_scan > last_scan:
-        text += f"; {damage.last_scan - last_scan} scans behind it, up to {damage.last_scan}, are lost"
+        text += f"; {damage.last_scan - last_scan} scans after it, up to {damage.last_scan}, are lost"
+    elif not damage.torn:
+        text += "; how many scans came after it is not known"
+    kept = [f"{count} {_BLOCKS[kind]}{'s' * (count != 1)}" for kind, count in damage.lost if kind in _BLOCKS]
+    if kept:
+        text += f", and with them {', '.join(kept)}"
     return f"{text}. The damaged rest was {where}"

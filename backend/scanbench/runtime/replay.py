@@ -6,9 +6,14 @@ from scanbench.engines.engine import Reason
 from scanbench.runtime.command import Entry
 from scanbench.runtime.inside import Diverged
 from scanbench.runtime.resource import Resource
+from scanbench.runtime.runfile import RunFileError
 from scanbench.runtime.trap import Trapped
 
-__all__ = ["Diverged", "replay", "run_to"]
+__all__ = ["BETWEEN", "Diverged", "replay", "run_to"]
+
+BETWEEN = 1 << 23
+"""So many scans run at most from one recorded state to the next, however quick the program is (`checkpoints.py`). A run file
+that says that more of them ran after its last state is not believed: nothing in it would ever bring them to an end."""
 
 
 def replay(resource: Resource, entries: Iterable[Entry], until: int) -> None:
@@ -35,6 +40,12 @@ def run_to(resource: Resource, scan: int) -> None:
         raise Diverged(f"the journal goes on at scan {scan}, the image is at {now}")
     if not resource.runnable and not resource.header.halted_by_trap:
         resource.pass_time(scan - now)
+    unproved = scan - max(resource.header.scan, resource.proved)
+    if resource.runnable and unproved > BETWEEN:
+        raise RunFileError(
+            f"the run file says that scan {scan} was reached, {unproved} scans after its last state, and never are there more "
+            f"than {BETWEEN}: it is damaged, or no run file of scanbench"
+        )
     while (now := resource.header.scan) < scan:
         if not resource.runnable or resource.rerun(scan - now).reason is Reason.TRAP:
             raise Diverged(f"the replay stopped in scan {now}, before scan {scan}, where the journal goes on")

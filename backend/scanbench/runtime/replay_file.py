@@ -28,6 +28,8 @@ class Replayed:
     checkpoints: int
     """So many agreed."""
     damage: str
+    lost: bool
+    """The file is damaged, and not only in its last write: what came after that is missing."""
     by: str
     """Who began the run, ..."""
     created: str
@@ -59,6 +61,7 @@ def replay_file(
         try:
             resource = open_at(recording, programs, recording.checkpoints[0], entries)
             agreed = _compare(recording, resource, entries, end, on_agreed)
+            resource.proved = recording.checkpoints[-1].scan
             left = [entry for entry in entries[len(resource.journal) :] if entry.scan <= end]
             replay(resource, left[: front(left, end)], end)
         except NOT_AS_RECORDED as error:
@@ -66,7 +69,8 @@ def replay_file(
         digest = hashlib.sha256(resource.state).hexdigest()
         about = recording.about
         return Replayed(
-            first, resource.header.scan, digest, len(resource.journal), agreed, recording.damage, about.by, about.created
+            first, resource.header.scan, digest, len(resource.journal), agreed, recording.damage, recording.lost, about.by,
+            about.created,
         )  # fmt: skip
 
 
@@ -75,9 +79,12 @@ def _compare(
 ) -> int:
     """Runs from checkpoint to checkpoint; how many there are up to `end`."""
     agreed = 0
+    last = recording.checkpoints[0].scan
     for checkpoint in recording.checkpoints:
         if checkpoint.scan > end:
             break
+        resource.proved = last if last >= recording.about.thinned_before else checkpoint.scan
+        last = checkpoint.scan
         replay(resource, entries[len(resource.journal) : checkpoint.entries], checkpoint.scan)
         if resource.version != checkpoint.version or resource.state != _recorded(recording, resource, checkpoint):
             raise Diverged(_difference(recording, resource, checkpoint))

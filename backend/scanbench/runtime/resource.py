@@ -66,6 +66,8 @@ class Resource:
         self._passage: Passage | None = None
         self._listen = NOT_LISTENING
         self._reached: set[int] = set()
+        self.proved = 1 << 64
+        """A replay is believed to go so far, and `BETWEEN` scans further: a run file has a state of this scan."""
         self.inside: Inside | None = None
         """Where the scan is halted that is next; the image stands there."""
         self._finishing = False

@@ -21,6 +21,7 @@ what comes next. So a write that did not come to its end costs the block that wa
 
 import os
 import zlib
+from collections import Counter
 from collections.abc import Iterator
 from contextlib import suppress
 from dataclasses import dataclass
@@ -49,6 +50,10 @@ _LOOK = 1 << 12
 
 class RunFileError(Exception):
     """This run file cannot be used; the message says why, and what to do."""
+
+
+class Damaged(RunFileError):
+    """It is damaged where all begins, so that nothing can be recovered."""
 
 
 class Kind(IntEnum):
@@ -97,6 +102,8 @@ class Damage:
     torn: bool
     """The file ends inside this block: its writer was ended while writing it."""
     last_scan: int
+    lost: tuple[tuple[Kind, int], ...] = ()
+    """Good blocks after the damage, which nobody can use: how many of each kind."""
 
 
 class RunFile:
@@ -253,15 +260,28 @@ class RunFile:
         return block if crc == _CRC.unpack_from(head, _BLOCK.size - _CRC.size)[0] else None
 
     def _damage(self, offset: int, size: int) -> Damage:
-        last = self._last_scan(offset + 1, size)
+        last, lost = self._after(offset + 1, size)
         head = os.pread(self.fd, _BLOCK.size, offset)
         block = _decode(head, offset)
-        torn = len(head) < _BLOCK.size or (block is not None and block.end > size and last < 0)
-        return Damage(offset, torn, last)
+        short = len(head) < _BLOCK.size or (block is not None and block.end > size)
+        torn = short and last < 0 and not self._has_wrong_length(head, offset, size)
+        return Damage(offset, torn, last, tuple(sorted(lost.items())))
 
-    def _last_scan(self, offset: int, size: int) -> int:
-        """The last scan that a good block behind the damage names, as far as that is found with reasonable trouble."""
-        last, behind, left = -1, offset, _SEARCH
+    def _has_wrong_length(self, head: bytes, offset: int, size: int) -> bool:
+        """Whether the block is whole but for its length: it ends where the file does."""
+        if len(head) < _BLOCK.size:
+            return False
+        sync, kind, packing, reserved, _, scan, crc = _BLOCK.unpack(head)
+        length = size - offset - _BLOCK.size
+        if length > LARGEST:
+            return False
+        right = _BLOCK.pack(sync, kind, packing, reserved, length, scan, crc)
+        return zlib.crc32(os.pread(self.fd, length, offset + _BLOCK.size), zlib.crc32(right[: -_CRC.size])) == crc
+
+    def _after(self, offset: int, size: int) -> tuple[int, Counter[Kind]]:
+        """The last scan that a good block after the damage names, and how many there are of each kind, as far as that is
+        found with reasonable trouble."""
+        last, behind, left, lost = -1, offset, _SEARCH, Counter[Kind]()
         for at in self._places(offset, size):
             if at < behind:
                 continue
@@ -272,7 +292,8 @@ class RunFile:
             block = self._good_block(at, size)
             if block is not None:
                 last, behind = max(last, block.scan), block.end
-        return last
+                lost[block.kind] += 1
+        return last, lost
 
     def _places(self, offset: int, size: int) -> Iterator[int]:
         """Where blocks may begin."""

@@ -104,7 +104,9 @@ class Timeline:
             checkpoint, entries = recording.checkpoints[-1], recording.take_entries()
             resource = open_at(recording, programs, checkpoint, entries, detect, agenda)
             end = recording.last_scan if recording.lost else max(until, recording.last_scan)
+            resource.proved = max(resource.proved, until)
             replay(resource, entries[checkpoint.entries :], end)
+            resource.proved = 1 << 64  # from here on it is what really runs
             resource.settle()
         except (Diverged, *NOT_AS_RECORDED) as error:
             recording.close()
@@ -525,6 +527,7 @@ def open_at(
         )
     resource = Resource(loaded, programs=programs, detect=detect, recorder=recording, agenda=agenda)
     resource.restore(loaded, _state(recording, checkpoint, loaded), Journal(entries[: checkpoint.entries]))
+    resource.proved = recording.checkpoints[-1].scan
     return resource
 
 

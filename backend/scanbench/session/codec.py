@@ -4,7 +4,7 @@ Only the classes listed here can be read, so that a message never makes anything
 """
 
 import struct
-from collections.abc import Iterator
+from collections.abc import Callable, Iterator
 from dataclasses import fields
 
 import msgpack  # type: ignore[import-untyped]
@@ -47,6 +47,7 @@ from scanbench.verify.verified import Column, Input, Mismatch, Output, Place, Ra
 LENGTH = struct.Struct("<I")
 LARGEST = 1 << 30
 _OBJECT = 1
+_LARGEST_NUMBER = 1 << 63
 
 _CLASSES: dict[str, type] = {
     cls.__name__: cls
@@ -101,10 +102,10 @@ def pack(message: object) -> bytes:
     return LENGTH.pack(len(body)) + body
 
 
-def unpack(body: bytes) -> object:
+def unpack(body: bytes, read: Callable[[int, bytes], object] | None = None) -> object:
     """The message in `body`, which comes without its length."""
     try:
-        return msgpack.unpackb(body, ext_hook=_read, use_list=False, strict_map_key=False, timestamp=3)
+        return msgpack.unpackb(body, ext_hook=read or _read, use_list=False, strict_map_key=False, timestamp=3)
     except (ValueError, TypeError, KeyError) as error:
         raise BadMessage(f"{len(body)} bytes that are no message: {error}") from error
 
@@ -141,7 +142,7 @@ class EntryCodec:
 
     def unpack(self, data: bytes) -> Entry:
         """The entry in these bytes; `BadMessage` when there is none."""
-        entry = unpack(data)
+        entry = unpack(data, _read_entry)
         if not isinstance(entry, Entry):
             raise BadMessage(f"{type(entry).__name__} where a journal entry should be")
         return entry
@@ -165,7 +166,21 @@ def _write(value: object) -> msgpack.ExtType:
 
 
 def _read(code: int, data: bytes) -> object:
+    name, values = _parts(code, data, _read)
+    return _CLASSES[name](*values)
+
+
+def _read_entry(code: int, data: bytes) -> object:
+    """Of a run file, which may come from anywhere: what is counted on from a number has to stay one that can be written."""
+    name, values = _parts(code, data, _read_entry)
+    for value in values:
+        if isinstance(value, int) and not -_LARGEST_NUMBER <= value < _LARGEST_NUMBER:
+            raise ValueError(f"{value} is too large a number for anything in {name}")
+    return _CLASSES[name](*values)
+
+
+def _parts(code: int, data: bytes, read: Callable[[int, bytes], object]) -> tuple[str, list[object]]:
     if code != _OBJECT:
         raise ValueError(f"unknown kind of value {code}")
-    name, *values = msgpack.unpackb(data, ext_hook=_read, use_list=False, strict_map_key=False, timestamp=3)
-    return _CLASSES[name](*values)
+    name, *values = msgpack.unpackb(data, ext_hook=read, use_list=False, strict_map_key=False, timestamp=3)
+    return name, values

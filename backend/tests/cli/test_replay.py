@@ -122,9 +122,65 @@ def test_a_file_that_is_no_run(program: str, tmp_path: Path) -> None:
     run(program, "--scans", "3000", "--set", "Main.n=5@7", "--record", str(tmp_path / "b.scanrun"))
     whole = (tmp_path / "b.scanrun").read_bytes()
     file.write_bytes(whole[:-20])
-    damaged = call("replay", str(file))
-    assert damaged.exit_code == 0, damaged.output
-    assert "damaged" in damaged.output
+    torn = call("replay", str(file))
+    assert torn.exit_code == 0, "as after a kill"
+    assert "its last write did not come to its end" in torn.output
+    assert "all the same" in torn.output
+
+
+def test_a_damaged_run_says_what_is_lost(program: str, tmp_path: Path) -> None:
+    file = tmp_path / "a.scanrun"
+    run(
+        program,
+        "--scans",
+        "3000",
+        "--set",
+        "Main.n=5@7",
+        "--set",
+        "Main.n=9@20",
+        "--set",
+        "Main.n=1@30",
+        "--record",
+        str(file),
+    )
+    whole = file.read_bytes()
+    opened = runfile.RunFile.open(file, read_only=True)
+    hit = [each for each in opened.scan_blocks() if each.kind is runfile.Kind.ENTRY][1]
+    opened.close()
+    at = hit.offset + 40
+    file.write_bytes(whole[:at] + bytes([whole[at] ^ 4]) + whole[at + 1 :])
+    replayed = call("replay", str(file))
+    assert replayed.exit_code == 4, replayed.output
+    assert "all the same" not in replayed.output
+    for command in (
+        ("replay", str(file)),
+        ("verify", str(file)),
+        ("diff", str(file), str(file.with_name("b.scanrun"))),
+    ):
+        file.with_name("b.scanrun").write_bytes(file.read_bytes())
+        result = call(*command)
+        assert result.exit_code == 4, result.output
+        assert f"is damaged at byte {hit.offset}" in result.output
+        assert "2993 scans after it, up to 3000, are lost, and with them 1 command" in result.output
+    file.write_bytes(whole[:20] + b"?" + whole[21:])
+    for command in (
+        ("replay", str(file)),
+        ("verify", str(file)),
+        ("diff", str(file), str(file.with_name("b.scanrun"))),
+    ):
+        assert call(*command).exit_code == 4, command
+
+
+def test_a_length_that_is_wrong_is_no_torn_end(program: str, tmp_path: Path) -> None:
+    file = tmp_path / "a.scanrun"
+    run(program, "--scans", "30", "--set", "Main.n=5@7", "--record", str(file))
+    opened = runfile.RunFile.open(file, read_only=True)
+    last = [each for each in opened.scan_blocks() if each.kind is runfile.Kind.ENTRY][-1]
+    opened.close()
+    data = bytearray(file.read_bytes()[: last.end])
+    data[last.offset + 10] ^= 1  # of its length, 65,536 bytes more
+    file.write_bytes(data)
+    assert call("replay", str(file)).exit_code == 4
 
 
 def test_a_run_ends_when_its_condition_holds(program: str) -> None:

@@ -202,4 +202,4 @@ def test_blocks_far_behind_damage_are_found(tmp_path: Path) -> None:
         with path.open("ab") as file:
             file.write(bytes(gap) + raw(Kind.MARK, 0, b"", 99))
         with Recording.open(path, ENTRIES, read_only=True) as recording:
-            assert "99 scans behind it, up to 99, are lost" in recording.damage
+            assert "99 scans after it, up to 99, are lost" in recording.damage

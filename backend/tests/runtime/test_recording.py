@@ -125,7 +125,7 @@ def test_what_was_lost_is_counted(tmp_path: Path) -> None:
     path.write_bytes(data[: hit.offset + 30] + b"\0\0" + data[hit.offset + 32 :])
     timeline = resumed(path, until=SCANS)  # what the parent knew does not count behind damage: entries are missing
     assert timeline.live_scan <= hit.scan
-    assert f"{SCANS - timeline.live_scan} scans behind it, up to {SCANS}, are lost" in timeline.recording.damage
+    assert f"{SCANS - timeline.live_scan} scans after it, up to {SCANS}, are lost" in timeline.recording.damage
     assert timeline.recording.info.damage == timeline.recording.damage
     timeline.close()
 
