@@ -276,7 +276,8 @@ class RunFile:
         if length > LARGEST:
             return False
         right = _BLOCK.pack(sync, kind, packing, reserved, length, scan, crc)
-        return zlib.crc32(os.pread(self.fd, length, offset + _BLOCK.size), zlib.crc32(right[: -_CRC.size])) == crc
+        found = zlib.crc32(os.pread(self.fd, length, offset + _BLOCK.size), zlib.crc32(right[: -_CRC.size]))
+        return bool(found == crc)
 
     def _after(self, offset: int, size: int) -> tuple[int, Counter[Kind]]:
         """The last scan that a good block after the damage names, and how many there are of each kind, as far as that is

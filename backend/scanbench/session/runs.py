@@ -62,6 +62,11 @@ def discard_all(directory: Path, instance: int) -> None:
 def sources_of(path: Path, models: Mapping[str, Model]) -> Sources:
     """What the program that runs at the end of a run file is made of, numbered behind every other in it; `RunFileError`
     when it is no run file, or cannot be used here."""
+    return sources_and_damage(path, models)[0]
+
+
+def sources_and_damage(path: Path, models: Mapping[str, Model]) -> tuple[Sources, str]:
+    """The same, and what is damaged in the file."""
     with Recording.open(path, ENTRIES, read_only=True) as recording:
         model = models.get(recording.about.model)
         if model is None:
@@ -75,7 +80,8 @@ def sources_of(path: Path, models: Mapping[str, Model]) -> Sources:
         for entry in recording.take_entries()[last.entries :]:
             if isinstance(entry.plan.effect, Swapped):
                 version = entry.plan.effect.version
-        return replace(sources_in(recording.programs[version]), version=max(recording.programs))
+        sources = replace(sources_in(recording.programs[version]), version=max(recording.programs))
+        return sources, recording.damage
 
 
 def sources_in(kept: KeptProgram) -> Sources:

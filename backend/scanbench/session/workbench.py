@@ -25,7 +25,7 @@ from scanbench.session.protocol import Driven
 from scanbench.session.reactions import Reactions
 from scanbench.session.records import Records
 from scanbench.session.refused import Refused, Unavailable
-from scanbench.session.runs import discard, discard_all, fresh_path, run_path, sources_of, sweep
+from scanbench.session.runs import discard, discard_all, fresh_path, run_path, sources_and_damage, sweep
 from scanbench.session.samples import samples
 from scanbench.session.session import LOG_LINES, Session
 from scanbench.session.states import States
@@ -191,14 +191,16 @@ class Workbench:
         except OSError as error:
             raise Refused(f"the run of {session.name} cannot be copied: {error.strerror}") from error
 
-    async def bring_in(self, path: Path, name: str, author: str) -> Session:
-        """A new PLC that goes on with a run from elsewhere; its sources become a project of that name.
+    async def bring_in(self, path: Path, name: str, author: str) -> tuple[Session, str]:
+        """A new PLC that goes on with a run from elsewhere; its sources become a project of that name. And what is damaged
+        in the file: as much of it as is not, is gone on with.
 
         Takes the file over.
         """
         project: ProjectRow | None = None
         try:
-            sources = await asyncio.to_thread(sources_of, path, self.models)
+            sources, damage = await asyncio.to_thread(sources_and_damage, path, self.models)
+            damage = damage.replace(path.name, "the file").replace(". The damaged rest was left as it was", "")
             project = await self.projects.from_sources(name, sources, author)
             row = await asyncio.to_thread(self._store.create_instance, project.id, name)
             await asyncio.to_thread(os.replace, path, run_path(self._runs, row.id))
@@ -210,8 +212,8 @@ class Workbench:
                 raise Refused(str(error).replace(path.name, "the file")) from error
             raise
         session = await self._open(row, paused=True)
-        session.told(author, "the run was imported")
-        return session
+        session.told(author, f"the run was imported{'; ' * bool(damage)}{damage}")
+        return session, damage
 
     async def _open_rerun(self, origin: Session, name: str, path: Path, author: str) -> Session:
         """A new paused PLC that goes on where a replay with a change has ended."""

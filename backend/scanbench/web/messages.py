@@ -269,6 +269,10 @@ class Instance(Wire):
     limits: InstanceLimits
 
 
+class ImportedInstance(Instance):
+    damage: str = Field(description="what is damaged in the file, and what is lost; empty where all is well")
+
+
 class NewInstance(Wire):
     project: Id
     name: str = Field(min_length=1, max_length=100)

@@ -84,8 +84,9 @@ async def on_export(bench: Bench, request: Request, instance: Id, scan: Scan | N
 
 
 @router.post("/instances/import", status_code=201)
-async def on_import(bench: Bench, request: Request, name: str) -> wire.Instance:
-    """A new PLC, with a project of the same name, that goes on with an exported run; the body is the file."""
+async def on_import(bench: Bench, request: Request, name: str) -> wire.ImportedInstance:
+    """A new PLC, with a project of the same name, that goes on with an exported run; the body is the file. Of a damaged file
+    what comes before the damage is taken, and `damage` says what is lost."""
     if not 0 < len(name.strip()) <= 100:
         raise Refused("the name of the new PLC must have 1 to 100 characters")
     path, size = bench.fresh_path(), 0
@@ -103,7 +104,8 @@ async def on_import(bench: Bench, request: Request, name: str) -> wire.Instance:
         raise
     finally:
         await asyncio.to_thread(file.close)
-    return await _instance(bench, await bench.bring_in(path, name.strip(), user_of(request).name))
+    session, damage = await bench.bring_in(path, name.strip(), user_of(request).name)
+    return wire.ImportedInstance(**dict(await _instance(bench, session)), damage=damage)
 
 
 @router.delete("/instances/{instance}", status_code=204)

@@ -155,6 +155,19 @@ def test_a_run_goes_out_and_comes_in(server: Server) -> None:
     reply = server.http.post("/api/instances/import", params={"name": "arriving"}, content=data.content)
     assert reply.status_code == 201, reply.text
     assert reply.json()["project"]["name"] == "arriving"
+    assert reply.json()["damage"] == ""
+    spoilt = data.content[:-12] + bytes([data.content[-12] ^ 1]) + data.content[-11:]
+    damaged = server.http.post("/api/instances/import", params={"name": "spoilt"}, content=spoilt)
+    assert damaged.status_code == 201, damaged.text
+    assert "the file is damaged at byte" in damaged.json()["damage"]
+    with server.browser(damaged.json()["id"]) as browser:
+        told = [browser.hello["timeline"]]
+        browser.wait(
+            lambda: any(
+                "is damaged at byte" in each["info"]["damage"]
+                for each in (*told, *(m for m in browser.messages if m["type"] == "timeline"))
+            )
+        )
     with server.browser(reply.json()["id"]) as browser:
         browser.watch("Main.n", "Main.level")
         shown(browser, "Main.n", scan)

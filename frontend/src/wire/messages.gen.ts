@@ -1150,7 +1150,8 @@ export interface paths {
         put?: never;
         /**
          * On Import
-         * @description A new PLC, with a project of the same name, that goes on with an exported run; the body is the file.
+         * @description A new PLC, with a project of the same name, that goes on with an exported run; the body is the file. Of a damaged file
+         *     what comes before the damage is taken, and `damage` says what is lost.
          */
         post: operations["on_import_api_instances_import_post"];
         delete?: never;
@@ -3540,6 +3541,24 @@ export interface components {
             running: boolean;
             /** Version */
             version: number;
+        };
+        /** ImportedInstance */
+        ImportedInstance: {
+            /**
+             * Damage
+             * @description what is damaged in the file, and what is lost; empty where all is well
+             */
+            damage: string;
+            /** Id */
+            id: number;
+            limits: components["schemas"]["InstanceLimits"];
+            load: components["schemas"]["InstanceLoad"];
+            /** Model */
+            model: string;
+            /** Name */
+            name: string;
+            project: components["schemas"]["Project"];
+            state: components["schemas"]["InstanceState"];
         };
         /** ImportedRecord */
         ImportedRecord: {
@@ -8615,7 +8634,7 @@ export interface operations {
                     [name: string]: unknown;
                 };
                 content: {
-                    "application/json": components["schemas"]["Instance"];
+                    "application/json": components["schemas"]["ImportedInstance"];
                 };
             };
         };
