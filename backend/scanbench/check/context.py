@@ -4,6 +4,9 @@ from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
+from functools import lru_cache
+from heapq import nlargest
+from itertools import pairwise
 
 from scanbench.check.program import CheckSite, Pou, TrapKind, TrapSite
 from scanbench.problems import Problem, Severity, Span
@@ -80,8 +83,23 @@ class Report:
         self.checks[number - 1] = replace(self.checks[number - 1], needless=why)
 
 
+COMPARED = 32
+"""Names that are compared letter by letter with one that is not known: that takes long, and there may be thousands of both."""
+
+
 def did_you_mean(name: str, known: Iterable[str]) -> str:
     """` Did you mean ...?` or nothing."""
+    return _did_you_mean(name.upper(), tuple(known))
+
+
+@lru_cache(256)
+def _did_you_mean(name: str, known: tuple[str, ...]) -> str:
+    """The same name is often wrong in many places."""
     by_upper = {item.upper(): item for item in known}
-    near = get_close_matches(name.upper(), by_upper, n=2, cutoff=0.6)
+    likely = list(by_upper)
+    if len(likely) > COMPARED:
+        pairs = set(pairwise(name))
+        shared = {item: 2 * len(pairs.intersection(pairwise(item))) / (len(item) + len(name)) for item in likely}
+        likely = nlargest(COMPARED, likely, key=shared.__getitem__)
+    near = get_close_matches(name, likely, n=2, cutoff=0.6)
     return f" Did you mean {' or '.join(f'`{by_upper[item]}`' for item in near)}?" if near else ""

@@ -1,7 +1,10 @@
 """One mistake, one message: what follows from a declaration that was refused is not told once more, and nothing breaks on it."""
 
+from difflib import get_close_matches
+
 import pytest
 
+from scanbench.check import context
 from scanbench.check.build import check_sources
 from scanbench.check.standard.functions import FUNCTIONS
 from tests.caseformat import MODELS
@@ -106,3 +109,19 @@ def test_the_library_means_its_own_functions() -> None:
     programs = "\n".join(f"PROGRAM {name} END_PROGRAM" for name in FUNCTIONS if name not in USES)
     problems = check_sources({"a.st": USES, "b.st": programs}, MODELS["GENERIC-IEC"]).problems
     assert {each.span.file for each in problems} <= {"a.st", "b.st"}
+
+
+def test_names_that_were_perhaps_meant_are_found_among_many(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Few of thousands are compared letter by letter, and the nearest is among them."""
+    compared = 0
+
+    def counted(word: str, possibilities: list[str], n: int, cutoff: float) -> list[str]:
+        nonlocal compared
+        compared += len(possibilities)
+        return get_close_matches(word, possibilities, n=n, cutoff=cutoff)
+
+    monkeypatch.setattr("scanbench.check.context.get_close_matches", counted)
+    known = [f"GVL_Conveyor_{number:04}_Speed" for number in range(2000)]
+    for _ in range(50):
+        assert "`GVL_Conveyor_1234_Speed`" in context.did_you_mean("GVL_Conveyer_1234_Sped", known)
+    assert compared == context.COMPARED, "and the same name once only"
