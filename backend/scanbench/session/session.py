@@ -520,6 +520,9 @@ class Session:
     def _on_ready(self, ready: protocol.Ready) -> None:
         if ready.fresh:
             self._reacting.forget()
+            if self._forces:  # those of the run before
+                self._forces = ()
+                self._publish(events.ForcesChanged(()))
         self._history.take_model(self.model)
         if ready.sources.version != self._history.version:
             self._history.begin(ready.sources.version)

@@ -54,7 +54,8 @@ class Services:
         self._diagnosed: Violations | None = None
         self._standing: protocol.Standing | None = None
         self._held: Mapping[str, Force] | None = None
-        self._forces: tuple[ForcedValue, ...] | None = None
+        self._forces: tuple[ForcedValue, ...] | None = None if timeline.live_scan else ()
+        """As they were told; a run that is gone on with may have lost one that nobody was told of."""
         self._info: RecordingInfo | None = None
         timeline.new_entries()  # those of earlier lives were told by their hosts
         link.post(protocol.RunMarks(timeline.recording.info, marks_of(timeline.live_journal), fresh=True))
