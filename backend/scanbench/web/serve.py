@@ -17,6 +17,7 @@ from scanbench.store.store import Store
 from scanbench.web.app import Config, create_app
 from scanbench.web.auth import Gate, known_hosts
 from scanbench.web.claim import InUse, claimed
+from scanbench.web.handles import most_connections, raised_limit
 from scanbench.web.kept_guests import kept_guests
 from scanbench.web.kept_token import kept_token
 from scanbench.web.public_url import PublicUrl
@@ -66,6 +67,7 @@ def _run(sock: socket.socket, host: str, bench: Workbench, gate: Gate, announce:
         lifespan="on",
         server_header=False,
         timeout_graceful_shutdown=3,
+        limit_concurrency=most_connections(raised_limit()),  # beyond: 503, and a line in the log
     )
     server = _Server(config, lambda: announce(f"Scanbench is ready: {shown_address(host, gate)}/?token={gate.token}"))
     # uvicorn ends everything in order at Ctrl-C, and then raises it again.

@@ -13,6 +13,7 @@ import pytest
 from scanbench.web import messages, messages_errors, messages_records, messages_user_errors, openapi
 from scanbench.web.app import bare_app
 from scanbench.web.claim import InUse, claimed
+from scanbench.web.handles import most_connections
 from scanbench.web.kept_guests import kept_guests
 from scanbench.web.messages_base import Wire
 from scanbench.web.serve import CannotServe, serve
@@ -55,6 +56,10 @@ def test_a_data_directory_belongs_to_one_server(tmp_path: Path) -> None:
         pass
     with claimed(tmp_path):
         pass
+
+
+def test_connections_are_refused_before_handles_run_out() -> None:
+    assert [most_connections(handles) for handles in (64, 1024, 65_536)] == [32, 768, 65_280]
 
 
 def test_guests_go_on_counting_after_a_restart(tmp_path: Path) -> None:
