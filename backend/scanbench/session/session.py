@@ -248,6 +248,11 @@ class Session:
         except Unavailable:
             return self._forces
 
+    async def disturbances_now(self) -> tuple[DisturbanceInfo, ...]:
+        """The disturbances as the PLC has them now; of one that is not there those that were told last."""
+        await self.forces_now()  # before that is answered, what holds is told
+        return self._disturbances
+
     async def preview_errors(self, errors: tuple[ErrorRef, ...], again: bool) -> protocol.PreviewedErrors:
         """What raising these would write now."""
         return await self._instance.preview_errors(errors, again)

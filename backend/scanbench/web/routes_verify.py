@@ -148,8 +148,8 @@ async def on_export_record(bench: Bench, record: Id, format: Format = "csv") -> 
 
 @router.get("/instances/{instance}/disturbances")
 async def on_disturbances(bench: Bench, instance: Id) -> list[wire.DisturbanceInfo]:
-    """Those that are not over."""
-    return list(map(translate_verify.disturbance, bench.session(instance).disturbances))
+    """Those that are not over, and those that never came about."""
+    return list(map(translate_verify.disturbance, await bench.session(instance).disturbances_now()))
 
 
 @router.post("/instances/{instance}/disturbances")

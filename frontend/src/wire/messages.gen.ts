@@ -266,7 +266,7 @@ export interface paths {
         };
         /**
          * On Disturbances
-         * @description Those that are not over.
+         * @description Those that are not over, and those that never came about.
          */
         get: operations["on_disturbances_api_instances__instance__disturbances_get"];
         put?: never;

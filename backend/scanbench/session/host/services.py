@@ -106,6 +106,7 @@ class Services:
                 frame = self._plan.snapshot(self._resource.memory, header.scan, self._time_ns)
                 self._link.post(protocol.Frame(frame, self._timeline.live_scan, message.to))
             case protocol.WantForces():
+                self._tell_standing()  # what holds is known by then, too
                 self._link.post(protocol.ForcesAre(forced_values(self._resource.view), message.ref))
             case protocol.PreviewErrors():
                 self._preview(message)
