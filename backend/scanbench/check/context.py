@@ -1,12 +1,13 @@
 """What all parts of the checker share: problems met, sites of traps and subrange checks, near matches."""
 
+from collections import Counter
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from functools import lru_cache
 from heapq import nlargest
-from itertools import pairwise
+from itertools import chain, pairwise
 
 from scanbench.check.program import CheckSite, Pou, TrapKind, TrapSite
 from scanbench.problems import Problem, Severity, Span
@@ -38,11 +39,13 @@ class Report:
 
     def join(self, order: Iterable[Pou]) -> None:
         """Takes over the parts of these POUs, whose sites then count from the end of what is there."""
+        told = set(self.problems)
         for pou in order:
             part = self.parts.get(pou)
             if part is not None:
                 pou.first_trap, pou.first_check = len(self.traps), len(self.checks)
-                self.problems += [problem for problem in part.problems if problem not in self.problems]
+                self.problems += [problem for problem in part.problems if problem not in told]
+                told.update(part.problems)
                 self.traps += part.traps
                 self.checks += part.checks
 
@@ -95,11 +98,21 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
 @lru_cache(256)
 def _did_you_mean(name: str, known: tuple[str, ...]) -> str:
     """The same name is often wrong in many places."""
-    by_upper = {item.upper(): item for item in known}
+    by_upper, by_pair = _index(known)
     likely = list(by_upper)
     if len(likely) > COMPARED:
-        pairs = set(pairwise(name))
-        shared = {item: 2 * len(pairs.intersection(pairwise(item))) / (len(item) + len(name)) for item in likely}
-        likely = nlargest(COMPARED, likely, key=shared.__getitem__)
+        shared = Counter(chain.from_iterable(by_pair.get(pair, ()) for pair in set(pairwise(name))))
+        likely = nlargest(COMPARED, shared, key=lambda item: shared[item] / (len(item) + len(name)))
     near = get_close_matches(name, likely, n=2, cutoff=0.6)
     return f" Did you mean {' or '.join(f'`{by_upper[item]}`' for item in near)}?" if near else ""
+
+
+@lru_cache(16)
+def _index(known: tuple[str, ...]) -> tuple[dict[str, str], dict[tuple[str, str], list[str]]]:
+    """Names as they are written by their upper case, and the upper cases by the pairs of letters in them."""
+    by_upper = {item.upper(): item for item in known}
+    by_pair: dict[tuple[str, str], list[str]] = {}
+    for item in by_upper:
+        for pair in set(pairwise(item)):
+            by_pair.setdefault(pair, []).append(item)
+    return by_upper, by_pair

@@ -1,5 +1,6 @@
 """`scanbench check --report`: what a program is made of, and how much of it is supported."""
 
+from bisect import bisect
 from collections import Counter
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass
@@ -17,15 +18,12 @@ class FileReport:
     """One file: constructs that are supported by name, refused ones by message, and other errors."""
 
     name: str
+    pous: int
+    clean: int
+    """POUs without an error of their own. One of them may still use another that has one."""
     supported: Counter[str]
     refused: Counter[str]
     errors: int
-
-    @property
-    def percent(self) -> float:
-        """Share of the constructs that are supported."""
-        total = self.supported.total() + self.refused.total()
-        return 100.0 * self.supported.total() / total if total else 100.0
 
 
 def report_files(texts: Mapping[str, str], problems: Sequence[Problem]) -> list[FileReport]:
@@ -34,21 +32,34 @@ def report_files(texts: Mapping[str, str], problems: Sequence[Problem]) -> list[
     for name, text in texts.items():
         own = [each for each in problems if each.span.file == name and each.severity is Severity.ERROR]
         refused = Counter(each.message for each in own if each.code == REFUSED)
-        constructs = count_constructs(parse_file(Source(name, text))[0])
-        made.append(FileReport(name, constructs, refused, len(own) - refused.total()))
+        file = parse_file(Source(name, text))[0]
+        begins = sorted(pou.span.line for pou in file.pous)
+        wrong = {bisect(begins, each.span.line) for each in own} - {0}
+        made.append(
+            FileReport(
+                name, len(begins), len(begins) - len(wrong), count_constructs(file), refused, len(own) - refused.total()
+            )
+        )
     return made
 
 
 def report_lines(reports: Sequence[FileReport]) -> list[str]:
-    """For people: a line a file, then what was refused, then what the program uses."""
+    """For people: a line a file, how many POUs are whole, then what was refused, then what the program uses."""
     width = max(len(each.name) for each in reports)
-    lines = [f"{'file':{width}}  supported  refused  other errors  percent"]
-    for each in [*reports, _sum(reports)] if len(reports) > 1 else reports:
-        lines.append(
-            f"{each.name:{width}}  {each.supported.total():9}  {each.refused.total():7}  {each.errors:12}  "
-            f"{each.percent:6.1f}%"
-        )
     whole = _sum(reports)
+    lines = [f"{'file':{width}}  POUs  without errors  constructs  refused  other errors"]
+    for each in [*reports, whole] if len(reports) > 1 else reports:
+        lines.append(
+            f"{each.name:{width}}  {each.pous:4}  {each.clean:14}  {each.supported.total():10}  "
+            f"{each.refused.total():7}  {each.errors:12}"
+        )
+    if whole.pous:
+        lines += [
+            "",
+            f"{whole.clean} of {whole.pous} POUs ({100 * whole.clean / whole.pous:.1f} %) have no error of their own",
+        ]
+    if whole.refused or whole.errors:
+        lines.append("a program runs when none of its files has an error")
     if whole.refused:
         lines += ["", "refused:", *(f"{count:6}  {message}" for message, count in whole.refused.most_common())]
     if whole.errors:
@@ -65,7 +76,8 @@ def report_json(reports: Sequence[FileReport]) -> list[dict[str, object]]:
             "supported": dict(each.supported),
             "refused": dict(each.refused),
             "other_errors": each.errors,
-            "percent": round(each.percent, 1),
+            "pous": each.pous,
+            "pous_without_errors": each.clean,
         }
         for each in reports
     ]
@@ -77,4 +89,5 @@ def _sum(reports: Sequence[FileReport]) -> FileReport:
     for each in reports:
         supported += each.supported
         refused += each.refused
-    return FileReport("all", supported, refused, sum(each.errors for each in reports))
+    pous, clean, errors = (sum(each) for each in zip(*((r.pous, r.clean, r.errors) for r in reports), strict=True))
+    return FileReport("all", pous, clean, supported, refused, errors)

@@ -1,0 +1,36 @@
+"""`scanbench check --report`: how many POUs are whole, and what the files are made of."""
+
+from scanbench.check.build import check_sources
+from scanbench.cli.check_report import report_files, report_json, report_lines
+from tests.caseformat import MODELS
+
+TEXTS = {
+    "Types.st": "TYPE T : STRUCT a : NOWHERE; END_STRUCT END_TYPE\n",
+    "Main.st": """FUNCTION_BLOCK Good
+VAR n : INT; END_VAR
+n := n + 1;
+END_FUNCTION_BLOCK
+FUNCTION_BLOCK Bad
+VAR n : INT; END_VAR
+n := missing;
+n := other;
+END_FUNCTION_BLOCK
+PROGRAM Main
+VAR p : POINTER TO INT; END_VAR
+p := __NEW(INT);
+END_PROGRAM
+""",
+}
+
+
+def test_pous_with_errors_are_counted_apart_from_constructs() -> None:
+    checked = check_sources(TEXTS, MODELS["GENERIC-IEC"])
+    reports = report_files(TEXTS, checked.problems)
+    assert [(each.name, each.pous, each.clean) for each in reports] == [("Types.st", 0, 0), ("Main.st", 3, 1)]
+    assert [each.errors for each in reports] == [1, 2]
+    assert sum(each.refused.total() for each in reports) == 1
+    lines = report_lines(reports)
+    assert "1 of 3 POUs (33.3 %) have no error of their own" in lines
+    assert not any("100" in line for line in lines)
+    found = [(each["pous"], each["pous_without_errors"]) for each in report_json(reports)]
+    assert found == [(0, 0), (3, 1)]
