@@ -10,7 +10,7 @@ import typer
 
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
-from scanbench.cli.inputs import below, find_model, find_model_named, problem_json, read_sources, usage
+from scanbench.cli.inputs import below, find_model, find_model_named, problem_json, read_sources, tell_damage, usage
 from scanbench.cli.interrupt import INTERRUPTED
 from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.run_options import read_interval
@@ -42,6 +42,8 @@ from scanbench.runtime.clock import iso, wall_time
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram
+from scanbench.runtime.recording import Recording
+from scanbench.session.codec import ENTRIES
 from scanbench.session.from_disk import DEFAULT_MODEL
 from scanbench.session.protocol import Sources
 from scanbench.session.starting import NoStart, checked_program, model_of, point_in
@@ -236,9 +238,12 @@ def _point(state: State, path: Path | None, program: Program, sources: Sources, 
         return run_state(state, program, make, _VERSION)
     run = Path(state.run) if path is None else path.parent / state.run
     try:
-        return point_in(run, state.scan, sources, _program_of(sources, program), make)
+        point = point_in(run, state.scan, sources, _program_of(sources, program), make)
     except NoStart as why:
         raise NoStart(f"state {state.name}: {why}") from why
+    with Recording.open(run, ENTRIES, read_only=True) as recording:
+        tell_damage(run, recording)  # the state itself is whole
+    return point
 
 
 def _program_of(sources: Sources, program: Program) -> Callable[[Sources], Program]:

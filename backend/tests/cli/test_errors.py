@@ -209,6 +209,11 @@ def test_a_state_from_a_recorded_run(project: Path) -> None:
     told = json.loads(result.stdout)
     assert [each["scan"] for each in told["states"]] == [20, 25, 50]
     assert [each["verdict"] for each in told["results"]] == ["reacted", "reacted", "reacted"]
+    assert not result.stderr
+    run.write_bytes(run.read_bytes()[:-5])
+    given = states(project, [{"name": "Before", "run": "on.scanrun", "scan": 20}])
+    result = scanbench("errors", "sweep", str(project), "--only", "battery-error", "--states", given)
+    assert "on.scanrun: note: " in result.stderr  # something of the run is not there, and the state is
 
 
 @pytest.mark.parametrize(
