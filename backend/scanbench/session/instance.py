@@ -90,13 +90,14 @@ class Instance:
 
     def __init__(
         self, memory: Remembered, on_state: Callable[[PlcState], None], on_message: Callable[[object], None],
-        cache: Path | None = None, patience: Patience = Patience(),
+        cache: Path | None = None, patience: Patience = Patience(), why_not: str = "",
     ) -> None:  # fmt: skip
-        """`cache` is a directory where hosts keep what they built."""
-        self._cache, self._patience = cache, patience
+        """`cache` is a directory where hosts keep what they built; `why_not` is why it can never be started."""
+        self._cache, self._patience, self.why_not = cache, patience, why_not
         self.state = PlcState(
-            "off", "MONITOR", OFF, interval_ns=memory.sources.interval_ns, version=memory.sources.version
-        )
+            "failed" if why_not else "off", "MONITOR", why_not or OFF, interval_ns=memory.sources.interval_ns,
+            version=memory.sources.version,
+        )  # fmt: skip
         self._memory = memory
         self._on_state, self._on_message = on_state, on_message
         self._process: Process | None = None
@@ -132,7 +133,7 @@ class Instance:
 
     def start(self) -> None:
         """Starts the process, and keeps it alive until `stop`."""
-        if self.on:
+        if self.on or self.why_not:
             return
         self._stopping = False
         self._deaths = 0  # somebody wants it, whatever was before
@@ -369,6 +370,8 @@ class Instance:
     async def begin_anew(self, sources: protocol.Sources | None = None) -> protocol.Ack:
         """A new run, at scan 0; the old run file is kept aside."""
         async with self._turning:
+            if self.why_not:  # its run must not be put aside for one that cannot begin
+                raise Unavailable(self.why_not)
             if not self.on and self.state.state != "failed":
                 raise Unavailable(f"the PLC is {self.state.state}: {self.state.message}. Switch it on first")
             await self._stop()
@@ -429,6 +432,8 @@ class Instance:
             self._process.kill()
 
     async def _ask(self, make: Callable[[int], object]) -> object:
+        if self.why_not:
+            raise Unavailable(self.why_not)
         if self._writer is None and self.state.state == "starting":
             await self._reached()
         if self._writer is None or self._writer.is_closing():

@@ -51,7 +51,7 @@ class Projects:
         """The model of this name."""
         model = self._models.get(name)
         if model is None:
-            raise Refused(f"there is no model {name}", tuple(self._models))
+            raise Refused(f"there is no model {name} on this server", tuple(self._models))
         return model
 
     # ---- files ----------------------------------------------------------------------------------------------------

@@ -92,6 +92,8 @@ class Records:
         return await asyncio.to_thread(make)
 
     async def _of_version(self, session: Session, version: int | None) -> tuple[list[ErrorRow], Model, BuildRow | None]:
+        if session.why_not:
+            raise Refused(f"the error history cannot be read: {session.why_not}")
         wanted = session.history_version if version is None else version
         # A version that was only swept has nothing but that to tell: it has a record all the same.
         if wanted not in session.history_versions and not await asyncio.to_thread(self._swept, session, wanted):

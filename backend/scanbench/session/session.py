@@ -51,8 +51,9 @@ class Session:
         self, row: InstanceRow, model: Model, memory: Remembered, keeper: Keeper,
         rows: Sequence[ErrorRow], lines: Sequence[LogEntry], loads: Loads, reactions: Reactions,
         breakpoints: Sequence[Breakpoint], cache: Path | None = None, traces: Mapping[int, Json] | None = None,
+        why_not: str = "",
     ) -> None:  # fmt: skip
-        """`model` is the device; the project's own errors come with the program that runs."""
+        """`model` is the device; the project's own errors come with the program that runs. `why_not`: why this never runs."""
         self.row, self._device = row, model
         self._loads = loads
         self._keeper = keeper
@@ -71,9 +72,10 @@ class Session:
         self._armed: tuple[ArmedInfo, ...] = ()
         self._disturbances: tuple[DisturbanceInfo, ...] = ()
         self._reacting = Reacting(reactions, lambda: self.run_file, self._on_reaction)
-        self._compare(rows)  # the run goes on, so what was being recorded is found out yet
+        if not why_not:
+            self._compare(rows)  # the run goes on, so what was being recorded is found out yet
         self._timeline = Marks()
-        self._instance = Instance(memory, self._on_state, self._on_message, cache)
+        self._instance = Instance(memory, self._on_state, self._on_message, cache, why_not=why_not)
         self._last_state = self._instance.state
         self.debugging = Debugging(
             self._instance.debug, self._publish, partial(keeper.keep_breakpoints, row.id), breakpoints
@@ -118,6 +120,11 @@ class Session:
     def on(self) -> bool:
         """Whether the PLC has a process, or will have one again in a moment."""
         return self._instance.on
+
+    @property
+    def why_not(self) -> str:
+        """Why the PLC cannot be started at all (its model is missing); empty when it can."""
+        return self._instance.why_not
 
     @property
     def runs(self) -> int:

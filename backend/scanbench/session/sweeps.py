@@ -161,6 +161,8 @@ class Sweeps:
         self, session: Session, errors: Sequence[str] | None, states: Sequence[int], window: int, author: str
     ) -> SweepRow:
         """Begins a sweep of the program that runs; without states from where the PLC stands now."""
+        if session.why_not:
+            raise Refused(session.why_not)
         project, sources, model = session.project_id, session.sources, session.model
         swept = _swept(model, errors)
         async with self._beginning.setdefault(project, asyncio.Lock()):

@@ -18,6 +18,7 @@ from scanbench.session.builds import Checker
 from scanbench.session.instance import Remembered
 from scanbench.session.keeper import Keeper, breakpoint_of, line_of, row_of
 from scanbench.session.load import Loads
+from scanbench.session.missing import stand_in, why_missing
 from scanbench.session.nursery import nursery
 from scanbench.session.pasts import Pasts
 from scanbench.session.projects import Projects
@@ -48,8 +49,8 @@ class Workbench:
         """`data` is a directory: runs are recorded in `runs`, programs and their code are kept in `cache`."""
         self._store, self._cache, self._runs = store, data / "cache", data / "runs"
         self._runs.mkdir(parents=True, exist_ok=True)
-        models, problems = load_all(model_directory())
-        for problem in problems:
+        models, self._model_problems = load_all(model_directory())
+        for problem in self._model_problems:
             log.error("%s", problem)
         self.models: Mapping[str, Model] = {model.name: model for model in models}
         self._checker = Checker(self._cache)
@@ -85,7 +86,7 @@ class Workbench:
         for instance in await asyncio.to_thread(self._store.instances):
             try:
                 await self._open(instance)
-            except Refused as error:  # its model is gone, say: the others must not suffer
+            except Refused as error:  # the others must not suffer
                 log.error("%s", error)
         if self.models:
             self._warming = asyncio.get_running_loop().create_task(self._warm())
@@ -147,6 +148,7 @@ class Workbench:
     async def create_instance(self, project_id: int, name: str) -> Session:
         """A new PLC that runs a project's last accepted build."""
         project = await self.projects.get(project_id)
+        self.projects.model(project.model)
         if await self.projects.built(project_id) is None:
             outcome = await self.projects.build(project_id, "server")
             if not outcome.ok:
@@ -243,6 +245,8 @@ class Workbench:
     ) -> Session:
         """A new name, new limits, on or off."""
         session = self.session(id)
+        if powered and session.why_not:
+            raise Refused(session.why_not)
         change = partial(self._store.change_instance, id, name=name, powered=powered, limits=limits)
         await session.change(await asyncio.to_thread(change), author)
         return session
@@ -262,9 +266,13 @@ class Workbench:
     async def _open(self, row: InstanceRow, paused: bool = False) -> Session:
         project = await self.projects.get(row.project)
         sources = await self.projects.built(project.id)
-        model = self.models.get(project.model)
-        if sources is None or model is None:
-            raise Refused(f"instance {row.name}: {project.name} has no accepted build on {project.model}")
+        if sources is None:
+            raise Refused(f"instance {row.name}: {project.name} has no accepted build")
+        model, why_not = self.models.get(project.model), ""
+        if model is None:
+            model = stand_in(project.model)
+            why_not = why_missing(project.model, model_directory(), self._model_problems)
+            log.error("%s: %s", row.name, why_not)
         rows = [row_of(model, each) for each in await asyncio.to_thread(self._store.history, row.id)]
         lines = [line_of(each) for each in await asyncio.to_thread(self._store.log, row.id, LOG_LINES)]
         memory = Remembered(row.name, sources, run_path(self._runs, row.id), row.limits)
@@ -274,7 +282,8 @@ class Workbench:
         breakpoints = [each for each in kept if each is not None]
         traces = await asyncio.to_thread(self._store.traces, row.id)
         session = Session(
-            row, model, memory, self._keeper, rows, lines, self._loads, self._reactions, breakpoints, self._cache, traces
+            row, model, memory, self._keeper, rows, lines, self._loads, self._reactions, breakpoints, self._cache, traces,
+            why_not,
         )  # fmt: skip
         self._sessions[row.id] = session
         session.take_sweeps(await self.sweeps.found(project.id))

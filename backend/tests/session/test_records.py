@@ -38,6 +38,7 @@ class Plc:
     model: Model
     name: str = "line-1"
     history_version: int = 1
+    why_not: str = ""
     threads: set[int] = field(default_factory=set)
 
     @property
