@@ -1,7 +1,8 @@
 """Generate and Recover: details, error code, code word, flag and log record, all in one seam.
 
 The code word shows the most serious error present, by the model's priority; it falls back to the next one when that is
-recovered, and to 0 when none is left. A fatal error stops the program and switches the outputs off.
+recovered, and to 0 when none is left. A fatal error stops the program and switches the outputs off; where memory is held
+(hold bit, FALS) that of the outputs keeps its values, as on the device.
 """
 
 from collections.abc import Iterable, Mapping, Sequence
@@ -18,7 +19,7 @@ from scanbench.faults.trap_errors import error_of
 from scanbench.runtime.command import Command, Entry, Patch, Plan, Refusal, View
 from scanbench.runtime.header import Halt, Mode
 from scanbench.runtime.journal import Fold
-from scanbench.runtime.modes import outputs_off, volatile_cleared
+from scanbench.runtime.modes import held, outputs_off, volatile_cleared
 from scanbench.runtime.trap import TRAPPED
 
 Origin = Literal["simulator", "plc", "program"]
@@ -99,7 +100,7 @@ class Generate(Command):
         if fatal:
             # Stopping comes first: clearing memory must not take back what the error sets.
             patches[:0] = _stop(view, fatal)
-        stops = "; the program is stopped" if fatal else ""
+        stops = f"; the program is stopped{_what_is_held(view, fatal)}" if fatal else ""
         return Plan(tuple(patches), "generated " + ", ".join(map(describe, chosen)) + stops)
 
     def _takes(self, one: Chosen, before: Sequence[Chosen]) -> bool:
@@ -230,10 +231,21 @@ def _flat(choices: Mapping[str, list[Chosen]]) -> list[Chosen]:
 
 
 def _stop(view: View, fatal: list[Chosen]) -> list[Patch]:
+    """Outputs go off in any case; their memory is held where the rest is, so that it is the state that says so."""
     patches = [Patch.whole(Layout.FATAL, bytes((view.header.halt | Halt.FATAL_ERROR,)))]
-    if not all(one.error.keeps_memory for one in fatal):
-        patches += volatile_cleared(view)
-    return patches + list(outputs_off(view))
+    if not _keep_memory(fatal):
+        patches += (*volatile_cleared(view), *outputs_off(view))
+    return patches
+
+
+def _keep_memory(fatal: list[Chosen]) -> bool:
+    return all(one.error.keeps_memory for one in fatal)
+
+
+def _what_is_held(view: View, fatal: list[Chosen]) -> str:
+    if not held(view) and not _keep_memory(fatal):
+        return ""
+    return ", outputs off; memory is held, that of the outputs too"
 
 
 def _halt_after(view: View, off: Sequence[Chosen], left: Sequence[Chosen]) -> Halt:

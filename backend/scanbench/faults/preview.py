@@ -11,7 +11,7 @@ from scanbench.plcmodel.model import Area, Location, Model
 from scanbench.runtime.command import Patch, Refusal, View
 
 What = Literal["detail", "code", "flag", "log", "time", "outputs", "other"]
-"""time: when the latest error came. outputs: switched off by a fatal error."""
+"""time: when the latest error came. outputs: cleared by a fatal error, unless memory is held."""
 _MOST_OTHERS = 40
 """Words that are named of what changes besides: a fatal error may clear whole areas."""
 

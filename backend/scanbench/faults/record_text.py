@@ -14,6 +14,10 @@ _JAPANESE = (
     (re.compile(r"^generated "), "発生："),
     (re.compile(r"^recovered "), "復旧："),
     (re.compile(r", code ([0-9A-F]+)"), r"、コード \1"),
+    (
+        re.compile(r"; the program is stopped, outputs off; memory is held, that of the outputs too$"),
+        "（プログラム停止、出力オフ。出力も含めメモリは保持）",
+    ),
     (re.compile(r"; the program is stopped$"), "（プログラム停止）"),
 )
 _MOST_LINES = 8

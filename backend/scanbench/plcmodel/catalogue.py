@@ -116,7 +116,7 @@ class ErrorEntry:
     verified: bool
     """False: from knowledge, not checked against a source. Shown as such."""
     keeps_memory: bool = False
-    """A fatal error that leaves the memory as it is (outputs go off all the same)."""
+    """A fatal error that leaves the memory as it is, that of the outputs too (what is wired to them goes off all the same)."""
     also: tuple[ErrorAddress, ...] = ()
     """What it writes besides its flag and details: bits, a fixed `value`, or the number of the detail named by `id`."""
     form: CodeForm = "hex4"

@@ -64,7 +64,7 @@ class FatalBehaviour:
     """What happens to memory when the program stops: by a fatal error, or by a change to PROGRAM."""
 
     outputs: tuple[WordRange, ...] = ()
-    """Go to 0: at a fatal error in any case, at a change to PROGRAM unless the hold bit is on."""
+    """Go to 0 at a fatal error and at a change to PROGRAM, unless the hold bit is on or the error keeps the memory."""
     cleared: tuple[Area, ...] = ()
     """Go to 0 too, but for input words, and so they do when the program starts again; unless the hold bit is on or the
     error keeps the memory."""

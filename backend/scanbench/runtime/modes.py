@@ -72,7 +72,13 @@ def volatile_cleared(view: View) -> tuple[Patch, ...]:
 
 
 def outputs_off(view: View) -> tuple[Patch, ...]:
-    """Patches that switch every output off, as the model does when its program stops."""
+    """Patches that switch every output off in memory, as the model does when its program stops; none while its hold bit is on.
+
+    At a fatal error and a trap what is wired to them goes off in any case: the state of the PLC says it, as there is no
+    other memory that could.
+    """
+    if held(view):
+        return ()
     areas = view.program.layout.areas
     return tuple(
         Patch.whole(areas[words.area.name] + 2 * words.first, bytes(2 * (words.last - words.first + 1)))
@@ -81,7 +87,7 @@ def outputs_off(view: View) -> tuple[Patch, ...]:
 
 
 def held(view: View) -> bool:
-    """Whether the model's hold bit is on: its memory survives a start, a stop, and a fatal error."""
+    """Whether the model's hold bit is on: its memory, that of outputs too, survives a start, a stop, and a fatal error."""
     hold = view.model.fatal.hold
     if hold is None or hold.bit is None:
         return False

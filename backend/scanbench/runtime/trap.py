@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from scanbench.check.layout import Layout
-from scanbench.check.program import Program, TrapSite
+from scanbench.check.program import Program, TrapKind, TrapSite
 from scanbench.runtime.command import Command, Entry, Patch, Plan, Refusal, View
 from scanbench.runtime.header import Halt
 from scanbench.runtime.journal import Fold
@@ -32,9 +32,10 @@ class Trapped(Command):
     info: TrapInfo
 
     def plan(self, view: View) -> Plan | Refusal:
-        """Keeps the program stopped, outputs off."""
+        """Keeps the program stopped, outputs off. What an instruction's own error does to memory is in that error's plan."""
         halt = bytes((view.header.halt | Halt.TRAP,))
-        return Plan((Patch.whole(Layout.FATAL, halt), *outputs_off(view)), str(self.info))
+        off = () if self.info.kind == TrapKind.FATAL else outputs_off(view)
+        return Plan((Patch.whole(Layout.FATAL, halt), *off), str(self.info))
 
 
 def trap_info(program: Program, trap: int, scan: int) -> TrapInfo:

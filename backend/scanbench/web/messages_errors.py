@@ -253,7 +253,7 @@ class PreviewedWrite(Wire):
     before: str
     after: str
     what: Literal["detail", "code", "flag", "log", "time", "outputs", "other"] = Field(
-        description="time: when the latest error came; outputs: switched off by a fatal error"
+        description="time: when the latest error came; outputs: cleared by a fatal error, unless memory is held"
     )
     error: str = Field(description="which error writes it; empty for the code word, the log and the time")
 

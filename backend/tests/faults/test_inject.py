@@ -7,6 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
+from scanbench.faults.detect import Detection
 from scanbench.faults.history import History
 from scanbench.faults.inject import ACTIVE, Generate, Recover
 from scanbench.faults.reference import ErrorRef, parse_reference
@@ -70,13 +71,34 @@ def test_a_nonfatal_error_is_seen_by_the_next_scan() -> None:
     assert value(resource, "A408") == 0x0103
 
 
-def test_the_hold_bit_keeps_memory_but_not_outputs() -> None:
+@pytest.mark.parametrize(("hold", "error", "held"), [
+    ("TRUE", "memory-error:program-checksum", True), ("FALSE", "memory-error:program-checksum", False),
+    ("FALSE", "fals:number=5", True), ("FALSE", "fals:number=5 memory-error:program-checksum", False),
+])  # fmt: skip
+def test_where_memory_is_held_that_of_the_outputs_is_too(hold: str, error: str, held: bool) -> None:
     resource = plc(SOURCE)
     resource.run(3)
-    resource.submit(Write("Ada", "A500.12", "TRUE"))
-    generate(resource, "memory-error:program-checksum")
-    assert value(resource, "Main.work") == 3
-    assert value(resource, "Main.out") is False
+    resource.submit(Write("Ada", "A500.12", hold))
+    entry = generate(resource, *error.split())
+    assert isinstance(entry, Entry)
+    assert value(resource, "Main.work") == (3 if held else 0)
+    assert value(resource, "Main.out") is held
+    assert entry.plan.message.endswith(", outputs off; memory is held, that of the outputs too") is held
+
+
+@pytest.mark.parametrize("hold", [True, False])
+def test_a_run_time_error_holds_memory_with_the_hold_bit(hold: bool) -> None:
+    source = SOURCE.replace("END_VAR", "d : INT := 1; END_VAR").replace("END_PROGRAM", "work := work / d;\nEND_PROGRAM")
+    resource = plc(source)
+    resource.detect = Detection()
+    resource.run(3)
+    resource.submit(Write("Ada", "A500.12", "TRUE" if hold else "FALSE"))
+    resource.submit(Write("Ada", "Main.d", "0"))
+    resource.run(1)
+    assert resource.trap is not None
+    assert value(resource, "Main.out") is hold
+    assert value(resource, "Main.work") == (4 if hold else 0)
+    assert "program-error" in resource.journal.derived(ACTIVE)
 
 
 def test_the_code_word_shows_the_most_serious_and_falls_back() -> None:

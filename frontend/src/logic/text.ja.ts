@@ -286,7 +286,7 @@ export const japanese: Record<TextKey, string> = {
   "explorer.program": "プログラム",
   "explorer.type": "データ型",
   "failed.title": "PLC を起動できません。",
-  "fatal.about": "スキャン {scan} で停止、出力オフ。解除してから MONITOR か RUN を選んでください。",
+  "fatal.about": "スキャン {scan} で停止、出力オフ（メモリ保持時も同じ）。解除してから MONITOR か RUN を選んでください。",
   "fatal.clear": "異常を解除",
   "fatal.clear.all": "{count} 件の異常をすべて解除",
   "fatal.plain": "運転停止異常",
@@ -523,7 +523,7 @@ export const japanese: Record<TextKey, string> = {
   "theme.light": "ライト",
   "theme.switch": "テーマ: {theme}",
   "trap.about":
-    "プログラムは停止しました。次に: 修正してビルド、または変数を保ったまま解除して続行、またはすべて初期化してコールドリスタート。",
+    "プログラムは停止し、出力はオフです（メモリ保持時も同じ）。次に: 修正してビルド、または変数を保ったまま解除して続行、またはすべて初期化してコールドリスタート。",
   "trap.at": "、",
   "trap.cold": "リスタート（コールド）",
   "trap.cold.hint": "変数、メモリ、異常のすべてが初期化されます",

@@ -4193,7 +4193,7 @@ export interface components {
             error: string;
             /**
              * What
-             * @description time: when the latest error came; outputs: switched off by a fatal error
+             * @description time: when the latest error came; outputs: cleared by a fatal error, unless memory is held
              * @enum {string}
              */
             what: "detail" | "code" | "flag" | "log" | "time" | "outputs" | "other";
