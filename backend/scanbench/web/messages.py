@@ -183,6 +183,9 @@ class ModelSummary(Wire):
 class ModelInfo(ModelSummary):
     areas: list[Area]
     code_word: str | None = Field(description="address of the error code word, e.g. A400")
+    code_words: list[str] = Field(
+        description="the words of the error code, the low one first; two where it has 32 bits"
+    )
     status_words: list[str] = Field(description="words shown under the tree, e.g. A400, A401, A402")
     catalogue: list[ErrorGroup]
 

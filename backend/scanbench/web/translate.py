@@ -326,6 +326,9 @@ def model_info(model: plc.Model) -> wire.ModelInfo:
         **model_summary(model).model_dump(),
         areas=[_area(model, area, part) for area in model.areas for part in area.ranges],
         code_word=None if word is None else model.format(word.area, word.byte, word.bit, word.bits),
+        code_words=[]
+        if word is None
+        else [model.format(word.area, word.byte + at, None, 16) for at in range(0, word.bits // 8, 2)],
         status_words=list(model.status_words),
         catalogue=translate_errors.groups(model.catalogue),
     )

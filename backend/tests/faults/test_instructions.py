@@ -134,7 +134,10 @@ def test_a_fatal_instruction_stops_right_there(engine: EngineFactory) -> None:
     go(resource, 10)
     assert [value(resource, word) for word in ("A400", "A401", "A100", "A300")] == [0xC105, 1 << 6, 0xC105, 1]
     assert (value(resource, "Main.before"), value(resource, "Main.behind"), resource.header.scan) == (5, 4, 4)
-    assert (value(resource, "motor"), value(resource, "Main.work")) == (True, 5)  # FALS keeps the memory, that of the outputs too
+    assert (value(resource, "motor"), value(resource, "Main.work")) == (
+        True,
+        5,
+    )  # FALS keeps the memory, that of the outputs too
     trap = resource.trap
     assert trap is not None
     assert (trap.kind, SOURCE.splitlines()[trap.line - 1].strip()[:16]) == ("fatal", "IF fatal <> 0 TH")

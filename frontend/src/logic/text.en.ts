@@ -283,7 +283,8 @@ export const english = {
   "explorer.program": "Programs",
   "explorer.type": "Types",
   "failed.title": "The PLC cannot be started.",
-  "fatal.about": "Stopped in scan {scan}, outputs off, even where memory is held. Next: clear it, then choose MONITOR or RUN.",
+  "fatal.about":
+    "Stopped in scan {scan}, outputs off, even where memory is held. Next: clear it, then choose MONITOR or RUN.",
   "fatal.clear": "Clear error",
   "fatal.clear.all": "Clear all {count} errors",
   "fatal.plain": "Fatal error",

@@ -286,7 +286,8 @@ export const japanese: Record<TextKey, string> = {
   "explorer.program": "プログラム",
   "explorer.type": "データ型",
   "failed.title": "PLC を起動できません。",
-  "fatal.about": "スキャン {scan} で停止、出力オフ（メモリ保持時も同じ）。解除してから MONITOR か RUN を選んでください。",
+  "fatal.about":
+    "スキャン {scan} で停止、出力オフ（メモリ保持時も同じ）。解除してから MONITOR か RUN を選んでください。",
   "fatal.clear": "異常を解除",
   "fatal.clear.all": "{count} 件の異常をすべて解除",
   "fatal.plain": "運転停止異常",

@@ -3801,6 +3801,11 @@ export interface components {
              * @description address of the error code word, e.g. A400
              */
             code_word: string | null;
+            /**
+             * Code Words
+             * @description the words of the error code, the low one first; two where it has 32 bits
+             */
+            code_words: string[];
             /** Description */
             description: string;
             /** Error Count */

@@ -78,7 +78,7 @@ function Simulator({ model }: { model: ModelInfo }) {
       {error && <Details error={error} />}
       {!error && untouched && <FirstSteps />}
       <ArmedList />
-      <StatusWords words={model.status_words} />
+      <StatusWords words={model.status_words} code={model.code_words} />
       <Actions refusedInTree={refused !== null} />
       {asking && <DetailsDialog errors={errors.filter((known) => asking.includes(known.id))} />}
     </>

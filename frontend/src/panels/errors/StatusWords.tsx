@@ -1,18 +1,27 @@
 import { useEffect, useRef } from "react";
+import { statusWords } from "../../logic/statusWords";
 import { t } from "../../logic/text";
 import { bindCell } from "../../store/values";
 import { useWatches, watch } from "../../store/watches";
 
 /** The words of the error memory, live: what the program sees. */
-export function StatusWords({ words }: { words: readonly string[] }) {
-  const key = words.join(" ");
+export function StatusWords({ words, code }: { words: readonly string[]; code: readonly string[] }) {
+  const shown = statusWords(words, code);
+  const key = shown.flat().join(" ");
   // biome-ignore lint/correctness/useExhaustiveDependencies: the same words are the same watch
-  useEffect(() => watch(words), [key]);
+  useEffect(() => watch(shown.flat()), [key]);
   if (words.length === 0) return null;
   return (
     <div className="mem" role="group" aria-label={t("errors.memory")} title={t("errors.memory")}>
-      {words.map((word) => (
-        <Word key={word} word={word} />
+      {shown.map((parts) => (
+        <span key={parts[0]}>
+          {parts[0]}
+          <b data-testid={`word:${parts[0]}`}>
+            {parts.toReversed().map((word) => (
+              <Word key={word} word={word} />
+            ))}
+          </b>
+        </span>
       ))}
       <span className="grow" />
       <span className="faint caption">{t("errors.memory")}</span>
@@ -31,10 +40,5 @@ function Word({ word }: { word: string }) {
       }),
     [word, known],
   );
-  return (
-    <span>
-      {word}
-      <b ref={text} data-testid={`word:${word}`} />
-    </span>
-  );
+  return <span ref={text} />;
 }
