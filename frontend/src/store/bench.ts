@@ -113,9 +113,15 @@ async function look(project: Project, instance: Instance | null): Promise<void> 
 async function loadModel(): Promise<void> {
   const { project, instance } = get();
   if (!project) return;
-  const model = await (instance ? rest.instanceModel(instance.id) : rest.model(project.model));
+  const model = await (instance ? rest.instanceModel(instance.id) : rest.model(project.model).catch(noSuchModel));
   const now = get();
   if (now.project?.id === project.id && now.instance?.id === instance?.id) set({ model });
+}
+
+/** The model file of a project may be gone; the project can be looked at and deleted all the same. */
+function noSuchModel(error: unknown): null {
+  if (error instanceof Refused && error.status === 422) return null;
+  throw error;
 }
 
 // Another program of the project may have other errors of its own.
