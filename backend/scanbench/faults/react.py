@@ -239,14 +239,16 @@ class _Run:
         under_way = effects.under_way() if first is None else {}
         if under_way:
             first = min(under_way.values())
-        missed = () if readers or effects.count else self._missed()
+        missed = self._missed() if first is None else ()
         verdict: Verdict
         if first is not None:
             verdict = "reacted"
+        elif missed:
+            verdict = "not_reached"
         elif effects.count:
             verdict = "stored_only"
         else:
-            verdict = "no_effect" if readers else "not_reached" if missed else "never_read"
+            verdict = "no_effect" if readers else "never_read"
         return Reaction(
             verdict,
             scans,

@@ -48,6 +48,8 @@ LENGTH = struct.Struct("<I")
 LARGEST = 1 << 30
 _OBJECT = 1
 _LARGEST_NUMBER = 1 << 63
+_DEEPEST = 64
+_Read = Callable[[int, bytes], object]
 
 _CLASSES: dict[str, type] = {
     cls.__name__: cls
@@ -102,7 +104,7 @@ def pack(message: object) -> bytes:
     return LENGTH.pack(len(body)) + body
 
 
-def unpack(body: bytes, read: Callable[[int, bytes], object] | None = None) -> object:
+def unpack(body: bytes, read: _Read | None = None) -> object:
     """The message in `body`, which comes without its length."""
     try:
         return msgpack.unpackb(body, ext_hook=read or _read, use_list=False, strict_map_key=False, timestamp=3)
@@ -165,22 +167,32 @@ def _write(value: object) -> msgpack.ExtType:
     return msgpack.ExtType(_OBJECT, pack_body([name, *(getattr(value, field) for field in _FIELDS[name])]))
 
 
-def _read(code: int, data: bytes) -> object:
-    name, values = _parts(code, data, _read)
-    return _CLASSES[name](*values)
+def _reader(deeper: _Read, bounded: bool) -> _Read:
+    def read(code: int, data: bytes) -> object:
+        if code != _OBJECT:
+            raise ValueError(f"unknown kind of value {code}")
+        name, *values = msgpack.unpackb(data, ext_hook=deeper, use_list=False, strict_map_key=False, timestamp=3)
+        if bounded:
+            for value in values:
+                if isinstance(value, int) and not -_LARGEST_NUMBER <= value < _LARGEST_NUMBER:
+                    raise ValueError(f"{value} is too large a number for anything in {name}")
+        return _CLASSES[name](*values)
+
+    return read
 
 
-def _read_entry(code: int, data: bytes) -> object:
-    """Of a run file, which may come from anywhere: what is counted on from a number has to stay one that can be written."""
-    name, values = _parts(code, data, _read_entry)
-    for value in values:
-        if isinstance(value, int) and not -_LARGEST_NUMBER <= value < _LARGEST_NUMBER:
-            raise ValueError(f"{value} is too large a number for anything in {name}")
-    return _CLASSES[name](*values)
+def _too_deep(code: int, data: bytes) -> object:
+    raise ValueError(f"objects within objects, more than {_DEEPEST} deep")
 
 
-def _parts(code: int, data: bytes, read: Callable[[int, bytes], object]) -> tuple[str, list[object]]:
-    if code != _OBJECT:
-        raise ValueError(f"unknown kind of value {code}")
-    name, *values = msgpack.unpackb(data, ext_hook=read, use_list=False, strict_map_key=False, timestamp=3)
-    return name, values
+def _readers(bounded: bool) -> _Read:
+    """Reads an object and what is within it. A file may come from anywhere: each level takes its part of the C stack."""
+    read: _Read = _too_deep
+    for _ in range(_DEEPEST):
+        read = _reader(read, bounded)
+    return read
+
+
+_read = _readers(bounded=False)
+_read_entry = _readers(bounded=True)
+"""Of a run file: what is counted on from a number has to stay one that can be written."""

@@ -197,6 +197,7 @@ class Instance:
 
     async def _live(self) -> str | None:
         """One life of the process; returns why it must not be started again, or None."""
+        self._no_space = False
         ours, theirs = socket.socketpair()
         try:
             with theirs:
@@ -213,7 +214,6 @@ class Instance:
         if self.state.state not in ("restarting", "no_space"):
             self._set_state(state="starting", message="starting", pid=process.pid)
         failure: str | None = None
-        self._no_space = False
         looking = asyncio.get_running_loop().create_task(self._look(writer))
         try:
             while True:
@@ -438,7 +438,7 @@ class Instance:
             await self._reached()
         if self._writer is None or self._writer.is_closing():
             hint = "Switch it on first" if self.state.state == "off" else "Try again in a moment"
-            raise Unavailable(f"the PLC is {self.state.state}: {self.state.message}. {hint}")
+            raise Unavailable(f"the PLC is {self.state.state.replace('_', ' ')}: {self.state.message}. {hint}")
         if self._before_silence is not None:
             raise Unavailable(f"nothing was changed: {self.state.message}")
         ref, self._next_ref = self._next_ref, self._next_ref + 1

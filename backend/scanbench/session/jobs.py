@@ -5,6 +5,7 @@ import logging
 import socket
 from collections.abc import Callable
 from pathlib import Path
+from typing import TypeVar
 
 from scanbench.session.codec import LARGEST, LENGTH, BadMessage, pack, unpack
 from scanbench.session.nursery import NoProcess, Process, nursery
@@ -16,6 +17,18 @@ ANSWER_S = 120.0
 SLOW = f"it took longer than {ANSWER_S:g} s, and was given up: ask for fewer scans, or try again"
 _UNREAD_BYTES = 64 << 20
 """More than this not read by a process: it is ended."""
+_T = TypeVar("_T")
+
+
+async def answered(future: asyncio.Future[_T], seconds: float, count: Callable[[], int]) -> _T:
+    """The answer of a process that answers one question after the other. `TimeoutError` when none at all, of which `count`
+    gives the number, has come for so many seconds: those before it have their own time."""
+    while not future.done():
+        before = count()
+        await asyncio.wait((future,), timeout=seconds)
+        if not future.done() and count() == before:
+            raise TimeoutError
+    return future.result()
 
 
 class Job:

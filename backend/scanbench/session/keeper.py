@@ -123,10 +123,7 @@ class Keeper:
             del breakpoints[instance]
         while traces:
             instance, contents = next(iter(traces.items()))
-            try:
-                self._store.keep_traces(instance, contents)
-            except NotFound as error:
-                log.error("the traces of instance %d could not be written: %s", instance, error)
+            self._keep_traces(instance, contents)
             del traces[instance]
 
     def _put_back(self, rows: _Rows, lines: _Lines, breakpoints: _Breakpoints, traces: _Traces) -> None:
@@ -143,6 +140,12 @@ class Keeper:
             self._store.keep_breakpoints(instance, [asdict(each) for each in shared])
 
         _write_most(f"the breakpoints of instance {instance}", [shared], write)
+
+    def _keep_traces(self, instance: int, contents: Mapping[int, Json]) -> None:
+        def write(_all: Sequence[object]) -> None:
+            self._store.keep_traces(instance, contents)
+
+        _write_most(f"the traces of instance {instance}", [contents], write)
 
     def _keep_rows(self, instance: int, rows: Sequence[ErrorRow]) -> None:
         def write(some: Sequence[ErrorRow]) -> None:

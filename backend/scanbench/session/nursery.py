@@ -158,6 +158,8 @@ class Nursery:
         return reply
 
     def _connected(self) -> socket.socket:
+        if self._process is not None and self._process.poll() is not None:
+            self._end()
         if self._sock is None:
             if self._closing:
                 raise NoProcess("no process is started any more: the server ends")

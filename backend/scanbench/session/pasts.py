@@ -7,7 +7,7 @@ from pathlib import Path
 
 from scanbench.runtime.clock import fresh_token
 from scanbench.session.events import ComparisonChanged, Event, RerunChanged
-from scanbench.session.jobs import ANSWER_S, DIED, SLOW, Job
+from scanbench.session.jobs import ANSWER_S, DIED, SLOW, Job, answered
 from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.session.verify_protocol import (
@@ -55,7 +55,7 @@ class Pasts:
     """All of a server."""
 
     def __init__(self, runs: Path, cache: Path, open: Open, answer_s: float = ANSWER_S) -> None:
-        self._answer_s = answer_s
+        self._answer_s, self._answered = answer_s, 0
         self._runs, self._cache, self._open = runs, cache, open
         self._asking: Job | None = None
         self._answers: dict[int, asyncio.Future[object]] = {}
@@ -121,7 +121,7 @@ class Pasts:
         future = self._answers[ref] = asyncio.get_running_loop().create_future()
         job.ask(make(ref))
         try:
-            answer = await asyncio.wait_for(future, self._answer_s)
+            answer = await answered(future, self._answer_s, lambda: self._answered)
         except TimeoutError:
             self._answers.pop(ref, None)
             self._do(job.end())  # what else it was asked is told that it died
@@ -131,6 +131,7 @@ class Pasts:
         return answer
 
     def _on_answer(self, message: object) -> None:
+        self._answered += 1
         future = self._answers.pop(getattr(message, "ref", 0), None)
         if future is not None and not future.done():
             future.set_result(message)

@@ -5,7 +5,7 @@ from pathlib import Path
 
 from scanbench.faults.reaction import Reaction
 from scanbench.session import job_protocol
-from scanbench.session.jobs import ANSWER_S, DIED, SLOW, Job
+from scanbench.session.jobs import ANSWER_S, DIED, SLOW, Job, answered
 
 IDLE_S = 60.0
 """So long without a question, and the process ends."""
@@ -19,6 +19,7 @@ class Reactions:
         self._job: Job | None = None
         self._answers: dict[int, asyncio.Future[job_protocol.Reacted]] = {}
         self._next_ref = 1
+        self._answered = 0
         self._idle: asyncio.TimerHandle | None = None
         self._closing: set[asyncio.Task[None]] = set()
 
@@ -34,7 +35,7 @@ class Reactions:
         job = self._job
         job.ask(job_protocol.FindReaction(ref, str(run), error, scan, end, window))
         try:
-            answer = await asyncio.wait_for(future, self._answer_s)
+            answer = await answered(future, self._answer_s, lambda: self._answered)
         except TimeoutError:
             self._answers.pop(ref, None)
             self._end(job)  # what else it was asked is told that it died
@@ -58,6 +59,7 @@ class Reactions:
             self._idle = asyncio.get_running_loop().call_later(IDLE_S, self._rest)
 
     def _answer(self, reacted: job_protocol.Reacted) -> None:
+        self._answered += 1
         future = self._answers.pop(reacted.ref, None)
         if future is not None and not future.done():
             future.set_result(reacted)

@@ -65,7 +65,7 @@ class Solo:
     async def standing(self) -> None:
         """Waits until the PLC is there and stands; `Refused` when it cannot be there."""
         while self.session.state.state not in _STANDS:
-            if self.session.state.state == "failed":
+            if self.session.state.state in ("failed", "no_space"):
                 raise Refused(self.session.state.message)
             await asyncio.sleep(0.01)
 

@@ -60,6 +60,7 @@ class Verifications:
         self._store, self._directory, self._cache = store, directory, cache
         self._all: dict[int, Verification] = {}
         self._next = 1
+        self._room = asyncio.Lock()
         self._told: dict[int, tuple[int, VerificationStatus]] = {}
         """Of each when it was told last, and what."""
         self._later: asyncio.TimerHandle | None = None
@@ -106,11 +107,12 @@ class Verifications:
     async def _begin(
         self, session: Session, wanted: VerifyWish, trace: TraceSource | None, author: str
     ) -> VerificationStatus:  # fmt: skip
-        await self._make_room()
-        id, self._next = self._next, self._next + 1
-        made = self._all[id] = Verification(
-            id, session, wanted, trace, author, self._cache, self._on_change, self._hand_over
-        )
+        async with self._room:
+            await self._make_room()
+            id, self._next = self._next, self._next + 1
+            made = self._all[id] = Verification(
+                id, session, wanted, trace, author, self._cache, self._on_change, self._hand_over
+            )
         try:
             await made.begin()
         except BaseException:

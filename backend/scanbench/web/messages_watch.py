@@ -2,7 +2,7 @@
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, StringConstraints
 
 from scanbench.web.messages_base import Version, Wire
 
@@ -17,7 +17,9 @@ GroupName = Annotated[str, Field(max_length=100)]
 class WatchEntry(Wire):
     """A line of a watch list."""
 
-    path: str = Field(min_length=1, max_length=500, description="instance path, address, or range of addresses (W10:8)")
+    path: Annotated[str, StringConstraints(strip_whitespace=True)] = Field(
+        min_length=1, max_length=500, description="instance path, address, or range of addresses (W10:8)"
+    )
     group: GroupName = Field(default="", description="one of the list's groups; empty: above them all")
     format: Format = "default"
 

@@ -27,6 +27,7 @@ def parse_public_url(text: str) -> PublicUrl:
     try:
         url = urlsplit(text.strip())
         host, port = url.hostname, url.port
+        host = host.encode("idna").decode() if host and not host.isascii() else host
     except ValueError as error:
         raise BadPublicUrl(f"{how} ({error})") from error
     if url.scheme not in _PORTS or not host:

@@ -64,5 +64,5 @@ def _shown(row: WatchListRow) -> wire.WatchList:
 
 
 def _content(given: wire.NewWatchList) -> WatchContent:
-    entries = (WatchEntry(each.path.strip(), each.group, each.format) for each in given.entries)
+    entries = (WatchEntry(each.path, each.group, each.format) for each in given.entries)
     return WatchContent(tuple(given.groups), tuple(entries))

@@ -676,6 +676,15 @@ def test_a_read_now_and_then_is_not_never(make: MakeObserved) -> None:
     assert reaction(source, "basic-io-error", make).verdict == "never_read"
 
 
+def test_a_copy_beside_it_does_not_hide_what_was_not_reached(make: MakeObserved) -> None:
+    body = "copy := battery;\nn := n + 1;\nIF n MOD 500 = 499 THEN\nlamp := battery;\nEND_IF;"
+    source = handling("n : INT; copy : BOOL;", body)
+    found = reaction(source, "battery-error", make)
+    assert found.verdict == "not_reached"
+    assert f"main.st:{line('lamp := battery', source)} (Main)" in found.note
+    assert [each.line for each in found.readers] == [line("copy := battery", source)]
+
+
 def test_what_is_not_reached_is_named_with_its_instances(make: MakeObserved) -> None:
     source = """
 FUNCTION_BLOCK Part

@@ -29,6 +29,8 @@ class Child:
         self.process = subprocess.Popen(command, pass_fds=[theirs.fileno()])
         theirs.close()
         self.messages: list[object] = []
+        self.state: protocol.HostState | None = None
+        """What was told last of it."""
         self._ref = 0
         sources = Sources(MODEL, {"main.st": source}, 10_000_000, 1)
         self.send(protocol.Start("plc", sources, str(run), None, None, None, until, driven))
@@ -53,7 +55,14 @@ class Child:
         assert data, "the host has ended"
         new = list(self._splitter.feed(data))
         self.messages += new
+        self.state = next((each for each in reversed(new) if isinstance(each, protocol.HostState)), self.state)
         return new
+
+    def until(self, test: Callable[[protocol.HostState], bool]) -> protocol.HostState:
+        """Its state, when it is like that; also where that was told before other messages."""
+        while self.state is None or not test(self.state):
+            self.take()
+        return self.state
 
     def wait(self, kind: type[T], test: Callable[[T], bool] = lambda message: True) -> T:
         """The first message of this kind that is to come (or came, of those not looked at yet)."""

@@ -40,7 +40,7 @@ def test_it_waits_and_refuses_until_there_is_room(tmp_path: Path) -> None:
             refused = submit(child, command)
             assert not refused.ok
             assert "no space" in refused.message
-        waiting = child.wait(HostState, lambda state: state.state == "no_space")
+        waiting = child.until(lambda state: state.state == "no_space")
         assert "is room" in waiting.message
         for action in ("continue", "scan", "pause", "speed"):
             driven = child.ask(lambda ref: protocol.Drive(ref, action, 10, "Ann"), protocol.Ack)  # noqa: B023
@@ -50,7 +50,7 @@ def test_it_waits_and_refuses_until_there_is_room(tmp_path: Path) -> None:
         assert (child.value("D100"), child.value("D101")) == ("16#000B", "16#0000")
 
         room(child.process.pid, NO_LIMIT)
-        running = child.wait(HostState, lambda state: state.state == "running" and state.scan > waiting.scan)
+        running = child.until(lambda state: state.state == "running" and state.scan > waiting.scan)
         assert running.speed == 1.0
         assert submit(child, Force("Ann", "D101", "5")).ok
         room(child.process.pid, run.stat().st_size + 10)

@@ -80,6 +80,24 @@ def test_bytes_that_are_no_message(body: bytes) -> None:
         unpack(body)
 
 
+def test_objects_within_objects_have_a_bound() -> None:
+    """A file from elsewhere may hold any number of them in a few bytes, and each takes its part of the stack."""
+    packed = b"\x01"
+    for _ in range(5_000):
+        packed = msgpack.packb(["Write", msgpack.ExtType(_kind(), packed)])
+    with pytest.raises(BadMessage, match="deep"):
+        ENTRIES.unpack(packed)
+    with pytest.raises(BadMessage, match="deep"):
+        unpack(packed)
+
+
+def _kind() -> int:
+    """The number that objects have among the kinds of values."""
+    found = msgpack.unpackb(pack_body(Release("Ann", "D100")))
+    assert isinstance(found, msgpack.ExtType)
+    return int(found.code)
+
+
 def test_what_is_not_in_the_protocol_cannot_be_sent() -> None:
     with pytest.raises(TypeError, match="Stranger"):
         pack(dataclasses.make_dataclass("Stranger", [])())

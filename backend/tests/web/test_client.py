@@ -70,8 +70,10 @@ def test_a_run_until_ends_where_the_condition_holds(plc: Plc) -> None:
 
 
 def test_a_fatal_error_is_not_the_end_of_a_script(server: Server) -> None:
-    server.instance("fatal", "CJ1M-CPU63", main="PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n")
-    plc = connect(server.address, user="Ann").plc("fatal")
+    server.instance(
+        "fatal for scripts", "CJ1M-CPU63", main="PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"
+    )
+    plc = connect(server.address, user="Ann").plc("fatal for scripts")
     plc.run(scans=3)
     plc.raise_error("memory-error", location="io-table-checksum")
     assert plc.read("A401.15") == "TRUE"

@@ -66,6 +66,7 @@ def test_the_public_address_is_let_through(host: str) -> None:
     ("text", "origin", "host"),
     [
         ("https://Bench.Example.com/", "https://bench.example.com", "bench.example.com"),
+        ("https://B\u00fccher.example", "https://xn--bcher-kva.example", "xn--bcher-kva.example"),
         ("https://bench.example.com:443", "https://bench.example.com", "bench.example.com"),
         ("http://bench.example.com:8080", "http://bench.example.com:8080", "bench.example.com"),
         ("http://[2001:DB8::7]:8700", "http://[2001:db8::7]:8700", "2001:db8::7"),

@@ -58,6 +58,7 @@ def test_what_is_no_list_is_refused(server: Server) -> None:
         ({"name": "", "shared": True}, "name"),
         ({"name": "x", "shared": True, "entries": [{"path": "D1", "format": "octal"}]}, "format"),
         ({"name": "x", "shared": True, "entries": [{"path": ""}]}, "path"),
+        ({"name": "x", "shared": True, "entries": [{"path": " "}]}, "path"),
     ):
         refused = server.http.post(at, json=body)
         assert refused.status_code == 422

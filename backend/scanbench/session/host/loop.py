@@ -472,4 +472,8 @@ def driven_of(timeline: Timeline) -> protocol.Driven:
         driven = unpack(kept) if kept else None
     except BadMessage:
         driven = None
-    return driven if isinstance(driven, protocol.Driven) else protocol.Driven()
+    match driven:
+        case protocol.Driven(int() | float(), bool(), int() | None, str() | None, bool()):
+            return driven
+        case _:
+            return protocol.Driven()

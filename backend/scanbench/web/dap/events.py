@@ -77,7 +77,7 @@ class Events:
             self.say(text, "important")
             if state.state != "restarting":
                 self._on_gone(text)
-        elif state.state == "silent":
+        elif state.state in ("silent", "no_space"):
             self.say(state.message, "important")
         elif state.state in ("trapped", "fatal"):
             self.say(f"the program is stopped: {state.message}", "important")
