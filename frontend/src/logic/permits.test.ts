@@ -26,7 +26,7 @@ const monitor: InstanceState = {
 
 describe("permits", () => {
   it("MONITOR takes everything", () => {
-    for (const deed of ["write", "force", "errors", "mode", "run", "restart", "change"] as const)
+    for (const deed of ["write", "force", "errors", "mode", "run", "restart", "anew", "change"] as const)
       expect(forbidden(monitor, true, deed)).toBeNull();
   });
 
@@ -41,6 +41,25 @@ describe("permits", () => {
     expect(forbidden(run, true, "force")).toBe("permit.run");
     expect(forbidden(run, true, "change")).toBe("permit.run.change");
     for (const deed of ["errors", "mode", "run", "restart"] as const) expect(forbidden(run, true, deed)).toBeNull();
+  });
+
+  it("nothing reaches a PLC that does not answer, waits for space without a process, or cannot be started", () => {
+    const away = {
+      "permit.silent": { ...monitor, state: "silent" },
+      "permit.no_space": { ...monitor, state: "no_space", pid: null },
+      "permit.failed": { ...monitor, state: "failed", pid: null },
+    } as const;
+    for (const [why, state] of Object.entries(away)) {
+      for (const deed of ["write", "force", "errors", "mode", "run", "restart", "change", "travel"] as const)
+        expect(forbidden(state, true, deed)).toBe(why);
+      expect(forbidden({ ...state, past: { live_scan: 9, by: "Ann" } }, true, "travel")).toBe(why);
+      expect(forbidden(state, true, "anew")).toBeNull();
+      expect(forbidden(state, true, "build")).toBeNull();
+    }
+  });
+
+  it("a PLC that has a process answers while it waits for space", () => {
+    expect(forbidden({ ...monitor, state: "no_space" }, true, "write")).toBeNull();
   });
 
   it("nothing is done to the past, to a PLC that is off, and without a connection", () => {

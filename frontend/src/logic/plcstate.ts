@@ -44,6 +44,9 @@ const LOOKS: Record<RunState, { tone: Tone; icon: StateIcon }> = {
   no_space: { tone: "fatal", icon: "wait" },
 };
 
+/** Whether the PLC has no process, because its run cannot be recorded. One that has a process answers while it waits for space. */
+export const waitsForSpace = (state: InstanceState) => state.state === "no_space" && state.pid === null;
+
 export function showState(state: InstanceState | null, connected: boolean): ShownState {
   if (!connected || !state) {
     return { tone: "stale", icon: "lost", word: t("state.unknown"), detail: t("state.noconnection") };

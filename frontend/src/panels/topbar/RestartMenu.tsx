@@ -11,7 +11,8 @@ const KINDS: readonly RestartKind[] = ["cold", "warm", "power"];
 
 /** The ways to begin anew, each with what it keeps; a new run; and the way back to the program before. */
 export function RestartMenu() {
-  const forbidden = useForbidden("restart");
+  const forbidden = useForbidden("anew");
+  const noRestart = useForbidden("restart");
   const noChange = useForbidden("change");
   const previous = usePlc((plc) => plc.state?.previous_version ?? null);
   const [asking, setAsking] = useState(false);
@@ -21,7 +22,8 @@ export function RestartMenu() {
       (kind): MenuItem => ({
         label: t(`restart.${kind}`),
         icon: kind === "power" ? "off" : "refresh",
-        hint: t(`restart.${kind}.hint`),
+        hint: noRestart ?? t(`restart.${kind}.hint`),
+        disabled: noRestart !== null,
         onSelect: () => void restart(kind),
       }),
     ),
