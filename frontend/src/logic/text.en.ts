@@ -701,6 +701,7 @@ export const english = {
   "model.errors.none": "no errors",
   "model.retain": "Retained",
   "model.retain.yes": "kept",
+  "no_space.title": "The PLC waits for space on the disk.",
   "off.about": "Its memory and its run are kept. Switched on, it goes on where it was.",
   "off.title": "{name} is switched off.",
   "past.branch": "Branch from here",

@@ -701,6 +701,7 @@ export const japanese: Record<TextKey, string> = {
   "model.errors.none": "異常なし",
   "model.retain": "保持",
   "model.retain.yes": "保持",
+  "no_space.title": "PLC はディスクの空きを待っています。",
   "off.about": "メモリと実行は残っています。電源を入れると、止まった所から続きます。",
   "off.title": "{name} は電源が切れています。",
   "past.branch": "ここから分岐",

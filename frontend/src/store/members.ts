@@ -1,5 +1,6 @@
 /** The members of structures, arrays and blocks of the running program, fetched when something is unfolded. */
 import { create } from "zustand";
+import { waitsForSpace } from "../logic/plcstate";
 import { rest } from "../wire/rest";
 import type { PlcSymbol } from "../wire/types";
 import { usePlc } from "./plc";
@@ -23,10 +24,11 @@ usePlc.subscribe(({ state: now }, { state: before }) => {
   if (now && before && now.program_version !== before.program_version) resetMembers(useMembers.getState().instance);
 });
 
-/** Whether the PLC cannot tell its variables now: before it runs, and while it is switched off. */
+/** Whether the PLC cannot tell its variables now: before it runs, and while it has no process or does not answer. */
 export function isAway(): boolean {
   const { state } = usePlc.getState();
-  return state === null || ["off", "starting", "restarting", "silent", "failed"].includes(state.state);
+  if (state === null || waitsForSpace(state)) return true;
+  return ["off", "starting", "restarting", "silent", "failed"].includes(state.state);
 }
 
 /** Fetches the members below a path ('' is the top: programs and globals), once. */

@@ -1,3 +1,4 @@
+import { waitsForSpace } from "../../logic/plcstate";
 import { usePlc } from "../../store/plc";
 import { FatalBanner } from "./FatalBanner";
 import { LinkBanner } from "./LinkBanner";
@@ -7,6 +8,7 @@ import { PastBanner } from "./PastBanner";
 import { RecordingBanner } from "./RecordingBanner";
 import { RerunBanners } from "./RerunBanner";
 import { RestartingBanner } from "./RestartingBanner";
+import { SpaceBanner } from "./SpaceBanner";
 import { TrapBanner } from "./TrapBanner";
 
 /** At most one banner about the PLC, the most serious: no connection, then what stops it; and one about its recording. Below: the link that was
@@ -40,6 +42,9 @@ function PlcBanner() {
       return <PastBanner state={state} />;
     case "off":
       return <OffBanner />;
+    case "no_space":
+      // One that has a process tells of it as trouble of its recording.
+      return waitsForSpace(state) ? <SpaceBanner state={state} /> : null;
     default:
       return null;
   }
