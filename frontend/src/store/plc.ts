@@ -10,7 +10,7 @@ export type { LinkStatus } from "../wire/socket";
 
 const LOG_LIMIT = 5000;
 
-interface Plc {
+export interface Plc {
   link: LinkStatus;
   state: InstanceState | null;
   you: User | null;

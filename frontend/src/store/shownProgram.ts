@@ -4,7 +4,7 @@ import { rest } from "../wire/rest";
 import type { Pou, ProgramText } from "../wire/types";
 import { useBench } from "./bench";
 import { messageOf, useDocuments } from "./documents";
-import { usePlc } from "./plc";
+import { type Plc, usePlc } from "./plc";
 
 interface ShownProgram {
   /** The version that ran in the past that is shown; null while the texts of the project are shown. */
@@ -36,18 +36,41 @@ function follow(): void {
   if (program === null) void load(instance.id, version, key);
 }
 
+/** A PLC that could not be asked may be asked again: there is a connection once more, or it is in another state. */
+const isBack = (now: Plc, before: Plc) =>
+  now.link.state === "open" && (before.link.state !== "open" || now.state?.state !== before.state?.state);
+
+function tryAgain(): void {
+  const { version, refused } = useShownProgram.getState();
+  const { instance } = useBench.getState();
+  if (version === null || refused === null || instance === null) return;
+  useShownProgram.setState({ refused: null });
+  void load(instance.id, version, `${instance.id}:${version}`);
+}
+
+/** How often a PLC came back. */
+let returns = 0;
+
 async function load(instance: number, version: number, key: string): Promise<void> {
+  const before = returns;
   const shown = () => useShownProgram.getState().version === version && useBench.getState().instance?.id === instance;
   try {
     const program = await rest.programText(instance, version);
     fetched.set(key, program);
     if (shown()) useShownProgram.setState({ program });
   } catch (error) {
-    if (shown()) useShownProgram.setState({ refused: messageOf(error) });
+    if (!shown()) return;
+    useShownProgram.setState({ refused: messageOf(error) });
+    if (returns !== before) tryAgain();
   }
 }
 
-usePlc.subscribe((now, before) => now.state !== before.state && follow());
+usePlc.subscribe((now, before) => {
+  const back = isBack(now, before);
+  if (back) returns += 1;
+  if (now.state !== before.state) follow();
+  if (back) tryAgain();
+});
 useBench.subscribe((now, before) => {
   if (now.instance?.id !== before.instance?.id) {
     fetched.clear();

@@ -1,0 +1,62 @@
+import { afterEach, beforeEach, expect, it, vi } from "vitest";
+import { rest } from "../wire/rest";
+import type { Instance, InstanceState, ProgramText, Project } from "../wire/types";
+import { useBench } from "./bench";
+import { type LinkStatus, resetPlc, usePlc } from "./plc";
+import { useShownProgram } from "./shownProgram";
+
+const connected: LinkStatus = { state: "open", lostAt: null, attempt: 0, nextTryAt: null };
+const live = { state: "paused", program_version: 2, past: null, pid: 1 } as InstanceState;
+const past = (version: number) =>
+  ({ ...live, state: "past", program_version: version, past: { live_scan: 9, by: "Ann" } }) as InstanceState;
+const ran = (version: number, text: string): ProgramText => ({ version, files: { "Main.st": text }, pous: [] });
+
+let instance = 0;
+
+beforeEach(() => {
+  instance += 1; // what an instance ran is fetched once
+  usePlc.setState({ link: connected, state: live });
+  useBench.setState({ instance: { id: instance } as Instance, project: { id: 1, version: 2 } as Project });
+});
+afterEach(() => {
+  vi.restoreAllMocks();
+  resetPlc();
+  useBench.setState({ instance: null, project: null });
+});
+
+const shown = () => useShownProgram.getState();
+
+it("asks again for the text that ran once the PLC is in another state", async () => {
+  const asked = vi.spyOn(rest, "programText").mockRejectedValueOnce(new Error("the PLC does not answer"));
+  usePlc.setState({ state: { ...past(1), state: "silent" } });
+  await vi.waitFor(() => expect(shown().refused).toBe("the PLC does not answer"));
+  asked.mockResolvedValue(ran(1, "old"));
+  usePlc.setState({ state: past(1) });
+  expect(shown().refused).toBeNull();
+  await vi.waitFor(() => expect(shown().program?.files).toEqual({ "Main.st": "old" }));
+});
+
+it("asks again for it once there is a connection", async () => {
+  const asked = vi.spyOn(rest, "programText").mockRejectedValueOnce(new Error("no connection"));
+  usePlc.setState({ state: past(1) });
+  usePlc.setState({ link: { ...connected, state: "lost" } });
+  await vi.waitFor(() => expect(shown().refused).toBe("no connection"));
+  asked.mockResolvedValue(ran(1, "old"));
+  usePlc.setState({ link: connected });
+  await vi.waitFor(() => expect(shown().program?.version).toBe(1));
+});
+
+it("asks again for it when the refusal comes after the connection", async () => {
+  let refuse: (error: Error) => void = () => {};
+  const asked = vi.spyOn(rest, "programText").mockReturnValueOnce(
+    new Promise((_, reject) => {
+      refuse = reject;
+    }),
+  );
+  usePlc.setState({ state: past(1) });
+  usePlc.setState({ link: { ...connected, state: "lost" } });
+  usePlc.setState({ link: connected });
+  asked.mockResolvedValue(ran(1, "old"));
+  refuse(new Error("no connection"));
+  await vi.waitFor(() => expect(shown().program?.version).toBe(1));
+});
