@@ -144,5 +144,7 @@ export const pastEnglish = {
   "past.text.loading": "Program version {version}: its text is being fetched.",
   "past.text.none": "Program version {version} has no file {path}.",
   "past.text.refused": "The text of program version {version} cannot be shown: {message}",
+  "past.text.unsure":
+    "This is the text that is saved. What ran in this scan, program version {version}, cannot be shown: {message}",
   "past.text.readonly": "This is what ran in the past. Return to live to edit the text.",
 } as const;

@@ -143,5 +143,7 @@ export const pastJapanese: Record<keyof typeof pastEnglish, string> = {
   "past.text.loading": "プログラムバージョン {version} のテキストを取得中。",
   "past.text.none": "プログラムバージョン {version} にファイル {path} はありません。",
   "past.text.refused": "プログラムバージョン {version} のテキストを表示できません: {message}",
+  "past.text.unsure":
+    "表示しているのは保存済みのテキストです。このスキャンで実行されたプログラムバージョン {version} のテキストは表示できません: {message}",
   "past.text.readonly": "これは過去に実行されたテキストです。編集するにはライブに戻ってください。",
 };

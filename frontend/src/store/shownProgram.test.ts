@@ -2,8 +2,9 @@ import { afterEach, beforeEach, expect, it, vi } from "vitest";
 import { rest } from "../wire/rest";
 import type { Instance, InstanceState, ProgramText, Project } from "../wire/types";
 import { useBench } from "./bench";
+import { type Document, useDocuments } from "./documents";
 import { type LinkStatus, resetPlc, usePlc } from "./plc";
-import { useShownProgram } from "./shownProgram";
+import { shownText, showsRan, useShownProgram } from "./shownProgram";
 
 const connected: LinkStatus = { state: "open", lostAt: null, attempt: 0, nextTryAt: null };
 const live = { state: "paused", program_version: 2, past: null, pid: 1 } as InstanceState;
@@ -21,6 +22,7 @@ beforeEach(() => {
 afterEach(() => {
   vi.restoreAllMocks();
   resetPlc();
+  useDocuments.setState({ open: {} });
   useBench.setState({ instance: null, project: null });
 });
 
@@ -59,4 +61,40 @@ it("asks again for it when the refusal comes after the connection", async () => 
   asked.mockResolvedValue(ran(1, "old"));
   refuse(new Error("no connection"));
   await vi.waitFor(() => expect(shown().program?.version).toBe(1));
+});
+
+const open = (text: string, savedText = text) =>
+  useDocuments.setState({ open: { "Main.st": { path: "Main.st", text, savedText } as Document } });
+
+it("shows what ran where the text was saved but not built since", async () => {
+  vi.spyOn(rest, "programText").mockResolvedValue(ran(2, "built"));
+  open("saved");
+  expect(showsRan("Main.st")).toBe(false);
+  usePlc.setState({ state: past(2) });
+  await vi.waitFor(() => expect(showsRan("Main.st")).toBe(true));
+  expect(shownText("Main.st")).toMatchObject({ text: "built", built: "built" });
+  usePlc.setState({ state: live });
+  expect(shownText("Main.st").text).toBe("saved");
+});
+
+it("goes on with the edited text in the past where what is saved is what ran, or that is not known", async () => {
+  const asked = vi.spyOn(rest, "programText").mockRejectedValueOnce(new Error("the PLC does not answer"));
+  open("edited", "built");
+  usePlc.setState({ state: past(2) });
+  await vi.waitFor(() => expect(shown().refused).not.toBeNull());
+  expect(shownText("Main.st")).toMatchObject({ text: "edited", built: "built" });
+  asked.mockResolvedValue(ran(2, "built"));
+  usePlc.setState({ state: { ...past(2), state: "halted" } });
+  await vi.waitFor(() => expect(shown().program).not.toBeNull());
+  expect(shownText("Main.st")).toMatchObject({ text: "edited", built: "built" });
+});
+
+it("shows what ran of an older version at once, and also when the project is built meanwhile", async () => {
+  vi.spyOn(rest, "programText").mockResolvedValue(ran(2, "built"));
+  open("built");
+  usePlc.setState({ state: past(2) });
+  await vi.waitFor(() => expect(shown().program).not.toBeNull());
+  expect(showsRan("Main.st")).toBe(false);
+  useBench.setState({ project: { id: 1, version: 3 } as Project });
+  expect(showsRan("Main.st")).toBe(true);
 });

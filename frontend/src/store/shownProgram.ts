@@ -1,4 +1,4 @@
-/** The text of the program that is shown: in a past that another version ran, that version's, as it ran; else what is edited. */
+/** The text of the program that is shown: in the past as it ran, where that is not what is saved; else what is edited. */
 import { create } from "zustand";
 import { rest } from "../wire/rest";
 import type { Pou, ProgramText } from "../wire/types";
@@ -7,14 +7,16 @@ import { messageOf, useDocuments } from "./documents";
 import { type Plc, usePlc } from "./plc";
 
 interface ShownProgram {
-  /** The version that ran in the past that is shown; null while the texts of the project are shown. */
+  /** The version that ran in the past that is shown; null while it is live. */
   version: number | null;
+  /** Whether the project was built since: then no text of it is what ran. */
+  older: boolean;
   /** Null until it has come. */
   program: ProgramText | null;
   refused: string | null;
 }
 
-const edited: ShownProgram = { version: null, program: null, refused: null };
+const edited: ShownProgram = { version: null, older: false, program: null, refused: null };
 
 export const useShownProgram = create<ShownProgram>(() => edited);
 
@@ -24,15 +26,20 @@ const fetched = new Map<string, ProgramText>();
 function follow(): void {
   const { state } = usePlc.getState();
   const { instance, project } = useBench.getState();
-  const version = state?.past && state.program_version !== project?.version ? state.program_version : null;
-  if (version === useShownProgram.getState().version) return;
+  const version = state?.past ? state.program_version : null;
+  const older = version !== null && version !== project?.version;
+  const shown = useShownProgram.getState();
+  if (version === shown.version) {
+    if (older !== shown.older) useShownProgram.setState({ older });
+    return;
+  }
   if (version === null || instance === null) {
     useShownProgram.setState(edited);
     return;
   }
   const key = `${instance.id}:${version}`;
   const program = fetched.get(key) ?? null;
-  useShownProgram.setState({ version, program, refused: null });
+  useShownProgram.setState({ version, older, program, refused: null });
   if (program === null) void load(instance.id, version, key);
 }
 
@@ -79,6 +86,19 @@ useBench.subscribe((now, before) => {
   follow();
 });
 
+/** Whether the editor of a file shows what ran, to be read only, and not what is edited. */
+export function showsRan(path: string): boolean {
+  const { version, older, program } = useShownProgram.getState();
+  if (version === null || older) return version !== null;
+  const document = useDocuments.getState().open[path];
+  return program !== null && document !== undefined && document.savedText !== program.files[path];
+}
+
+export function useShowsRan(path: string): boolean {
+  useDocuments(() => showsRan(path));
+  return useShownProgram(() => showsRan(path));
+}
+
 interface ShownText {
   text: string;
   /** What the program that is shown was built from; lines that the PLC names are lines of it. */
@@ -88,8 +108,8 @@ interface ShownText {
 
 /** A file as its editor shows it. */
 export function shownText(path: string): ShownText {
-  const { version, program } = useShownProgram.getState();
-  if (version !== null) {
+  if (showsRan(path)) {
+    const { program } = useShownProgram.getState();
     const text = program?.files[path] ?? "";
     return { text, built: text, pous: program?.pous ?? [] };
   }

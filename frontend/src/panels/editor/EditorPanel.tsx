@@ -1,7 +1,7 @@
 import { lazy, Suspense, useEffect, useRef, useState } from "react";
 import { t } from "../../logic/text";
 import { isDirty, messageOf, openDocument, useDocuments } from "../../store/documents";
-import { useShownProgram } from "../../store/shownProgram";
+import { useShownProgram, useShowsRan } from "../../store/shownProgram";
 import { Icon } from "../../ui/Icon";
 import { Conflict } from "./Conflict";
 import { EditorBar } from "./EditorBar";
@@ -37,6 +37,16 @@ function PastNote({ path, version }: { path: string; version: number }) {
   );
 }
 
+/** It was not built since, so that what is saved is likely what ran; but that could not be seen. */
+function UnsureNote({ version, refused }: { version: number; refused: string }) {
+  return (
+    <p className="trouble st warning" role="status">
+      <Icon name="warning" small />
+      <span>{t("past.text.unsure", { version, message: refused })}</span>
+    </p>
+  );
+}
+
 /** The editor of one file. */
 export function EditorPanel({ path }: { path: string }) {
   const project = useDocuments((documents) => documents.project);
@@ -44,6 +54,8 @@ export function EditorPanel({ path }: { path: string }) {
   const conflict = useDocuments((documents) => documents.open[path]?.conflict ?? null);
   const deletedBy = useDocuments((documents) => documents.open[path]?.deletedBy ?? null);
   const version = useShownProgram((shown) => shown.version);
+  const unsure = useShownProgram((shown) => shown.refused);
+  const past = useShowsRan(path);
   const ran = useShownProgram((shown) => shown.program?.files[path]);
   const [refused, setRefused] = useState<string | null>(null);
 
@@ -61,7 +73,7 @@ export function EditorPanel({ path }: { path: string }) {
   return (
     <section className="pane flexcol" aria-label={t("editor.of", { path })} data-pane="editor">
       <EditorBar path={path} />
-      {refused !== null && version === null && (
+      {refused !== null && !past && (
         <p className="lonely">
           <Icon name="error" />
           {t("editor.refused", { path, message: refused })}
@@ -76,11 +88,10 @@ export function EditorPanel({ path }: { path: string }) {
           </span>
         </p>
       )}
-      {version !== null && <PastNote path={path} version={version} />}
-      {version === null
-        ? loaded && <Code path={path} past={null} />
-        : ran !== undefined && <Code path={path} past={ran} />}
-      {conflict && version === null && <Conflict path={path} theirs={conflict} />}
+      {version !== null && past && <PastNote path={path} version={version} />}
+      {version !== null && !past && unsure !== null && <UnsureNote version={version} refused={unsure} />}
+      {!past ? loaded && <Code path={path} past={null} /> : ran !== undefined && <Code path={path} past={ran} />}
+      {conflict && !past && <Conflict path={path} theirs={conflict} />}
     </section>
   );
 }
