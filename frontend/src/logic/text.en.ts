@@ -657,6 +657,7 @@ export const english = {
   "instances.import.about": "A new virtual PLC that goes on where the run in this file ended.",
   "instances.import.do": "Import",
   "instances.import.file": "Run file",
+  "instances.import.found": "What was found when {name} was imported:",
   "instances.import.missing": "Choose a run file (one that Export wrote).",
   "instances.import.title": "Import a run",
   "instances.importing": "Importing {name}",

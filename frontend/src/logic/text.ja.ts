@@ -657,6 +657,7 @@ export const japanese: Record<TextKey, string> = {
   "instances.import.about": "このファイルの実行が終わった所から続く、新しい仮想 PLC です。",
   "instances.import.do": "インポート",
   "instances.import.file": "実行ファイル",
+  "instances.import.found": "{name} のインポート時に見つかったこと:",
   "instances.import.missing": "実行ファイル（エクスポートしたもの）を選んでください。",
   "instances.import.title": "実行のインポート",
   "instances.importing": "{name} をインポート中",

@@ -2,7 +2,7 @@
 import { create } from "zustand";
 import { rest } from "../wire/rest";
 import { importRun, readBody } from "../wire/transfer";
-import type { ChangeInstance, Instance } from "../wire/types";
+import type { ChangeInstance, ImportedInstance, Instance } from "../wire/types";
 import { chooseInstance, chooseProject, refreshApp, useBench } from "./bench";
 import { messageOf } from "./documents";
 import { saveFile } from "./download";
@@ -22,6 +22,8 @@ interface Instances {
   all: readonly Instance[];
   /** Null before the first answer, then what is wrong or empty. */
   trouble: string | null;
+  /** What was imported last, where something was wrong with its file. */
+  damaged: ImportedInstance | null;
   selected: number | null;
   transfer: Transfer | null;
 }
@@ -30,6 +32,7 @@ export const useInstances = create<Instances>(() => ({
   open: false,
   all: [],
   trouble: null,
+  damaged: null,
   selected: null,
   transfer: null,
 }));
@@ -39,7 +42,11 @@ const set = useInstances.setState;
 
 export function showInstances(open: boolean): void {
   const { app, instance } = useBench.getState();
-  set({ open, ...(open ? { all: app?.instances ?? [], selected: instance?.id ?? null, trouble: null } : {}) });
+  set({
+    open,
+    ...(open ? { all: app?.instances ?? [], selected: instance?.id ?? null, trouble: null } : {}),
+    damaged: null,
+  });
 }
 
 export const selectInstance = (selected: number | null) => set({ selected, trouble: null });
@@ -130,9 +137,10 @@ export function exportInstance(instance: Instance): Promise<void> {
 /** A new instance from a run file. Throws what the server said when it refuses, so that the dialog can show it. */
 export async function importInstance(name: string, file: File): Promise<void> {
   const given = new AbortController();
+  set({ damaged: null });
   await transferring({ text: "import", name: file.name, share: 0, cancel: () => given.abort() }, async () => {
     const made = await importRun(name, file, progress, given.signal);
-    set({ selected: made.id });
+    set({ selected: made.id, damaged: made.damage === "" ? null : made });
     await Promise.all([refreshInstances(), refreshApp()]);
   });
 }

@@ -1,6 +1,6 @@
 /** Run files in and out: large, so that how far it got can be seen, and it can be given up. */
 import { NoConnection, Refused } from "./rest";
-import type { Instance, Refusal } from "./types";
+import type { ImportedInstance, Refusal } from "./types";
 
 /** Share that is done, 0 to 1; null while the size is not known. */
 export type Progress = (share: number | null) => void;
@@ -24,14 +24,19 @@ export async function readBody(response: Response, onProgress: Progress): Promis
 }
 
 /** Sends a run file: a new instance goes on with it. Not fetch: only XMLHttpRequest tells how much has been sent. */
-export function importRun(name: string, file: Blob, onProgress: Progress, signal: AbortSignal): Promise<Instance> {
+export function importRun(
+  name: string,
+  file: Blob,
+  onProgress: Progress,
+  signal: AbortSignal,
+): Promise<ImportedInstance> {
   return new Promise((resolve, reject) => {
     const request = new XMLHttpRequest();
     request.open("POST", `/api/instances/import?${new URLSearchParams({ name })}`);
     request.setRequestHeader("Content-Type", "application/octet-stream");
     request.upload.onprogress = (event) => onProgress(event.lengthComputable ? event.loaded / event.total : null);
     request.onload = () => {
-      if (request.status < 300) resolve(JSON.parse(request.responseText) as Instance);
+      if (request.status < 300) resolve(JSON.parse(request.responseText) as ImportedInstance);
       else reject(new Refused(request.status, refusalIn(request)));
     };
     request.onerror = () => reject(new NoConnection(false));

@@ -39,6 +39,7 @@ export type GenerateOne = Shapes["GenerateOne"];
 export type HaltInfo = Shapes["HaltInfo"];
 export type HistoryOfVersion = Shapes["HistoryOfVersion"];
 export type HistoryVersion = Shapes["HistoryVersion"];
+export type ImportedInstance = Shapes["ImportedInstance"];
 export type ImportedRecord = Shapes["ImportedRecord"];
 export type RecordInfo = Shapes["RecordInfo"];
 export type TestRecord = Shapes["TestRecord"];

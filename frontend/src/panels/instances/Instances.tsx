@@ -21,7 +21,7 @@ export function Instances() {
 }
 
 function List() {
-  const { all, selected, trouble, transfer } = useInstances();
+  const { all, selected, trouble, damaged, transfer } = useInstances();
   const project = useBench((bench) => bench.project);
   const [filter, setFilter] = useState("");
   const [order, setOrder] = useState<Order>({ by: "name", down: false });
@@ -91,6 +91,14 @@ function List() {
             />
           ) : (
             <p className="lonely faint">{t(all.length === 0 ? "instances.none" : "instances.nomatch")}</p>
+          )}
+          {damaged && (
+            <p className="trouble st warning" role="status">
+              <Icon name="warning" small />
+              <span>
+                <b>{t("instances.import.found", damaged)}</b> {damaged.damage}
+              </span>
+            </p>
           )}
           {trouble && (
             <p className="trouble st fatal" role="alert">
