@@ -87,7 +87,6 @@ test('a colleague who follows a link is asked for the key, and comes to where th
 });
 
 test('two people save the same file: nothing is lost, and one chooses', async ({ openAs }) => {
-  test.setTimeout(120_000);
   const mika = await openAs('Mika');
   const jo = await openAs('Jo');
   const [mine, theirs] = [mika.editor('Main.st'), jo.editor('Main.st')];

@@ -3,7 +3,6 @@ import { expect, test } from '../fixtures/test';
 const ERROR = 'Basic I/O Unit error';
 
 test('the sample runs, reacts to an input and to an error, and two people see the same', async ({ openAs }) => {
-  test.setTimeout(120_000);
   const mika = await openAs('Mika');
 
   await test.step('on opening the address the sample runs', async () => {
