@@ -58,7 +58,7 @@ test('in RUN a tool may only look, and the page says so', async ({ openAs }) => 
   await expect(ann.watch.entry('start')).not.toBeEditable();
   await expect(ann.watch.entry('start')).toHaveAccessibleDescription(/Mode RUN: tools may only look/);
   await ann.watch.row('start').click({ button: 'right' });
-  await expect(ann.page.getByRole('menuitem', { name: /^Force to/ })).toBeDisabled();
+  await expect(ann.page.getByRole('menuitem', { name: /^Force to TRUE/ })).toBeDisabled();
   await ann.page.keyboard.press('Escape');
   await ann.simulator.generate('Battery error');
   await ann.top.chooseMode('MONITOR');
