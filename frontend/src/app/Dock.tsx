@@ -48,7 +48,8 @@ export function Dock({ ref }: { ref: Ref<DockHandle> }) {
     dock.onDidLayoutChange(() => keep(LAYOUT, dock.toJSON()));
     dock.onDidActivePanelChange(({ panel }) => {
       const path = panel && fileOf(panel.id);
-      if (path) useDocuments.setState({ active: path });
+      if (path)
+        useDocuments.setState(({ active, cursor }) => ({ active: path, cursor: active === path ? cursor : null }));
     });
     widePages(dock);
     dock.onDidRemovePanel((panel) => {

@@ -3,6 +3,7 @@
 import { toggleBreakpointHere } from "../store/debugKeys";
 import { build, save, useDocuments } from "../store/documents";
 import { restartByKey, singleScan, toggleRun } from "../store/run";
+import { showsRan } from "../store/shownProgram";
 import { runToCaret, step } from "../store/stepping";
 import { returnToLive, stepBack } from "../store/timeline";
 
@@ -26,7 +27,7 @@ const keys: Record<string, Handler> = {
   "Shift+F6": () => cyclePanes(-1),
   "Ctrl+S": () => {
     const { active } = useDocuments.getState();
-    if (active) void save(active);
+    if (active && !showsRan(active)) void save(active);
   },
   "Ctrl+Shift+B": () => void build(),
 };

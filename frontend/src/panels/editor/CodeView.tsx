@@ -70,7 +70,8 @@ export default function CodeView({ path, past }: { path: string; past: string | 
     addDisturbAction(code, path, () => breakpoints);
     const caret = () => {
       const position = code.getPosition();
-      if (position)
+      // A text that is exchanged behind another tab moves its caret too.
+      if (position && (code.hasTextFocus() || useDocuments.getState().active === path))
         useDocuments.setState({ cursor: { line: position.lineNumber, column: position.column }, active: path });
     };
     code.onDidChangeCursorPosition(caret);

@@ -8,7 +8,7 @@ import { showPanel } from "../../store/navigate";
 import { useForbidden, useLost, usePlc } from "../../store/plc";
 import { toggleChecks, usePrefs } from "../../store/prefs";
 import { rollBack } from "../../store/run";
-import { shownText, useShownProgram } from "../../store/shownProgram";
+import { shownText, useShownProgram, useShowsRan } from "../../store/shownProgram";
 import { Icon } from "../../ui/Icon";
 import { StateWord } from "../../ui/StateWord";
 import type { Pou } from "../../wire/types";
@@ -24,6 +24,7 @@ const INSTANCED: readonly Pou["kind"][] = ["program", "function_block", "class"]
 export function EditorBar({ path }: { path: string }) {
   useDocuments((documents) => documents.pous);
   useShownProgram();
+  const ran = useShowsRan(path);
   const cursor = useDocuments((documents) => (documents.active === path ? documents.cursor : null));
   const dirty = useDocuments((documents) => isDirty(documents.open[path]));
   const building = useDocuments((documents) => documents.build.phase === "running");
@@ -56,8 +57,8 @@ export function EditorBar({ path }: { path: string }) {
           <button
             type="button"
             className="btn quiet sm"
-            disabled={!dirty || lost}
-            title={lost ? t("lost.nosave") : t("save.hint")}
+            disabled={!dirty || lost || ran}
+            title={lost ? t("lost.nosave") : ran ? t("past.text.unsaved") : t("save.hint")}
             onClick={() => void save(path)}
           >
             {t("save")}
