@@ -284,7 +284,7 @@ export const english = {
   "explorer.type": "Types",
   "failed.title": "The PLC cannot be started.",
   "fatal.about":
-    "Stopped in scan {scan}, outputs off, even where memory is held. Next: clear it, then choose MONITOR or RUN.",
+    "Stopped in scan {scan}. Outputs are off, also where memory is held. Next: clear it, then choose MONITOR or RUN.",
   "fatal.clear": "Clear error",
   "fatal.clear.all": "Clear all {count} errors",
   "fatal.plain": "Fatal error",
@@ -523,7 +523,7 @@ export const english = {
   "theme.light": "light",
   "theme.switch": "Theme: {theme}",
   "trap.about":
-    "The program was stopped, outputs off, even where memory is held. Next: correct it and build; or recover and go on, with its variables as they are; or restart cold, with everything anew.",
+    "The program was stopped. Outputs are off, also where memory is held. Next: correct it and build; or recover and go on, with its variables as they are; or restart cold, with everything anew.",
   "trap.at": " at ",
   "trap.cold": "Restart (cold)",
   "trap.cold.hint": "Everything begins anew: variables, memory, errors",
