@@ -186,7 +186,10 @@ def test_no_request_makes_the_server_fail(alone: Server, named: Json) -> None:
             assert reply.json()["message"], told
     assert statuses[200] > 50, f"nearly everything was refused, nothing was tried: {statuses}"
     now = alone.state(cast(int, named["instance"]))
-    assert (now["state"], now["restarts"]) == ("running", 0), now
+    assert now["restarts"] == 0, now
+    assert now["state"] not in ("failed", "restarting", "silent", "no_space"), (
+        now
+    )  # it may have been asked to pause or stop
 
 
 @pytest.mark.parametrize(
