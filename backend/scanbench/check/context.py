@@ -101,7 +101,7 @@ def _did_you_mean(name: str, known: tuple[str, ...]) -> str:
     by_upper, by_pair = _index(known)
     likely = list(by_upper)
     if len(likely) > COMPARED:
-        shared = Counter(chain.from_iterable(by_pair.get(pair, ()) for pair in set(pairwise(name))))
+        shared = Counter(chain.from_iterable(by_pair.get(pair, ()) for pair in _pairs(name)))
         likely = nlargest(COMPARED, shared, key=lambda item: shared[item] / (len(item) + len(name)))
     near = get_close_matches(name, likely, n=2, cutoff=0.6)
     return f" Did you mean {' or '.join(f'`{by_upper[item]}`' for item in near)}?" if near else ""
@@ -113,6 +113,11 @@ def _index(known: tuple[str, ...]) -> tuple[dict[str, str], dict[tuple[str, str]
     by_upper = {item.upper(): item for item in known}
     by_pair: dict[tuple[str, str], list[str]] = {}
     for item in by_upper:
-        for pair in set(pairwise(item)):
+        for pair in _pairs(item):
             by_pair.setdefault(pair, []).append(item)
     return by_upper, by_pair
+
+
+def _pairs(name: str) -> set[tuple[str, str]]:
+    """The letters that follow each other, its first and its last one too: a name of one letter has pairs as well."""
+    return set(pairwise(f" {name} "))
