@@ -1,6 +1,7 @@
-"""What every test shares: how hypothesis searches."""
+"""What every test shares: how hypothesis searches, and that Ctrl-C reaches it."""
 
 import os
+import signal
 
 from hypothesis import HealthCheck, settings
 
@@ -10,3 +11,7 @@ settings.register_profile(
 )
 settings.register_profile("explore", deadline=None, max_examples=1000, suppress_health_check=[HealthCheck.too_slow])
 settings.load_profile("explore" if os.environ.get("SCANBENCH_EXPLORE") else "steady")
+
+# A shell starts what it runs in the background with Ctrl-C ignored, and the tests of Ctrl-C would wait for ever.
+if signal.getsignal(signal.SIGINT) is signal.SIG_IGN:
+    signal.signal(signal.SIGINT, signal.default_int_handler)
