@@ -9,6 +9,7 @@ from fastapi import FastAPI, Request
 from fastapi.exceptions import RequestValidationError
 from fastapi.responses import HTMLResponse, JSONResponse
 from starlette.exceptions import HTTPException
+from starlette.types import ASGIApp
 
 from scanbench import __version__
 from scanbench.runtime.resource import is_no_space
@@ -36,7 +37,7 @@ from scanbench.web import (
 )
 from scanbench.web.auth import Gate, Guard
 from scanbench.web.built_files import BuiltFiles
-from scanbench.web.headers import SafeHeaders
+from scanbench.web.headers import NoStore
 from scanbench.web.pages import frontend_directory, not_built_page
 
 _STATUS: dict[type[Exception], int] = {
@@ -52,7 +53,7 @@ class Config:
     gate: Gate
 
 
-def create_app(config: Config) -> FastAPI:
+def create_app(config: Config) -> ASGIApp:
     """The application; its lifespan starts and ends the PLCs."""
 
     @asynccontextmanager
@@ -68,8 +69,7 @@ def create_app(config: Config) -> FastAPI:
     app = bare_app()
     app.router.lifespan_context = lifespan
     app.add_middleware(Guard, gate=config.gate)
-    app.add_middleware(SafeHeaders)  # around the guard, too
-    return app
+    return NoStore(app)  # Starlette answers to a bug outside of what is added to it
 
 
 def bare_app() -> FastAPI:

@@ -19,35 +19,36 @@ POLICY = "; ".join(
         "frame-ancestors 'none'",
     )
 )
-_ALWAYS = {
+ALWAYS = {
     "Content-Security-Policy": POLICY,
     "X-Content-Type-Options": "nosniff",
     "X-Frame-Options": "DENY",
     "Referrer-Policy": "same-origin",  # a link to a scan names what it is about
     "Cross-Origin-Opener-Policy": "same-origin",
 }
+"""For the HTTP server: it also answers where no application is asked, as with too many connections.
+
+An answer with a policy of its own (a report) has both, and a browser allows what both allow.
+"""
 _OF_FILES = (200, 206, 304)
 
 
-class SafeHeaders:
-    """ASGI middleware around everything, also around refusals."""
+class NoStore:
+    """ASGI middleware around everything, also around refusals and the answer to a bug."""
 
     def __init__(self, app: ASGIApp) -> None:
         self._app = app
 
     async def __call__(self, scope: Scope, receive: Receive, send: Send) -> None:
-        """Adds the headers to what is answered. Built files say themselves how long they may be kept."""
+        """Lets no copy of an answer be kept. Built files say themselves how long they may be."""
         if scope["type"] != "http":
             await self._app(scope, receive, send)
             return
 
         async def sending(message: Message) -> None:
             if message["type"] == "http.response.start":
-                headers = MutableHeaders(scope=message)
-                for name, value in _ALWAYS.items():
-                    headers.setdefault(name, value)  # a report allows itself less
                 if scope["path"].startswith("/api") or message["status"] not in _OF_FILES:
-                    headers["Cache-Control"] = "no-store"
+                    MutableHeaders(scope=message)["Cache-Control"] = "no-store"
             await send(message)
 
         await self._app(scope, receive, sending)

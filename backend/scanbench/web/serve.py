@@ -7,6 +7,7 @@ from contextlib import closing, suppress
 from pathlib import Path
 
 import uvicorn
+from starlette.types import ASGIApp
 
 from scanbench.engines.lifeline import end_children
 from scanbench.plcmodel.load import NoModels
@@ -18,6 +19,7 @@ from scanbench.web.app import Config, create_app
 from scanbench.web.auth import Gate, known_hosts
 from scanbench.web.claim import InUse, claimed
 from scanbench.web.handles import most_connections, raised_limit
+from scanbench.web.headers import ALWAYS
 from scanbench.web.kept_guests import kept_guests
 from scanbench.web.kept_token import kept_token
 from scanbench.web.public_url import PublicUrl
@@ -54,9 +56,17 @@ def _name(data_dir: Path) -> str:
 
 
 def _run(sock: socket.socket, host: str, bench: Workbench, gate: Gate, announce: Callable[[str], None]) -> None:
-    port = gate.port
-    config = uvicorn.Config(
-        create_app(Config(bench, gate)),
+    config = http_config(create_app(Config(bench, gate)), host, gate.port, most_connections(raised_limit()))
+    server = _Server(config, lambda: announce(f"Scanbench is ready: {shown_address(host, gate)}/?token={gate.token}"))
+    # uvicorn ends everything in order at Ctrl-C, and then raises it again.
+    with suppress(KeyboardInterrupt):
+        server.run([sock])
+
+
+def http_config(app: ASGIApp, host: str, port: int, most: int) -> uvicorn.Config:
+    """How the application is served; beyond `most` connections the answer is 503, with a line in the log."""
+    return uvicorn.Config(
+        app,
         host=host,
         port=port,
         loop="uvloop",
@@ -67,12 +77,9 @@ def _run(sock: socket.socket, host: str, bench: Workbench, gate: Gate, announce:
         lifespan="on",
         server_header=False,
         timeout_graceful_shutdown=3,
-        limit_concurrency=most_connections(raised_limit()),  # beyond: 503, and a line in the log
+        limit_concurrency=most,
+        headers=list(ALWAYS.items()),
     )
-    server = _Server(config, lambda: announce(f"Scanbench is ready: {shown_address(host, gate)}/?token={gate.token}"))
-    # uvicorn ends everything in order at Ctrl-C, and then raises it again.
-    with suppress(KeyboardInterrupt):
-        server.run([sock])
 
 
 def shown_address(host: str, gate: Gate) -> str:

@@ -54,7 +54,7 @@ def test_a_record_goes_out_and_comes_in_again(server: Server) -> None:
     xml = server.http.get(base, params={"format": "xml"})
     assert xml.headers["content-disposition"].startswith('attachment; filename="recorded-version-1-record.xml"')
     page = server.http.get(base, params={"format": "html", "lang": "ja"})
-    assert page.headers["content-security-policy"].startswith("default-src 'none'")
+    assert "default-src 'none'" in page.headers["content-security-policy"]
     assert "試験成績書" in page.text
     csv = server.http.get(base, params={"format": "csv"}).text
     assert "battery-error" in csv
