@@ -51,8 +51,11 @@ class Connected:
 
     @contextmanager
     def _writing(self) -> Iterator[Session]:
-        with _explained(), Session(self._writer) as session, session.begin():
-            yield session
+        with _explained():
+            if self._claim is not None:
+                self._claim.hold()
+            with Session(self._writer) as session, session.begin():
+                yield session
 
 
 @contextmanager
