@@ -115,7 +115,7 @@ class Keeper:
             del rows[instance]
         while lines:
             instance, more = next(iter(lines.items()))
-            self._keep_lines(instance, list(more))
+            self._keep_lines(instance, more)
             del lines[instance]
         while breakpoints:
             instance, shared = next(iter(breakpoints.items()))
@@ -151,34 +151,48 @@ class Keeper:
         def write(some: Sequence[ErrorRow]) -> None:
             self._store.keep_history(instance, list(map(_kept, some)))
 
-        _write_most(f"the error history of instance {instance}", rows, write)
+        _write_most(f"the error history of instance {instance}", list(rows), write)
 
-    def _keep_lines(self, instance: int, lines: Sequence[LogRow]) -> None:
+    def _keep_lines(self, instance: int, lines: deque[LogRow]) -> None:
+        """What is written is taken out of the lines: a line would otherwise be there twice when it is tried again."""
         untrimmed = self._untrimmed.get(instance, LOG_TRIMMED_EVERY) + len(lines)
         due = untrimmed > LOG_TRIMMED_EVERY
-        self._untrimmed[instance] = 0 if due else untrimmed
 
         def write(some: Sequence[LogRow]) -> None:
             self._store.add_log(instance, some, LOG_KEPT if due else None)
 
-        _write_most(f"the log of instance {instance}", lines, write)
+        left = list(lines)
+        try:
+            _write_most(f"the log of instance {instance}", left, write)
+        finally:
+            lines.clear()
+            lines.extend(left)
+        self._untrimmed[instance] = 0 if due else untrimmed
 
 
-def _write_most(what: str, items: Sequence[_T], write: Callable[[Sequence[_T]], None]) -> None:
-    """All of them at once; where one cannot be written, all others, in their order. The PLC goes on in any case."""
-    try:
-        write(items)
-    except StoreError:  # no database: none of them can be written now
-        raise
-    except NotFound as error:  # deleted meanwhile: none of them ever
-        log.error("%s could not be written, %d of it: %s", what, len(items), error)
-    except Exception:
-        if len(items) == 1:
-            log.exception("a line of %s could not be written: %r", what, items[0])
+def _write_most(what: str, items: list[_T], write: Callable[[Sequence[_T]], None]) -> None:
+    """All of them at once; where one cannot be written, all others, in their order. The PLC goes on in any case.
+
+    `items` keeps what is neither written nor given up: nothing, or after a `StoreError` what is to be tried again.
+    """
+    count = len(items)
+    while items:
+        some = items[:count]
+        try:
+            write(some)
+        except StoreError:  # no database: none of them can be written now
+            raise
+        except NotFound as error:  # deleted meanwhile: none of them ever
+            log.error("%s could not be written, %d of it: %s", what, len(items), error)
+            items.clear()
             return
-        middle = len(items) // 2
-        _write_most(what, items[:middle], write)
-        _write_most(what, items[middle:], write)
+        except Exception:
+            if len(some) > 1:
+                count = len(some) // 2
+                continue
+            log.exception("a line of %s could not be written: %r", what, some[0])
+        del items[: len(some)]
+        count = len(items)
 
 
 def _kept(row: ErrorRow) -> HistoryRow:

@@ -214,3 +214,31 @@ def test_what_the_database_refuses_is_written_when_it_can_be(
     asyncio.run(story())
     (said,) = caplog.records
     assert "database or disk is full" in said.getMessage()
+
+
+def test_what_was_written_before_the_database_refused_is_not_written_again(
+    store: Slow, instance: int, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("scanbench.session.keeper.AGAIN_S", 0.01)
+    add, batches, whole = Store.add_log, 0, threading.Event()
+
+    def refuse(self: Store, instance: int, lines: Sequence[LogRow], keep: int | None = None) -> None:
+        nonlocal batches
+        batches += 1
+        if batches == 3:  # all of them, the first half, the rest
+            raise StoreError("the database cannot be used now: disk I/O error")
+        add(self, instance, lines, keep)
+        if lines[-1].text == "line 7":
+            whole.set()
+
+    monkeypatch.setattr(Store, "add_log", refuse)
+
+    async def story() -> None:
+        async with keeping(store) as keeper:
+            for number in range(8):
+                bad = replace(line(f"line {number}"), at=NOON.replace(tzinfo=None) if number == 5 else NOON)
+                keeper.keep_line(instance, bad, 3)
+            await asyncio.to_thread(whole.wait, 60)
+        assert texts(store, instance) == [f"line {number}" for number in range(8) if number != 5]
+
+    asyncio.run(story())
