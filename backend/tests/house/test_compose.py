@@ -10,6 +10,8 @@ import pytest
 import yaml
 from sqlalchemy.engine import make_url
 
+from scanbench.web.auth import known_hosts
+
 ROOT = Path(__file__).parents[3]
 Tree = dict[str, object]
 
@@ -56,6 +58,7 @@ def test_the_keys_are_those_of_the_format(compose: Tree) -> None:
         "volumes",
         "healthcheck",
         "restart",
+        "hostname",
         "init",
     }
     for name in sub(compose, "services"):
@@ -70,6 +73,14 @@ def test_everything_waits_for_a_healthy_database_and_its_migrations(compose: Tre
         health = sub(compose, "services", name, "healthcheck")
         assert isinstance(health["test"], list)
         assert health["test"][0] == "CMD"
+
+
+def test_the_bench_knows_the_name_by_which_a_proxy_in_the_network_asks_for_it(
+    compose: Tree, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    (name,) = (name for name in sub(compose, "services") if sub(compose, "services", name).get("command") == ["serve"])
+    monkeypatch.setattr("socket.gethostname", lambda: sub(compose, "services", name).get("hostname", "1c9d0a6b55f2"))
+    assert name in known_hosts(["0.0.0.0"])
 
 
 def test_the_database_is_the_one_that_is_started(compose: Tree) -> None:

@@ -52,7 +52,9 @@ def test_other_addresses_are_refused_and_the_way_out_is_named(host: str) -> None
     assert "--public-url" in refused.json()["message"]
 
 
-@pytest.mark.parametrize("host", ["bench.example.com", "BENCH.example.com:443", "127.0.0.1:8765"])
+@pytest.mark.parametrize(
+    "host", ["bench.example.com", "BENCH.example.com:443", "127.0.0.1:8765", "localhost:8765", "172.18.0.3:8765"]
+)
 def test_the_public_address_is_let_through(host: str) -> None:
     """Whether the proxy passes on the Host of the browser, or puts in one of its own."""
     public = parse_public_url(PUBLIC)
