@@ -1,6 +1,6 @@
 """The FastAPI application: routes, errors as `Refusal`, the page, and the guard around all of it."""
 
-from collections.abc import AsyncIterator
+from collections.abc import AsyncIterator, Callable
 from contextlib import asynccontextmanager
 from dataclasses import dataclass
 from pathlib import Path
@@ -51,6 +51,8 @@ class Config:
 
     bench: Workbench
     gate: Gate
+    no_start: Callable[[StoreError | OSError], None]
+    """The PLCs could not be started, as on a full disk: to end the server, and to say so."""
 
 
 def create_app(config: Config) -> ASGIApp:
@@ -61,7 +63,10 @@ def create_app(config: Config) -> ASGIApp:
         app.state.bench = config.bench
         app.state.public_url = "" if config.gate.public is None else config.gate.public.origin
         try:
-            await config.bench.start()
+            try:
+                await config.bench.start()
+            except (StoreError, OSError) as error:
+                config.no_start(error)
             yield
         finally:
             await config.bench.close()

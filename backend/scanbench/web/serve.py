@@ -56,11 +56,20 @@ def _name(data_dir: Path) -> str:
 
 
 def _run(sock: socket.socket, host: str, bench: Workbench, gate: Gate, announce: Callable[[str], None]) -> None:
-    config = http_config(create_app(Config(bench, gate)), host, gate.port, most_connections(raised_limit()))
+    why: list[StoreError | OSError] = []
+
+    def no_start(error: StoreError | OSError) -> None:
+        why.append(error)
+        server.should_exit = True
+
+    app = create_app(Config(bench, gate, no_start))
+    config = http_config(app, host, gate.port, most_connections(raised_limit()))
     server = _Server(config, lambda: announce(f"Scanbench is ready: {shown_address(host, gate)}/?token={gate.token}"))
     # uvicorn ends everything in order at Ctrl-C, and then raises it again.
     with suppress(KeyboardInterrupt):
         server.run([sock])
+    if why:
+        raise why[0]
 
 
 def http_config(app: ASGIApp, host: str, port: int, most: int) -> uvicorn.Config:

@@ -10,6 +10,8 @@ from pathlib import Path
 import httpx
 import pytest
 
+from scanbench.session.workbench import Workbench
+from scanbench.store.records import StoreError
 from scanbench.web import messages, messages_errors, messages_records, messages_user_errors, openapi
 from scanbench.web.app import bare_app
 from scanbench.web.claim import InUse, claimed
@@ -34,6 +36,31 @@ def test_missing_models_and_bad_databases_are_named(tmp_path: Path, monkeypatch:
     monkeypatch.setenv("SCANBENCH_MODELS", str(tmp_path / "nowhere"))
     with pytest.raises(CannotServe, match="SCANBENCH_MODELS"):
         serve("127.0.0.1", 0, tmp_path, lambda _: None)
+
+
+@pytest.mark.parametrize(
+    "error", [StoreError("the database cannot be used now: full"), OSError(errno.ENOSPC, "No space left on device")]
+)
+def test_what_fails_once_the_server_runs_ends_it_without_a_traceback(
+    error: StoreError | OSError, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    """As on a disk that has room for the database, but not for what is in it."""
+    closed: list[str] = []
+
+    async def start(_bench: Workbench) -> None:
+        raise error
+
+    async def close(_bench: Workbench) -> None:
+        closed.append("closed")
+
+    monkeypatch.setattr(Workbench, "start", start)
+    monkeypatch.setattr(Workbench, "close", close)
+    monkeypatch.setattr("scanbench.web.serve.end_children", lambda: None)  # those of other tests
+    with pytest.raises(CannotServe if isinstance(error, StoreError) else OSError) as told:
+        serve("127.0.0.1", 0, tmp_path, closed.append)
+    assert str(told.value) == str(error)
+    assert closed == ["closed"], "it never said that it is ready"
+    assert capfd.readouterr().err == ""
 
 
 def test_every_message_is_in_the_openapi_document(tmp_path: Path) -> None:
