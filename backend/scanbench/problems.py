@@ -44,8 +44,17 @@ class Problem:
     span: Span
     severity: Severity = Severity.ERROR
 
+    def __post_init__(self) -> None:
+        if not self.message.isprintable():
+            object.__setattr__(self, "message", "".join(map(_shown, self.message)))
+
     def __str__(self) -> str:
         return f"{self.span}: {self.code} {self.message}"
+
+
+def _shown(char: str) -> str:
+    r"""A character of the program as it can be seen, such as \x07: a terminal obeys some of those that cannot."""
+    return char if char.isprintable() or char == "\n" else char.encode("unicode_escape").decode()
 
 
 TABLE: dict[str, str] = {

@@ -8,7 +8,7 @@ from pathlib import Path
 import typer
 
 from scanbench.check.program import Program
-from scanbench.cli.inputs import DAMAGED, find_model_named, tell_damage, unusable, with_near
+from scanbench.cli.inputs import DAMAGED, find_model_named, tell_damage, unreadable, unusable, with_near
 from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.programs import NoProgram
 from scanbench.runtime.runfile import RunFileError
@@ -41,6 +41,8 @@ def diff(
             lost = [tell_damage(path, reading.follow().recording) for path, reading in ((run1, one), (run2, other))]
             found = find_divergence(one, other)
     except NoReading as error:
+        if isinstance(error.__cause__, OSError) and error.__cause__.filename:
+            unreadable(Path(error.__cause__.filename), error.__cause__)
         unusable(with_near(str(error), error.near), error.__cause__)
     except RunFileError as error:
         unusable(str(error), error)

@@ -10,7 +10,16 @@ import typer
 
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
-from scanbench.cli.inputs import below, find_model, find_model_named, problem_json, read_sources, tell_damage, usage
+from scanbench.cli.inputs import (
+    below,
+    find_model,
+    find_model_named,
+    problem_json,
+    read_sources,
+    tell_damage,
+    unreadable,
+    usage,
+)
 from scanbench.cli.interrupt import INTERRUPTED
 from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.run_options import read_interval
@@ -286,7 +295,7 @@ def _read_outcomes(path: Path) -> list[Outcome]:
     try:
         told = json.loads(path.read_text("utf-8"))
     except OSError as error:
-        usage(f"{path} cannot be read: {error.strerror}")
+        unreadable(path, error)
     except (ValueError, RecursionError):
         usage(f"{path} {NO_SWEEP}")
     if not is_sweep(told):

@@ -33,6 +33,12 @@ def usage(message: str) -> NoReturn:
     raise typer.Exit(2)
 
 
+def unreadable(path: Path, error: OSError) -> NoReturn:
+    """The same of a file that the system does not give."""
+    missing = isinstance(error, FileNotFoundError)
+    usage(f"{path} does not exist" if missing else f"{path} cannot be read: {error.strerror or error}")
+
+
 def unusable(message: str, error: BaseException | None) -> NoReturn:
     """The same of a run file that cannot be used; with `DAMAGED` where it is damaged."""
     typer.echo(f"scanbench: {message}", err=True)

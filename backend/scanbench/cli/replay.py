@@ -8,7 +8,7 @@ from pathlib import Path
 import typer
 
 from scanbench.check.build import check_sources
-from scanbench.cli.inputs import DAMAGED, find_model_named, unusable, usage
+from scanbench.cli.inputs import DAMAGED, find_model_named, unreadable, unusable, usage
 from scanbench.cli.interrupt import INTERRUPTED
 from scanbench.cli.run import ENGINES, EngineChoice
 from scanbench.engines.pair import Differs
@@ -43,7 +43,9 @@ def replay(
     except KeyboardInterrupt:
         typer.echo(f"scanbench: {path}: interrupted: {_so_far(agreed)}", err=True)
         raise typer.Exit(INTERRUPTED) from None
-    except (RunFileError, OSError) as error:
+    except OSError as error:
+        unreadable(path, error)
+    except RunFileError as error:
         unusable(f"{path}: {error}", error)
     except (Diverged, Differs) as difference:
         typer.echo(f"scanbench: {path}: {difference}", err=True)

@@ -11,7 +11,7 @@ import typer
 
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
-from scanbench.cli.inputs import below, find_model, read_sources, tell_damage, unusable, usage, with_near
+from scanbench.cli.inputs import below, find_model, read_sources, tell_damage, unreadable, unusable, usage, with_near
 from scanbench.cli.record import check_whole, recorded
 from scanbench.cli.run_options import Options, read_commands, read_interval
 from scanbench.engines.native.engine import NativeEngine
@@ -124,7 +124,7 @@ def _is_run(path: Path) -> bool:
     try:
         return path.suffix in _SUFFIXES or (path.is_file() and is_run_file(path))
     except OSError as error:
-        usage(f"{path} cannot be read: {error.strerror}")
+        unreadable(path, error)
 
 
 # ---- run files -----------------------------------------------------------------------------------------------------
@@ -136,7 +136,7 @@ def _run_file(path: Path, make: Make) -> Iterator[Verifier]:
         with Verifier(path, ENTRIES, _program_of, make, lambda kept: sources_in(kept).files) as verifier:
             yield verifier
     except OSError as error:
-        usage(f"{path} cannot be read: {error.strerror or error}")
+        unreadable(path, error)
     except (RunFileError, NoProgram, Unverifiable) as error:
         unusable(f"{path}: {error}", error if isinstance(error, RunFileError) else error.__cause__)
 
@@ -203,7 +203,7 @@ def _trace(given: Given, path: Path) -> Subject:
     try:
         table = read_trace(path.read_bytes(), path.name)
     except OSError as error:
-        usage(f"{path} cannot be read: {error.strerror}")
+        unreadable(path, error)
     except BadTraceFile as error:
         _refuse(path, error.problems)
     mapping, note = _mapping(given.mapping, table, program)
@@ -232,7 +232,7 @@ def _program_for_trace(given: Given) -> tuple[Program, Mapping[str, str]]:
         sources = sources_of(given.path, {model.name: model})
         return checked_program(sources, model), sources.files
     except OSError as error:
-        usage(f"{given.path} cannot be read: {error.strerror or error}")
+        unreadable(given.path, error)
     except (RunFileError, NoProgram) as error:
         unusable(f"{given.path}: {error}", error)
 
@@ -243,7 +243,7 @@ def _mapping(path: Path | None, table: Table, program: Program) -> tuple[TraceMa
         try:
             return TraceMapping.from_json(path.read_text("utf-8")), ""
         except OSError as error:
-            usage(f"{path} cannot be read: {error.strerror}")
+            unreadable(path, error)
         except ValueError as error:  # `BadMapping`, and bytes that are no text
             usage(f"{path}: {error}" if isinstance(error, BadMapping) else f"{path} is not UTF-8: {error}")
     proposal = propose(table, program)

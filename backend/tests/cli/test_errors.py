@@ -263,7 +263,7 @@ def test_states_that_cannot_be(project: Path, told: object, words: str) -> None:
         (("errors", "sweep", SAMPLE, "--states", "none.json"), "cannot be read"),
         (("errors", "sweep", SAMPLE, "--only", "battery-error", "--junit", "/no/such/folder/x"), "cannot be written"),
         (("errors", "list", "--model", "nothing"), "there is no model nothing"),
-        (("errors", "compare", "a.json", "b.json"), "a.json cannot be read"),
+        (("errors", "compare", "a.json", "b.json"), "a.json does not exist"),
     ],
 )
 def test_wrong_usage(arguments: tuple[str, ...], words: str) -> None:

@@ -81,6 +81,14 @@ def test_characters_without_meaning() -> None:
     assert "S001 2:8 `§` has no meaning here; remove it." in complaints("PROGRAM p\nx := 1 § 2;\nEND_PROGRAM")
 
 
+def test_characters_that_cannot_be_seen_are_named() -> None:
+    found = complaints("PROGRAM p\nx := \x07 \x1b[31m \u202e\u00a0;\nEND_PROGRAM")
+    assert r"S001 2:6 `\x07` has no meaning here; remove it." in found
+    assert r"S001 2:8 `\x1b` has no meaning here; remove it." in found
+    assert r"S001 2:14 `\u202e` has no meaning here; remove it." in found
+    assert "".join(found).isprintable()
+
+
 def test_operators_of_other_languages_are_named() -> None:
     def of(expression: str) -> str:
         return complaints(f"PROGRAM p\nx := {expression};\nEND_PROGRAM")[0]
