@@ -509,12 +509,19 @@ class Declarations:
             )
         location = self.model.locate(address)
         if location is None:
-            why = self.model.why_not(address)
-            raise self.report.reject("D005", f"`{address}` is not an address of the {self.model.name}: {why}", span)
+            raise self.report.reject("D005", f"{self.model.why_not(address)}.", span)
         bool_type = isinstance(type, Elementary) and type.kind is Kind.BOOL
         if bool_type != (location.bits == 1):
-            need = "a bit, e.g. `.00`" if bool_type else "a whole word, not a bit"
-            raise self.report.reject("D005", f"`{address}` does not fit {type}: it needs {need}.", span)
+            area, byte = location.area, location.byte
+            if bool_type:
+                need = f"it needs a bit, e.g. `{self.model.format(area, byte, 0, 1)}`"
+            else:  # D40000 is a bit where there is no such word
+                is_bit, word = (
+                    self.model.format(area, byte, location.bit, 1),
+                    self.model.format(area, byte & ~1, None, 16),
+                )
+                need = f"it is the bit {is_bit}; a whole word is written like `{word}`"
+            raise self.report.reject("D005", f"`{address}` does not fit {type}: {need}.", span)
         if _has_bool(type) and not bool_type:
             raise self.report.reject(
                 "D005", f"{type} has BOOL members, which take bytes; locate them one by one.", span

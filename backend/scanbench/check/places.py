@@ -127,6 +127,8 @@ class PlaceChecker(SubrangeChecker):
             return self.report.reject("T010", f"`{name}` is a type; declare an instance of it in VAR.", span)
         known = [*self.scope.names(), *(pou.name for pou in self.pous.functions.values())]
         hint = did_you_mean(name, [*known, *self.declarations.values.names()])
+        if self.declarations.model.locate(name) is not None:  # after AT it needs no percent sign
+            hint += f" The address of the PLC is written `%{name}` in statements."
         return self.report.reject("T001", f"`{name}` is not declared.{hint}", span)
 
     def _member(self, node: tree.MemberOf) -> Found:

@@ -49,8 +49,10 @@ def parse(
 def _known(areas: Sequence[Area], maps: Sequence[IecMap]) -> str:
     names = [f"%{entry.letter}" for entry in maps]
     mapped = {(entry.area.name, entry.area.words) for entry in maps if entry.letter == entry.area.name}
-    names += [area.written for area in areas if (area.name, area.words) not in mapped]
-    return "its areas are " + ", ".join(dict.fromkeys(names))
+    own = [area for area in areas if (area.name, area.words) not in mapped]
+    names += [area.written for area in own]
+    written = [_number(area, 0) for area in own[:1]] + [f"%{entry.letter}W0" for entry in maps[:1]]
+    return f"its areas are {', '.join(dict.fromkeys(names))}; write it like {' or '.join(written)}"
 
 
 def _bit_of(place: Location, text: str, bit: int) -> Location:
@@ -72,7 +74,7 @@ def _iec(entry: IecMap, text: str, width: str, number: int, bit: int | None) -> 
         size = WIDTHS[width] // 8
         byte = number * size
     if byte + size > entry.words * 2:
-        last = entry.words * 2 // size - 1
+        last = f"{entry.words * 2 // size - 1}{'.7' if width == 'X' else ''}"
         raise NoSuchPlace(f"{text!r} is outside of the area: the last one is %{entry.letter}{width}{last}")
     return Location(entry.area, entry.first * 2 + byte, bit, WIDTHS[width])
 

@@ -165,3 +165,23 @@ def test_only_line_feeds_make_lines() -> None:
 def test_a_call_of_what_has_no_type_is_reported_once() -> None:
     text = "PROGRAM Main\nVAR fb : Missing; END_VAR\nfb(a := 1);\nEND_PROGRAM"
     assert [each.code for each in check_sources({"a.st": text}, MODELS["GENERIC-IEC"]).problems] == ["D002"]
+
+
+@pytest.mark.parametrize(
+    ("line", "code", "words"),
+    [
+        ("x AT D100 : WORD; END_VAR", "", ""),
+        ("x AT %D100 : WORD; END_VAR", "", ""),
+        ("x AT E100 : WORD; END_VAR", "D005", "'E100' is not an address of this model: its areas are %I, %Q, %M, CIO"),
+        ("x AT D40000 : WORD; END_VAR", "D005", "is the bit D400.00; a whole word is written like `D400`"),
+        ("x AT D100 : BOOL; END_VAR", "D005", "needs a bit, e.g. `D100.00`"),
+        ("x AT %Q9999.0 : BOOL; END_VAR", "D005", "'%Q9999.0' is outside of the area: the last one is %QX119.7 (CJ1M"),
+        ("x : WORD; END_VAR x := D100;", "T001", "is written `%D100` in statements"),
+        ("x : WORD; END_VAR x := E100;", "T001", "`E100` is not declared."),
+    ],
+)
+def test_what_is_said_of_an_address(line: str, code: str, words: str) -> None:
+    checked = check_sources({"main.st": f"PROGRAM Main VAR {line} END_PROGRAM"}, MODELS["CJ1M-CPU63"])
+    found = [problem for problem in checked.problems if problem.code != "W004"]
+    assert [problem.code for problem in found] == ([code] if code else [])
+    assert all(words in problem.message for problem in found)

@@ -140,6 +140,8 @@ def test_the_iec_notation_counts_in_the_width(generic: Model, text: str, byte: i
         ("W512.00", "the last word is W511"),
         ("100", "is not an address of this model"),
         ("X100", "its areas are %I, %Q, %M, CIO, W, H, A, T, C, D"),
+        ("100", "C, D, CF; write it like CIO0 or %IW0"),
+        ("%IX500.0", "the last one is %IX199.7"),
         ("%IX0.8", "a byte has bits 0 to 7"),
         ("%IX3", "needs one: %IX3.0 to .7"),
         ("%IW3.1", "only %IX has a bit"),
@@ -158,7 +160,7 @@ def test_what_is_no_place_says_why(cj1m: Model, text: str, reason: str) -> None:
 
 
 def test_a_model_without_vendor_areas_names_only_its_own(generic: Model) -> None:
-    assert "its areas are %I, %Q, %M " in generic.why_not("D100")
+    assert "its areas are %I, %Q, %M; " in generic.why_not("D100")
 
 
 @given(data=st.data())
