@@ -1,13 +1,12 @@
 """What all parts of the checker share: problems met, sites of traps and subrange checks, near matches."""
 
-from collections import Counter
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 from functools import lru_cache
 from heapq import nlargest
-from itertools import chain, pairwise
+from itertools import pairwise
 
 from scanbench.check.program import CheckSite, Pou, TrapKind, TrapSite
 from scanbench.problems import Problem, Severity, Span
@@ -98,26 +97,19 @@ def did_you_mean(name: str, known: Iterable[str]) -> str:
 @lru_cache(256)
 def _did_you_mean(name: str, known: tuple[str, ...]) -> str:
     """The same name is often wrong in many places."""
-    by_upper, by_pair = _index(known)
+    by_upper = {item.upper(): item for item in known}
     likely = list(by_upper)
     if len(likely) > COMPARED:
-        shared = Counter(chain.from_iterable(by_pair.get(pair, ()) for pair in _pairs(name)))
-        likely = nlargest(COMPARED, shared, key=lambda item: shared[item] / (len(item) + len(name)))
+        wanted = _pairs(name)
+        likely = nlargest(COMPARED, likely, key=lambda item: len(wanted & _pairs(item)) / (len(item) + len(name)))
     near = get_close_matches(name, likely, n=2, cutoff=0.6)
     return f" Did you mean {' or '.join(f'`{by_upper[item]}`' for item in near)}?" if near else ""
 
 
-@lru_cache(16)
-def _index(known: tuple[str, ...]) -> tuple[dict[str, str], dict[tuple[str, str], list[str]]]:
-    """Names as they are written by their upper case, and the upper cases by the pairs of letters in them."""
-    by_upper = {item.upper(): item for item in known}
-    by_pair: dict[tuple[str, str], list[str]] = {}
-    for item in by_upper:
-        for pair in _pairs(item):
-            by_pair.setdefault(pair, []).append(item)
-    return by_upper, by_pair
+@lru_cache(1 << 15)
+def _pairs(name: str) -> frozenset[tuple[str, str]]:
+    """The letters that follow each other, its first and its last one too: a name of one letter has pairs as well.
 
-
-def _pairs(name: str) -> set[tuple[str, str]]:
-    """The letters that follow each other, its first and its last one too: a name of one letter has pairs as well."""
-    return set(pairwise(f" {name} "))
+    Kept by name, as each POU knows others, but most of them are those that every POU knows.
+    """
+    return frozenset(pairwise(f" {name} "))

@@ -125,3 +125,13 @@ def test_names_that_were_perhaps_meant_are_found_among_many(monkeypatch: pytest.
     for _ in range(50):
         assert "`GVL_Conveyor_1234_Speed`" in context.did_you_mean("GVL_Conveyer_1234_Sped", known)
     assert compared == context.COMPARED, "and the same name once only"
+
+
+def test_names_that_every_pou_knows_are_looked_at_once() -> None:
+    known = [f"GVL_Hopper_{number}_Level" for number in range(500)]
+    context._pairs.cache_clear()
+    for pou in range(5):
+        assert context.did_you_mean("GVL_Hoper_77_Level", [*known, f"local_{pou}"]).startswith(
+            " Did you mean `GVL_Hopper_7"
+        )
+    assert context._pairs.cache_info().misses == 500 + 5 + 1
