@@ -55,19 +55,9 @@ async def save(projects: Projects, id: int, drafts: Drafts, version: int, author
 async def bring_in(projects: Projects, id: int, text: str, version: int, add: bool, author: str) -> UserErrors:
     """Takes the errors of a file from elsewhere, in place of those that there are or in addition to them."""
     model = await _model(projects, id)
-    drafts = await asyncio.to_thread(_checked, model, text)
-    if add:
-        before = await read(projects, id)
-        if not before.readable:
-            raise Refused(f"nothing was imported: {USER_ERRORS} has errors itself, so nothing can be added to it")
-        drafts = _together(before.drafts, drafts)
-        written, problems = await asyncio.to_thread(check_drafts, model, drafts)
-        if problems:
-            raise Refused(_refusal("nothing was imported: together with yours", [each.problem for each in problems]))
-        text = written.text
-    else:
-        text = write_catalogue(drafts).text
-    file = await projects.save(id, USER_ERRORS, text, version, author)
+    before = await read(projects, id) if add else None
+    written = await asyncio.to_thread(_imported, model, text, before)
+    file = await projects.save(id, USER_ERRORS, written, version, author)
     return await asyncio.to_thread(_read, model, file.text, file.version)
 
 
@@ -76,7 +66,7 @@ async def export(projects: Projects, id: int) -> str:
     try:
         return (await projects.file(id, USER_ERRORS)).text
     except NotFound:
-        return write_catalogue(Drafts()).text
+        return (await asyncio.to_thread(write_catalogue, Drafts())).text
 
 
 async def _model(projects: Projects, id: int) -> Model:
@@ -89,6 +79,19 @@ def _read(model: Model, text: str, version: int) -> UserErrors:
         return UserErrors(version, Drafts(), tuple(DraftProblem("", each) for each in document), readable=False)
     drafts = read_drafts(document)
     return UserErrors(version, drafts, tuple(check_drafts(model, drafts)[1]))
+
+
+def _imported(model: Model, text: str, before: UserErrors | None) -> str:
+    """What is to be written: the errors of a file, in addition to those that there were, if they are given."""
+    drafts = _checked(model, text)
+    if before is None:
+        return write_catalogue(drafts).text
+    if not before.readable:
+        raise Refused(f"nothing was imported: {USER_ERRORS} has errors itself, so nothing can be added to it")
+    written, problems = check_drafts(model, _together(before.drafts, drafts))
+    if problems:
+        raise Refused(_refusal("nothing was imported: together with yours", [each.problem for each in problems]))
+    return written.text
 
 
 def _checked(model: Model, text: str) -> Drafts:

@@ -1,5 +1,6 @@
 """REST: the errors that a project defines itself."""
 
+import asyncio
 from collections.abc import Sequence
 from dataclasses import asdict
 
@@ -20,13 +21,14 @@ router = APIRouter(prefix="/api/projects/{project}/user-errors", tags=["user err
 @router.get("")
 async def on_user_errors(bench: Bench, project: Id) -> wire.UserErrors:
     """The project's own errors."""
-    return _shown(await user_errors.read(bench.projects, project))
+    return await asyncio.to_thread(_shown, await user_errors.read(bench.projects, project))
 
 
 @router.post("/check")
 async def on_check_user_errors(bench: Bench, project: Id, draft: wire.UserErrorsDraft) -> wire.UserErrorsChecked:
     """What is wrong with errors that are being edited; stores nothing."""
-    found = await user_errors.check(bench.projects, project, _drafts(draft))
+    drafts = await asyncio.to_thread(_drafts, draft)
+    found = await user_errors.check(bench.projects, project, drafts)
     return wire.UserErrorsChecked(problems=list(map(_problem, found)))
 
 
@@ -36,7 +38,9 @@ async def on_save_user_errors(
 ) -> wire.UserErrors:
     """Writes them all to errors.xml, if nothing is wrong with them and nobody else saved since they were read."""
     author = user_of(request).name
-    return _shown(await user_errors.save(bench.projects, project, _drafts(save), save.version, author))
+    drafts = await asyncio.to_thread(_drafts, save)
+    saved = await user_errors.save(bench.projects, project, drafts, save.version, author)
+    return await asyncio.to_thread(_shown, saved)
 
 
 @router.post("/import", responses={409: {"model": shared.SaveConflict}})
@@ -45,7 +49,8 @@ async def on_import_user_errors(
 ) -> wire.UserErrors:
     """Takes the errors of a file, which is the body, in place of the project's own or in addition to them."""
     text, author = await xml_body(request), user_of(request).name
-    return _shown(await user_errors.bring_in(bench.projects, project, text, version, how == "add", author))
+    saved = await user_errors.bring_in(bench.projects, project, text, version, how == "add", author)
+    return await asyncio.to_thread(_shown, saved)
 
 
 @router.get("/export", response_class=Response)
@@ -57,7 +62,7 @@ async def on_export_user_errors(bench: Bench, project: Id) -> Response:
     )
 
 
-# ---- shapes ------------------------------------------------------------------------------------------------------
+# ---- shapes: thousands of errors take a while, so in a thread ---------------------------------------------------------
 
 
 def _shown(found: user_errors.UserErrors) -> wire.UserErrors:
