@@ -46,6 +46,7 @@ from scanbench.verify.verified import Column, Input, Mismatch, Output, Place, Ra
 
 LENGTH = struct.Struct("<I")
 LARGEST = 1 << 30
+"""Bytes of a message. Who says that more are coming does not speak this protocol, and the link to it ends."""
 _OBJECT = 1
 _LARGEST_NUMBER = 1 << 63
 _DEEPEST = 64
@@ -112,6 +113,14 @@ def unpack(body: bytes, read: _Read | None = None) -> object:
         raise BadMessage(f"{len(body)} bytes that are no message: {error}") from error
 
 
+def body_length(start: bytes | bytearray) -> int:
+    """How many bytes of message follow on its length; `BadMessage` where nobody waits for so many."""
+    length: int = LENGTH.unpack_from(start)[0]
+    if length > LARGEST:
+        raise BadMessage(f"a message of {length} bytes; the largest has {LARGEST}")
+    return length
+
+
 class Splitter:
     """Cuts a stream of bytes into messages."""
 
@@ -122,10 +131,7 @@ class Splitter:
         """Takes the next bytes; the messages that are complete now."""
         self._buffer += data
         while len(self._buffer) >= LENGTH.size:
-            (length,) = LENGTH.unpack_from(self._buffer)
-            if length > LARGEST:
-                raise BadMessage(f"a message of {length} bytes")
-            end = LENGTH.size + length
+            end = LENGTH.size + body_length(self._buffer)
             if len(self._buffer) < end:
                 return
             body = bytes(memoryview(self._buffer)[LENGTH.size : end])

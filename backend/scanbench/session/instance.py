@@ -19,7 +19,7 @@ from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Command
 from scanbench.runtime.forces import ForcedValue
 from scanbench.session import protocol
-from scanbench.session.codec import LENGTH, BadMessage, pack, unpack
+from scanbench.session.codec import LENGTH, BadMessage, body_length, pack, unpack
 from scanbench.session.debug_protocol import DebugAnswer, DebugRequest
 from scanbench.session.events import PlcState
 from scanbench.session.nursery import NoProcess, Process, nursery
@@ -217,7 +217,7 @@ class Instance:
         looking = asyncio.get_running_loop().create_task(self._look(writer))
         try:
             while True:
-                (length,) = LENGTH.unpack(await reader.readexactly(LENGTH.size))
+                length = body_length(await reader.readexactly(LENGTH.size))
                 message = unpack(await reader.readexactly(length))
                 self._hear()
                 if isinstance(message, protocol.StartFailed):

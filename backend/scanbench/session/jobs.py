@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
-from scanbench.session.codec import LARGEST, LENGTH, BadMessage, pack, unpack
+from scanbench.session.codec import LENGTH, BadMessage, body_length, pack, unpack
 from scanbench.session.nursery import NoProcess, Process, nursery
 
 log = logging.getLogger("scanbench")
@@ -83,9 +83,7 @@ class Job:
         self._waiting.clear()
         try:
             while True:
-                (length,) = LENGTH.unpack(await reader.readexactly(LENGTH.size))
-                if length > LARGEST:
-                    raise BadMessage(f"a message of {length} bytes")
+                length = body_length(await reader.readexactly(LENGTH.size))
                 on_message(unpack(await reader.readexactly(length)))
         except (asyncio.IncompleteReadError, ConnectionError):
             pass

@@ -1,6 +1,7 @@
 """The language between parent and hosts, and what both keep."""
 
 import dataclasses
+import socket
 from datetime import UTC, datetime
 from pathlib import Path
 
@@ -19,8 +20,9 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.trap import TrapInfo, Trapped
 from scanbench.runtime.write import Write
-from scanbench.session import protocol
+from scanbench.session import codec, protocol
 from scanbench.session.codec import ENTRIES, LENGTH, BadMessage, Splitter, pack, pack_body, unpack
+from scanbench.session.host.link import Link
 from scanbench.session.instance import Remembered
 from scanbench.session.watches import Watches
 from scanbench.store.records import Limits
@@ -96,6 +98,33 @@ def _kind() -> int:
     found = msgpack.unpackb(pack_body(Release("Ann", "D100")))
     assert isinstance(found, msgpack.ExtType)
     return int(found.code)
+
+
+def test_the_longest_message(monkeypatch: pytest.MonkeyPatch) -> None:
+    message = protocol.Frame(b"x" * 100, 3)
+    packed = pack(message)
+    monkeypatch.setattr(codec, "LARGEST", len(packed) - LENGTH.size)
+    assert list(Splitter().feed(packed)) == [message]
+    with pytest.raises(BadMessage, match=f"{len(packed) - LENGTH.size + 1} bytes"):
+        list(Splitter().feed(pack(protocol.Frame(b"x" * 101, 3))))
+
+
+def test_a_message_that_says_to_be_longer_is_refused_before_its_bytes_are_waited_for() -> None:
+    assert list(Splitter().feed(LENGTH.pack(codec.LARGEST))) == []
+    assert codec.body_length(LENGTH.pack(codec.LARGEST)) == codec.LARGEST
+    for longer in (codec.LARGEST + 1, (1 << 32) - 1):
+        with pytest.raises(BadMessage, match=f"{longer} bytes"):
+            codec.body_length(LENGTH.pack(longer))
+
+
+def test_the_link_of_a_host_ends_there() -> None:
+    ours, theirs = socket.socketpair()
+    with ours, theirs:
+        ours.sendall(pack(protocol.Quit()) + LENGTH.pack(codec.LARGEST + 1))
+        seen: list[object] = []
+        with pytest.raises(BadMessage):
+            Link(theirs).serve(seen.append, lambda: None, lambda: 1 << 40)
+        assert seen == [protocol.Quit()]
 
 
 def test_what_is_not_in_the_protocol_cannot_be_sent() -> None:
