@@ -1,6 +1,6 @@
 """`scanbench run`: a program headless, on virtual time: the same call prints the same on every machine."""
 
-from collections.abc import Callable
+from collections.abc import Callable, Sequence
 from enum import StrEnum
 from pathlib import Path
 
@@ -8,7 +8,7 @@ import typer
 
 from scanbench.check.build import check_sources
 from scanbench.check.program import Program
-from scanbench.cli.inputs import below, find_model, problem_json, read_sources, usage, with_near
+from scanbench.cli.inputs import Sources, below, find_model, problem_json, read_sources, usage, with_near
 from scanbench.cli.interrupt import INTERRUPTED, interruptible
 from scanbench.cli.record import check_whole, recorded
 from scanbench.cli.run_options import Options, find_symbol, read_commands, read_condition, read_interval
@@ -24,6 +24,8 @@ from scanbench.engines.pair import Differs, PairEngine
 from scanbench.faults.arm import Arm
 from scanbench.faults.detect import Detection
 from scanbench.faults.schedule import Schedule
+from scanbench.plcmodel.model import Model
+from scanbench.runtime.command import Command
 from scanbench.runtime.headless import run_headless
 from scanbench.runtime.joined import Joined
 from scanbench.verify.disturb_schedule import DisturbanceSchedule
@@ -76,21 +78,9 @@ def run(
     engines differ; 4: the PLC trapped; 130: interrupted by Ctrl-C, what is printed is of the scans that ran.
     """
     sources = read_sources([path])
-    plc = find_model(model, sources)
-    checked = check_sources(sources.texts, plc, read_interval(interval))
-    problems = [problem_json(problem) for problem in checked.problems]
-    if checked.program is None:
-        if as_json:
-            typer.echo(nothing_ran(problems))
-        for problem in checked.problems:
-            typer.echo(str(problem), err=True)
-        raise typer.Exit(1)
-    program = checked.program
-    commands = read_commands(program, Options(set, force, generate, clear, mode, restart))
+    program, problems = _compiled(sources, find_model(model, sources), read_interval(interval), as_json)
+    commands = _commands(program, Options(set, force, generate, clear, mode, restart), engine)
     shown = [(each, find_symbol(program, each)) for each in show]
-    lines = any(isinstance(each, Arm) and each.wanted.start.kind == "line" for _, each in commands)
-    if lines and engine is EngineChoice.BOTH:
-        usage("--engine both cannot wait for a line: code that notes statements runs on one engine")
     condition = None if until is None else read_condition(program, until)
     try:
         with (
@@ -111,17 +101,38 @@ def run(
             typer.echo(nothing_ran(problems, difference=str(difference)))
         typer.echo(f"scanbench: {difference}", err=True)
         raise typer.Exit(3) from None
+    report_json(result, shown, problems, hash) if as_json else report_text(result, shown, hash)
+    _end(result, commands, until, interrupt.asked)
+
+
+def _compiled(
+    sources: Sources, model: Model, interval_ns: int, as_json: bool
+) -> tuple[Program, list[dict[str, str | int]]]:
+    """The program and its warnings; exit code 1 where there is none."""
+    checked = check_sources(sources.texts, model, interval_ns)
+    problems = [problem_json(problem) for problem in checked.problems]
+    if checked.program is not None:
+        return checked.program, problems
     if as_json:
-        report_json(result, shown, problems, hash)
-    else:
-        report_text(result, shown, hash)
+        typer.echo(nothing_ran(problems))
+    for problem in checked.problems:
+        typer.echo(str(problem), err=True)
+    raise typer.Exit(1)
+
+
+def _commands(program: Program, options: Options, engine: EngineChoice) -> list[tuple[int, Command]]:
+    commands = read_commands(program, options)
+    lines = any(isinstance(each, Arm) and each.wanted.start.kind == "line" for _, each in commands)
+    if lines and engine is EngineChoice.BOTH:
+        usage("--engine both cannot wait for a line: code that notes statements runs on one engine")
+    return commands
+
+
+def _end(result: Result, commands: Sequence[tuple[int, Command]], until: str | None, interrupted: bool) -> None:
+    """What did not go as it was asked for, on stderr, and the exit code."""
     for scan, _ in commands:
         if scan > result.scans:
             typer.echo(f"scanbench: the command for scan {scan} was not applied: the run ended before it", err=True)
-    _end(result, until, interrupt.asked)
-
-
-def _end(result: Result, until: str | None, interrupted: bool) -> None:
     for refused in result.refused:
         why = with_near(refused.refusal.message, refused.refusal.near)
         typer.echo(f"scanbench: refused before scan {refused.scan}: {why}", err=True)

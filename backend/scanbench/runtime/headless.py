@@ -1,6 +1,6 @@
 """Runs a program without a clock, a socket or a person: the same commands give the same image, every time."""
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from typing import Generic, TypeVar
 
@@ -79,23 +79,11 @@ def run_headless(
     waiting = sorted(commands_at, key=lambda pair: pair[0])
     while resource.trap is None:
         now = resource.header.scan
-        while waiting and waiting[0][0] <= now:
-            at, command = waiting.pop(0)
-            outcome = resource.submit(command)
-            if isinstance(outcome, Refusal):
-                refused.append(Refused(at, command, outcome))
-            elif recorded is not None:
-                recorded.take_due()
+        refused += _entered(resource, waiting, recorded)
         if now >= scans or met or (interrupt is not None and interrupt.asked):
             break
-        stops = [scans]
-        if waiting:
-            stops.append(waiting[0][0])
-        if every:
-            stops.append(now - now % every + every)
-        if recorded is not None and resource.runnable:
-            stops.append(now + recorded.slice())
-        met = _advance(resource, min(stops) - now)  # perhaps less: it comes back for what the program asks for
+        stop = min([scans, *_stops(resource, waiting, every, recorded)])
+        met = _advance(resource, stop - now)  # perhaps less: it comes back for what the program asks for
         if recorded is not None:
             recorded.take_due()
         done = resource.header.scan
@@ -104,6 +92,30 @@ def run_headless(
     if recorded is not None:
         recorded.end()
     return HeadlessRun(resource, resource.header.scan, tuple(resource.journal), tuple(refused), tuple(rows), met)
+
+
+def _entered(resource: Resource, waiting: list[tuple[int, Command]], recorded: "_Recorded | None") -> Iterator[Refused]:
+    """Enters the commands for this seam; those that the PLC does not take."""
+    while waiting and waiting[0][0] <= resource.header.scan:
+        at, command = waiting.pop(0)
+        outcome = resource.submit(command)
+        if isinstance(outcome, Refusal):
+            yield Refused(at, command, outcome)
+        elif recorded is not None:
+            recorded.take_due()
+
+
+def _stops(
+    resource: Resource, waiting: Sequence[tuple[int, Command]], every: int, recorded: "_Recorded | None"
+) -> Iterator[int]:
+    """Scans in whose seam there is something to do."""
+    now = resource.header.scan
+    if waiting:
+        yield waiting[0][0]
+    if every:
+        yield now - now % every + every
+    if recorded is not None and resource.runnable:
+        yield now + recorded.slice()
 
 
 def _advance(resource: Resource, scans: int) -> bool:
