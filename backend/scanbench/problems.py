@@ -4,6 +4,7 @@ Every problem has a code from `TABLE`; one row is one problem, with a page in th
 This module imports nothing of ours: every room may use it.
 """
 
+from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import StrEnum
 
@@ -50,6 +51,12 @@ class Problem:
 
     def __str__(self) -> str:
         return f"{self.span}: {self.code} {self.message}"
+
+
+def perhaps(near: Iterable[str]) -> str:
+    """A sentence that follows another one: ` Did you mean `x` or `y`?`; nothing where no name is near."""
+    names = " or ".join(f"`{each}`" for each in near)
+    return f" Did you mean {names}?" if names else ""
 
 
 def _shown(char: str) -> str:

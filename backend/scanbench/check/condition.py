@@ -40,7 +40,7 @@ from scanbench.check.types import (
 )
 from scanbench.check.untyped import settle
 from scanbench.plcmodel.model import Location
-from scanbench.problems import Problem, Span
+from scanbench.problems import Problem, Span, perhaps
 from scanbench.syntax import tree
 from scanbench.syntax.cursor import Unexpected
 from scanbench.syntax.parse_st import StParser
@@ -287,8 +287,7 @@ class ProgramChecker(CallChecker):
         try:
             resolve(self.program, name)
         except UnknownPath as error:
-            meant = " or ".join(f"`{each}`" for each in error.near)
-            return self.report.reject("T001", f"{error.message}{f' Did you mean {meant}?' if meant else ''}", span)
+            return self.report.reject("T001", f"{error.message}{perhaps(error.near)}", span)
         return super().unknown(name, span)
 
     def may_use(self, record: Record, member: Member) -> bool:

@@ -9,7 +9,7 @@ from heapq import nlargest
 from itertools import pairwise
 
 from scanbench.check.program import CheckSite, Pou, TrapKind, TrapSite
-from scanbench.problems import Problem, Severity, Span
+from scanbench.problems import Problem, Severity, Span, perhaps
 
 
 class Rejected(Exception):
@@ -103,7 +103,7 @@ def _did_you_mean(name: str, known: tuple[str, ...]) -> str:
         wanted = _pairs(name)
         likely = nlargest(COMPARED, likely, key=lambda item: len(wanted & _pairs(item)) / (len(item) + len(name)))
     near = get_close_matches(name, likely, n=2, cutoff=0.6)
-    return f" Did you mean {' or '.join(f'`{by_upper[item]}`' for item in near)}?" if near else ""
+    return perhaps(by_upper[item] for item in near)
 
 
 @lru_cache(1 << 15)

@@ -9,7 +9,7 @@ from scanbench.check.declare import Declarations, own_memory
 from scanbench.check.program import AccessPath, Program
 from scanbench.check.symbols import Symbol, UnknownPath, resolve
 from scanbench.check.types import SLOT_BYTES, ArrayType, Member, Record, Section, Type
-from scanbench.problems import Span
+from scanbench.problems import Span, perhaps
 from scanbench.syntax import tree
 
 
@@ -113,7 +113,7 @@ class Settings:
         try:
             return resolve(self._program, path)
         except UnknownPath as unknown:
-            hint = f" Did you mean `{unknown.near[0]}`?" if unknown.near else ""
+            hint = perhaps(unknown.near[:1])
             raise self._report.reject("D010", f"{unknown.message}{hint}", span) from None
 
 

@@ -15,6 +15,7 @@ from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.react import Point
 from scanbench.faults.reference import parse_reference
+from scanbench.problems import perhaps
 from scanbench.runtime.command import Command, Refusal
 from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.header import Mode
@@ -89,8 +90,8 @@ def _read_state(number: int, told: object) -> State:
     for key in told:
         if key not in known:
             near = get_close_matches(key, known, 1)
-            hint = f"did you mean {near[0]!r}?" if near else f"there are {', '.join(known)}"
-            raise BadStates(f"{where} has {key!r}, which is nothing here; {hint}")
+            hint = f".{perhaps(near)}" if near else f"; there are {', '.join(known)}"
+            raise BadStates(f"{where} has {key!r}, which is nothing here{hint}")
     if "run" in told:
         run = told["run"]
         if not isinstance(run, str) or not run:

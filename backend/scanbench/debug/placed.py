@@ -14,6 +14,7 @@ from scanbench.debug.assign import Assigning
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.hits import HitRule, parse_hits
 from scanbench.debug.texts import BadText, Holds, Says, Texts
+from scanbench.problems import perhaps
 
 
 @dataclass(eq=False, slots=True)
@@ -123,8 +124,8 @@ class Placing:
         if len(ends) == 1 and name:
             return ends[0]
         near = get_close_matches(name, files, n=3, cutoff=0.3)
-        hint = f": did you mean {' or '.join(near)}?" if near else ""
-        raise BadText(f"the program that runs has no statement in {name or 'a file without a name'}{hint}")
+        where = f"the program that runs has no statement in {name or 'a file without a name'}"
+        raise BadText(f"{where}.{perhaps(near)}")
 
     def _below(self, file: str, line: int) -> tuple[int, ...]:
         lines = sorted({site.span.line for site in self.sites.statements if site.span.file == file})
@@ -154,8 +155,7 @@ class Placing:
         for name in error_names(placed.breakpoint):
             if name not in known:
                 near = get_close_matches(name, known, 3, 0.4)
-                hint = f" Did you mean {' or '.join(near)}?" if near else ""
-                raise BadText(f"the model {self.program.layout.model.name} has no error {name}.{hint}")
+                raise BadText(f"the model {self.program.layout.model.name} has no error {name}.{perhaps(near)}")
 
     def _violation(self, placed: Placed, scan: int) -> None:
         if not self.program.checks:
@@ -192,8 +192,7 @@ class Placing:
         try:
             return resolve(self.program, path)
         except UnknownPath as error:
-            hint = f" Did you mean {' or '.join(error.near)}?" if error.near else ""
-            raise BadText(f"{error.message}{hint}") from None
+            raise BadText(f"{error.message}{perhaps(error.near)}") from None
 
     def _texts(self, placed: Placed) -> None:
         breakpoint, texts = placed.breakpoint, self.texts

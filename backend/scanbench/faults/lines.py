@@ -4,6 +4,7 @@ from difflib import get_close_matches
 
 from scanbench.check.program import Program
 from scanbench.check.sites import sites_of
+from scanbench.problems import perhaps
 from scanbench.runtime.command import Refusal
 
 
@@ -14,8 +15,8 @@ def find_line(program: Program, file: str, line: int) -> tuple[int, ...] | Refus
     name = _file(files, file)
     if name is None:
         near = tuple(get_close_matches(file, files, n=3, cutoff=0.3))
-        hint = f"did you mean {' or '.join(near)}?" if near else f"there are {', '.join(files[:10]) or 'none'}"
-        return Refusal(f"no statement of the program is in a file {file or '(none named)'}: {hint}", near)
+        hint = f".{perhaps(near)}" if near else f": there are {', '.join(files[:10]) or 'none'}"
+        return Refusal(f"no statement of the program is in a file {file or '(none named)'}{hint}", near)
     found = sites.at_line(name, line)
     if found:
         return found

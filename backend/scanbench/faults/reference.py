@@ -4,6 +4,7 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 
 from scanbench.plcmodel.model import ErrorEntry, Model
+from scanbench.problems import perhaps
 from scanbench.runtime.command import Refusal
 
 
@@ -22,8 +23,7 @@ def find_error(model: Model, id: str) -> ErrorEntry | Refusal:
         return entry
     ids = [error.id for error in model.errors()]
     near = tuple(get_close_matches(id.lower(), ids, n=4, cutoff=0.4))
-    hint = f"; did you mean {' or '.join(near)}?" if near else ""
-    return Refusal(f"{model.name} knows no error {id!r}{hint}", near)
+    return Refusal(f"{model.name} knows no error {id!r}{'.' if near else ''}{perhaps(near)}", near)
 
 
 def parse_reference(model: Model, text: str) -> ErrorRef | Refusal:

@@ -24,7 +24,7 @@ from scanbench.plcmodel.read_system import (
     status_words,
 )
 from scanbench.plcmodel.reading import Reader, text_of, wordings_of
-from scanbench.problems import Problem, Span
+from scanbench.problems import Problem, Span, perhaps
 
 Loaded = tuple[Model | None, list[Problem]]
 
@@ -97,8 +97,8 @@ class Library:
             file = self.named(base)
             if file is None:
                 near = get_close_matches(base, self._names, n=1)
-                hint = f"Did you mean {near[0]}?" if near else f"there are {', '.join(sorted(self._names))}"
-                return _based(document, f"there is no model {base!r} to be based on: {hint}")
+                hint = f".{perhaps(near)}" if near else f": there are {', '.join(sorted(self._names))}"
+                return _based(document, f"there is no model {base!r} to be based on{hint}")
             found = self._document(file)
             if not isinstance(found, Document):
                 return _based(document, f"its base {base} cannot be read: {found[0]}")

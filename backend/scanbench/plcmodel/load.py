@@ -8,7 +8,7 @@ from pathlib import Path
 from scanbench.plcmodel.document import SCHEMA
 from scanbench.plcmodel.library import Library, duplicate
 from scanbench.plcmodel.model import Model
-from scanbench.problems import Problem
+from scanbench.problems import Problem, perhaps
 
 
 class NoModels(Exception):
@@ -64,8 +64,9 @@ def model_named(name: str, models: Sequence[Model] | None = None) -> Model:
     if (found := by_name.get(name.upper())) is not None:
         return found
     near = get_close_matches(name.upper(), by_name, n=1)
-    hint = f"did you mean {by_name[near[0]].name}?" if near else f"there are {', '.join(each.name for each in models)}"
-    raise NoSuchModel(f"there is no model {name}; {hint}")
+    known = ", ".join(each.name for each in models)
+    hint = f".{perhaps(by_name[each].name for each in near)}" if near else f"; there are {known}"
+    raise NoSuchModel(f"there is no model {name}{hint}")
 
 
 def load_file(path: Path, directory: Path) -> tuple[Model | None, list[Problem]]:

@@ -11,7 +11,7 @@ from scanbench.plcmodel import address
 from scanbench.plcmodel.areas import Area, IecMap, Location
 from scanbench.plcmodel.catalogue import CodeForm, Wording
 from scanbench.plcmodel.document import Document
-from scanbench.problems import Problem
+from scanbench.problems import Problem, perhaps
 
 T = TypeVar("T")
 LANGUAGE = "{http://www.w3.org/XML/1998/namespace}lang"
@@ -90,8 +90,8 @@ class Reader:
 
 def nearest(name: str, known: Iterable[str]) -> str:
     """A hint at what was perhaps meant, to end a message with."""
-    near = get_close_matches(name, known, n=1)
-    return f". Did you mean {near[0]}?" if near else ""
+    hint = perhaps(get_close_matches(name, known, n=1))
+    return f".{hint}" if hint else ""
 
 
 Element = tuple[Reader, etree._Element]

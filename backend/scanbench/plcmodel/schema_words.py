@@ -4,6 +4,8 @@ import re
 from collections.abc import Callable
 from difflib import get_close_matches
 
+from scanbench.problems import perhaps
+
 _LOOKS = {
     "[a-z][a-z0-9]*(-[a-z0-9]+)*": "write small letters and digits, with hyphens between the words, as in `pump-too-hot`",
     r"[%A-Za-z0-9. _\-]{1,64}": "write an address of the model, as `W10.05`",
@@ -47,7 +49,7 @@ def _plain(name: str) -> str:
 def _one_of(place: str, found: re.Match[str]) -> str:
     allowed = re.findall(r"'([^']*)'", found[2])
     near = get_close_matches(found[1].lower(), allowed, 1, 0.5)
-    hint = f"; did you mean {near[0]}?" if near else ""
+    hint = f".{perhaps(near)}" if near else ""
     return f"{place} is {found[1]!r}, it can be {_or(allowed)}{hint}"
 
 

@@ -6,6 +6,7 @@ from difflib import get_close_matches
 from scanbench.check.types import StringType
 from scanbench.check.values import parse_value
 from scanbench.engines.engine import Reason
+from scanbench.problems import perhaps
 from scanbench.runtime.command import Patch
 from scanbench.runtime.trap import trap_info
 from scanbench.verify.both import Both, Ran
@@ -61,8 +62,7 @@ class Edits:
         leaf = inputs.get(column)
         if leaf is None:
             near = tuple(get_close_matches(column, inputs, 3, 0.5))
-            more = f" Did you mean {' or '.join(near)}?" if near else ""
-            raise BadEdit(f"`{column}` is no input of scan {scan}, call {call}.{more}", near)
+            raise BadEdit(f"`{column}` is no input of scan {scan}, call {call}.{perhaps(near)}", near)
         mine = self._all.setdefault((scan, call), {})
         if not text.strip():
             mine.pop(column, None)

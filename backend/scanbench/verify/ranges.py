@@ -11,7 +11,7 @@ from scanbench.check.program import Pou, Program
 from scanbench.check.sites import Sites
 from scanbench.check.symbols import UnknownPath, resolve
 from scanbench.check.types import Record
-from scanbench.problems import Span
+from scanbench.problems import Span, perhaps
 from scanbench.verify.verified import BadRange, Range
 
 _TEXT = re.compile(r"(?P<head>[^:@]*)(?::(?P<first>[^-@]*)(?:-(?P<last>[^@]*))?)?(?:@(?P<instance>.*))?")
@@ -230,7 +230,7 @@ def _only(program: Program, pou: Pou, instances: tuple[str, ...], asked: str) ->
 
 def _perhaps(near: tuple[str, ...], all: Iterable[str]) -> str:
     if near:
-        return f" Did you mean {' or '.join(near)}?"
+        return perhaps(near)
     names = sorted(all)
     more = ", ..." if len(names) > _SHOWN else ""
     return f" There is {', '.join(names[:_SHOWN])}{more}." if names else ""

@@ -8,6 +8,7 @@ from scanbench.check.program import Program
 from scanbench.check.sites import sites_of
 from scanbench.check.symbols import Symbol, UnknownPath, resolve
 from scanbench.check.types import Elementary, StringType
+from scanbench.problems import perhaps
 from scanbench.verify.mapping import ColumnMap, Gaps, TraceMapping, bits_of, written
 from scanbench.verify.trace_axis import Scans, axis_of, plain_name, scans_of
 from scanbench.verify.trace_table import Problems, Table, TraceProblem
@@ -195,4 +196,4 @@ def _meant(name: str, known: Sequence[str]) -> str:
 
 
 def _near(names: Sequence[str]) -> str:
-    return f" Did you mean {' or '.join(f'`{each}`' for each in names[:3])}?" if names else ""
+    return perhaps(names[:3])

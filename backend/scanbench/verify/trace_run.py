@@ -6,6 +6,7 @@ from difflib import get_close_matches
 from scanbench.check.program import Program
 from scanbench.check.types import StringType
 from scanbench.check.values import parse_value
+from scanbench.problems import perhaps
 from scanbench.verify.control import Unverifiable
 from scanbench.verify.edits import BadEdit, Edit
 from scanbench.verify.mapping import BadMapping, TraceMapping
@@ -189,8 +190,7 @@ class TraceVerifier:
         leaf = known.get(column)
         if leaf is None:
             near = tuple(get_close_matches(column, known, 3, 0.5))
-            more = f" Did you mean {' or '.join(near)}?" if near else ""
-            raise BadEdit(f"`{column}` is no input of scan {scan}, call {call}.{more}", near)
+            raise BadEdit(f"`{column}` is no input of scan {scan}, call {call}.{perhaps(near)}", near)
         try:
             value = parse_value(leaf.type, text)
         except ValueError as error:

@@ -65,7 +65,7 @@ def test_without_a_shape_it_is_raised_at_once() -> None:
 @pytest.mark.parametrize(
     ("text", "words"),
     [
-        ("batery-error for 5", "did you mean battery-error"),
+        ("batery-error for 5", "Did you mean `battery-error`"),
         ("battery-error for", "`for` is not understood"),
         ("battery-error for x", "`for x` is not understood"),
         ("battery-error for 5 for 6", "`for 6` is not understood"),

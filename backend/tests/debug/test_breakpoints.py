@@ -59,7 +59,7 @@ def test_a_line_without_a_statement_moves_down_and_says_so(walker: Walker) -> No
     assert (moved.verified, moved.line, moved.message) == (True, 24, "")
     moved, *_ = walker.set(line(8))
     assert (moved.verified, moved.line, moved.message) == (True, 13, "moved to line 13: line 8 has no statement")
-    assert (unknown.verified, "did you mean main.st?" in unknown.message) == (False, True)
+    assert (unknown.verified, "Did you mean `main.st`?" in unknown.message) == (False, True)
     assert (behind.verified, behind.message) == (
         False, "no statement begins at main.st:99 or below; the last one is at line 30"
     )  # fmt: skip

@@ -68,7 +68,7 @@ def test_what_is_present_is_refused_or_changed() -> None:
     details = [(each.address, each.before, each.after) for each in changed.writes if each.what == "detail"]
     assert details == [("A417.04", "0", "1"), ("A417.03", "1", "0")]
     unknown = preview(resource.view, (ErrorRef("batery-error"),), again=False)
-    assert "did you mean battery-error" in unknown.message
+    assert "Did you mean `battery-error`" in unknown.message
 
 
 @pytest.mark.parametrize("name", [each.name for each in load_all(model_directory())[0]])

@@ -17,7 +17,7 @@ GOOD = """<UserErrors>
 @pytest.mark.parametrize(
     ("old", "new", "says"),
     [
-        ('"nonfatal"', '"non-fatal"', "Severity of <Error> is 'non-fatal', it can be fatal or nonfatal; did you mean nonfatal?"),
+        ('"nonfatal"', '"non-fatal"', "Severity of <Error> is 'non-fatal', it can be fatal or nonfatal. Did you mean `nonfatal`?"),
         ('"nonfatal"', '"mild"', "Severity of <Error> is 'mild', it can be fatal or nonfatal"),
         ('Id="lift"', 'Id="Lift Up"', "Id of <Error> is 'Lift Up': write small letters and digits, with hyphens between"),
         ('Id="lift"', f'Id="{"a" * 70}"', "Id of <Error> has 70 characters: write 64 at most"),

@@ -101,7 +101,7 @@ def test_a_model_alone_is_the_same(model: Model) -> None:
 
 
 def test_a_model_that_there_is_not() -> None:
-    with pytest.raises(NoSuchModel, match="did you mean CJ1M-CPU13"):
+    with pytest.raises(NoSuchModel, match="Did you mean `CJ1M-CPU13`"):
         model_named("cj1m-cpu19x", [model for model in ALL if model.name in ("CJ1M-CPU13", "Q03UD")])
     with pytest.raises(NoSuchModel, match=r"there are .*GENERIC-IEC"):
         model_named("???")

@@ -97,9 +97,9 @@ def test_lines_without_a_statement_are_moved_and_that_is_said(text: str, line: i
 @pytest.mark.parametrize(
     ("text", "message", "near"),
     [
-        ("Bellt", "no POU `Bellt` runs in this program. Did you mean Belt", ("Belt",)),
+        ("Bellt", "no POU `Bellt` runs in this program. Did you mean `Belt`", ("Belt",)),
         ("main.st:3-12", "a range is in one POU, and these lines are in 2: Belt, Main", ("Belt", "Main")),
-        ("mian.st:3", "no statement of `mian.st` runs in this program. Did you mean main.st", ("main.st",)),
+        ("mian.st:3", "no statement of `mian.st` runs in this program. Did you mean `main.st`", ("main.st",)),
         ("Belt@Main.belt[3]", "outside of 1..2", ()),
         ("main.st:400-401", "lines 400 to 401: the last statement of main.st ends in line 13", ()),
         ("Belt:15", "line 15: the last statement of main.st ends in line 13", ()),

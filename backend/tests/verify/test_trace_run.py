@@ -338,7 +338,7 @@ def test_set_data_of_the_whole_scan() -> None:
 @pytest.mark.parametrize(
     ("edit", "words"),
     [
-        ((6, 2, "bye", "10"), "Did you mean by?"),
+        ((6, 2, "bye", "10"), "Did you mean `by`?"),
         ((6, 2, "by", "ten"), "`ten` is not INT"),
         ((6, 3, "by", "10"), "no run 3"),
         ((99, 1, "by", "10"), "not in the trace"),

@@ -317,7 +317,7 @@ def test_bad_edits_are_refused_and_nothing_is_kept(tmp_path: Path) -> None:
     record(tmp_path / "run", program(BELTS), 6)
     verified = verifier(tmp_path / "run", program(BELTS), "Belt")
     before = verified.verify(3).rows
-    with pytest.raises(BadEdit, match=r"`poss` is no input.*Did you mean pos"):
+    with pytest.raises(BadEdit, match=r"`poss` is no input.*Did you mean `pos`"):
         verified.set_inputs([(3, 2, "pos", "1"), (3, 2, "poss", "1")])
     with pytest.raises(BadEdit, match="pos: `x` is not INT"):
         verified.set_inputs([(3, 2, "pos", "x")])
