@@ -34,6 +34,29 @@ describe("plots", () => {
     expect(plots.map(({ lines }) => lines.map(({ signal: { text } }) => text))).toEqual([["a.speed", "b.parts"]]);
   });
 
+  it("have one unit each: a duration shares no axis with a number, also when it is dragged there", () => {
+    const of = (text: string, kind: string, type = "") => ({ ...signal(text, kind), type });
+    const signals = [
+      of("a.v", "int"),
+      of("b.v", "time", "LTIME"),
+      of("c.v", "time", "TIME"),
+      of("d.v", "date", "LDATE"),
+      of("e.v", "date", "LTIME_OF_DAY"),
+      of("f.v", "date", "DATE_AND_TIME"),
+      of("g.x", "time", "TIME"),
+      of("h.x", "time", "TIME"),
+    ];
+    const { plots } = layoutOf(signals, new Map([["g.x", "V"]]));
+    expect(plots.map(({ unit, lines }) => [unit, lines.map(({ signal: { text } }) => text)])).toEqual([
+      ["number", ["a.v"]],
+      ["time", ["b.v", "c.v", "g.x"]],
+      ["date", ["d.v"]],
+      ["clock", ["e.v"]],
+      ["moment", ["f.v"]],
+      ["time", ["h.x"]],
+    ]);
+  });
+
   it("are none without signals", () => {
     expect(layoutOf([], new Map())).toEqual({ plots: [], lanes: [] });
   });

@@ -17,10 +17,21 @@ export interface Line {
   steps: boolean;
 }
 
+/** What a plot's axis counts: plain numbers, durations, days, times of day, or both of these. */
+export type AxisUnit = "number" | "time" | "date" | "clock" | "moment";
+
 export interface Plot {
   key: string;
   title: string;
+  unit: AxisUnit;
   lines: Line[];
+}
+
+export function unitOf({ kind, type }: Pick<TraceSignal, "kind" | "type">): AxisUnit {
+  if (kind === "time") return "time";
+  if (kind !== "date") return "number";
+  if (type === "DATE" || type === "LDATE") return "date";
+  return type.endsWith("TIME_OF_DAY") ? "clock" : "moment";
 }
 
 export interface Layout {
@@ -48,9 +59,12 @@ export function layoutOf(signals: readonly TraceSignal[], moved: ReadonlyMap<str
     }
     numeric += 1;
     const title = lastName(signal.text);
-    const key = moved.get(signal.text) ?? `${title.toUpperCase()} ${signal.kind === "time" ? "T" : ""}`.trim();
-    const plot = plots.get(key) ?? { key, title, lines: [] };
-    plots.set(key, plot);
+    const key = moved.get(signal.text) ?? title.toUpperCase();
+    const unit = unitOf(signal);
+    // One axis has one unit: what counts something else has a plot of its own, wherever it was dragged.
+    const known = `${unit} ${key}`;
+    const plot = plots.get(known) ?? { key, title, unit, lines: [] };
+    plots.set(known, plot);
     plot.lines.push(line);
   });
   for (const plot of plots.values()) shorten(plot.lines);
@@ -109,11 +123,17 @@ export function axisText(value: number): string {
   return Number(value.toPrecision(6)).toString();
 }
 
+/** Beside a constant moment: a tenth of all nanoseconds since 1970 would be years. */
+const CONSTANT: Partial<Record<AxisUnit, number>> = { date: 86_400e9, clock: 60e9, moment: 60e9 };
+
 /** A little room above and below; a constant stands in the middle. */
-export function padded(range: Range | null): Range {
+export function padded(range: Range | null, unit: AxisUnit = "number"): Range {
   if (range === null) return { from: 0, to: 1 };
   const { from, to } = range;
-  if (from === to) return { from: from - Math.max(1, Math.abs(from) * 0.1), to: to + Math.max(1, Math.abs(to) * 0.1) };
+  if (from === to) {
+    const beside = CONSTANT[unit] ?? Math.max(1, Math.abs(from) * 0.1);
+    return { from: from - beside, to: to + beside };
+  }
   const room = (to - from) * 0.08;
   return { from: from - room, to: to + room };
 }

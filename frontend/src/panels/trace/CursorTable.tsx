@@ -1,6 +1,6 @@
 import { useEffect, useState } from "react";
 import { grouped, plcTime } from "../../logic/numbers";
-import { axisText, layoutOf, spanText } from "../../logic/plots";
+import { axisText, layoutOf, spanText, unitOf } from "../../logic/plots";
 import { decode, rowAt, type Samples, textAt } from "../../logic/samples";
 import { t } from "../../logic/text";
 import { moveTo, readSamples, removeSignal, type Shown, setCursor, useTraces } from "../../store/traces";
@@ -115,6 +115,7 @@ export function CursorTable({ shown, samples }: Props) {
               : [
                   { label: t("trace.ownplot"), onSelect: () => moveTo(menu.signal.text, `= ${menu.signal.text}`) },
                   ...plots
+                    .filter((plot) => plot.unit === unitOf(menu.signal))
                     .filter((plot) => !plot.lines.some(({ signal }) => signal.text === menu.signal.text))
                     .map((plot) => ({
                       label: t("trace.toplot", { plot: plot.title }),
@@ -195,7 +196,7 @@ function difference(a: At | null, b: At | null, index: number, signal: TraceSign
   const other = b?.samples.columns[index]?.[b.row];
   if (one === undefined || other === undefined || Number.isNaN(one) || Number.isNaN(other)) return "–";
   if (signal.kind === "bool") return one === other ? "–" : t(other > one ? "trace.rose" : "trace.fell");
-  if (signal.kind === "time") return spanText(other - one);
+  if (signal.kind === "time" || signal.kind === "date") return spanText(other - one);
   return axisText(other - one).replace("-", "−");
 }
 

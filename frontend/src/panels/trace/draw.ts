@@ -2,7 +2,8 @@
 import { type Line, padded } from "../../logic/plots";
 import { bounds, perPixel, type Range, type Samples } from "../../logic/samples";
 
-export const LEFT = 46;
+/** Room for the texts of an axis (`AXIS_CHARACTERS`). */
+export const LEFT = 76;
 export const RIGHT = 112;
 export const LANE = 28;
 

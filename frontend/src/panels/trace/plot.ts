@@ -1,6 +1,7 @@
 /** One plot of numbers with uPlot: decimated to its pixels before, names at the ends of lines and dots at cursors drawn behind. */
 import uPlot from "uplot";
-import { axisText, type Plot, padded, ticks } from "../../logic/plots";
+import { axisMarks, type Mark } from "../../logic/axis";
+import { type Plot, padded } from "../../logic/plots";
 import { bounds, type Drawn, perPixel, type Range, rowAt, type Samples } from "../../logic/samples";
 import { type Colors, cut, LEFT, RIGHT } from "./draw";
 
@@ -17,6 +18,7 @@ export class PlotDrawing {
   private readonly chart: uPlot;
   private now: PlotView | null = null;
   private y: Range = { from: 0, to: 1 };
+  private marks: readonly Mark[] = [];
   private other: { drawn: Drawn; shift: number } | null = null;
 
   constructor(
@@ -51,7 +53,7 @@ export class PlotDrawing {
       const moved = { from: view.view.from - compared.shift, to: view.view.to - compared.shift };
       this.other = { drawn: perPixel(compared.samples, compared.columns, moved, pixels), shift: compared.shift };
     }
-    this.y = padded(bounds([...drawn.ys, ...(this.other?.drawn.ys ?? [])]));
+    this.y = padded(bounds([...drawn.ys, ...(this.other?.drawn.ys ?? [])]), this.plot.unit);
     this.chart.batch(() => {
       this.chart.setData([drawn.xs, ...drawn.ys] as uPlot.AlignedData, false);
       this.chart.setScale("x", { min: view.view.from, max: view.view.to });
@@ -83,8 +85,11 @@ export class PlotDrawing {
           gap: 8,
           stroke: colors.faint,
           font: colors.font,
-          splits: () => ticks(this.y, Math.max(2, Math.floor(this.chart.height / 44))),
-          values: (_, splits) => splits.map(axisText),
+          splits: () => {
+            this.marks = axisMarks(this.y, Math.max(2, Math.floor(this.chart.height / 44)), plot.unit);
+            return this.marks.map(({ at }) => at);
+          },
+          values: () => this.marks.map(({ text }) => text),
           grid: { stroke: colors.grid, width: 1 },
           ticks: { show: false },
         },
