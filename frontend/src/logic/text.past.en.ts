@@ -147,4 +147,6 @@ export const pastEnglish = {
   "past.text.unsure":
     "This is the text that is saved. What ran in this scan, program version {version}, cannot be shown: {message}",
   "past.text.readonly": "This is what ran in the past. Return to live to edit the text.",
+  "past.files": "These are the files of now; in scan {scan} program version {version} ran.",
+  "past.problems": "These are problems of the files of now; in scan {scan} program version {version} ran.",
 } as const;

@@ -146,4 +146,7 @@ export const pastJapanese: Record<keyof typeof pastEnglish, string> = {
   "past.text.unsure":
     "表示しているのは保存済みのテキストです。このスキャンで実行されたプログラムバージョン {version} のテキストは表示できません: {message}",
   "past.text.readonly": "これは過去に実行されたテキストです。編集するにはライブに戻ってください。",
+  "past.files": "これは現在のファイルです。スキャン {scan} で実行されたのはプログラムバージョン {version} です。",
+  "past.problems":
+    "これは現在のファイルの問題です。スキャン {scan} で実行されたのはプログラムバージョン {version} です。",
 };

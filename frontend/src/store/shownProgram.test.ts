@@ -4,7 +4,7 @@ import type { Instance, InstanceState, ProgramText, Project } from "../wire/type
 import { useBench } from "./bench";
 import { type Document, useDocuments } from "./documents";
 import { type LinkStatus, resetPlc, usePlc } from "./plc";
-import { shownText, showsRan, useShownProgram } from "./shownProgram";
+import { ranApart, shownText, showsRan, useShownProgram } from "./shownProgram";
 
 const connected: LinkStatus = { state: "open", lostAt: null, attempt: 0, nextTryAt: null };
 const live = { state: "paused", program_version: 2, past: null, pid: 1 } as InstanceState;
@@ -97,4 +97,23 @@ it("shows what ran of an older version at once, and also when the project is bui
   expect(showsRan("Main.st")).toBe(false);
   useBench.setState({ project: { id: 1, version: 3 } as Project });
   expect(showsRan("Main.st")).toBe(true);
+});
+
+it("tells which version ran where the project is not that any more: built since, or saved", async () => {
+  vi.spyOn(rest, "programText").mockImplementation(async (_, version) => ran(version, "old"));
+  expect(ranApart()).toBeNull();
+  usePlc.setState({ state: past(1) });
+  expect(ranApart()).toBe(1);
+  usePlc.setState({ state: past(2) });
+  await vi.waitFor(() => expect(shown().program?.version).toBe(2));
+  expect(ranApart()).toBeNull();
+  const saved = (savedText: string) => ({ text: savedText, savedText }) as Document;
+  useDocuments.setState({ open: { "Main.st": saved("old"), "Tank.st": saved("") } });
+  usePlc.setState({ state: { ...past(2), scan: 4 } });
+  expect(ranApart()).toBe(2); // Tank.st is new
+  useDocuments.setState({ open: { "Main.st": saved("old") } });
+  expect(ranApart()).toBeNull();
+  usePlc.setState({ state: live });
+  useDocuments.setState({ open: { "Main.st": saved("new") } });
+  expect(ranApart()).toBeNull();
 });

@@ -99,6 +99,20 @@ export function useShowsRan(path: string): boolean {
   return useShownProgram(() => showsRan(path));
 }
 
+/** The version that ran in the past that is shown, where the project is not that any more; else null. */
+export function ranApart(): number | null {
+  const { version, older } = useShownProgram.getState();
+  return older || Object.keys(useDocuments.getState().open).some(showsRan) ? version : null;
+}
+
+/** For panels that tell of the project also then; with the scan that is shown. */
+export function useRanApart(): { version: number; scan: number } | null {
+  useDocuments(ranApart);
+  const version = useShownProgram(ranApart);
+  const scan = usePlc(({ state }) => (state?.past ? state.scan : 0));
+  return version === null ? null : { version, scan };
+}
+
 interface ShownText {
   text: string;
   /** What the program that is shown was built from; lines that the PLC names are lines of it. */

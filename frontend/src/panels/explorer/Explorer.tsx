@@ -1,6 +1,9 @@
 import { type DragEvent, useState } from "react";
+import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useDocuments } from "../../store/documents";
+import { useRanApart } from "../../store/shownProgram";
+import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import { Menu, type MenuItem } from "../../ui/Menu";
 import { Tree } from "../../ui/Tree";
@@ -52,10 +55,22 @@ export function Explorer() {
           onClick={() => setCreating(true)}
         />
       </div>
+      <PastNote />
       <Tree label={t("explorer.label")} rows={rows} />
       {menu && <Menu label={t("menu.label")} items={menu.items} at={menu.at} onClose={() => setMenu(null)} />}
       {creating && <NewFile onClose={() => setCreating(false)} />}
       {deleting !== null && <DeleteFile path={deleting} onClose={() => setDeleting(null)} />}
     </nav>
+  );
+}
+
+function PastNote() {
+  const ran = useRanApart();
+  if (ran === null) return null;
+  return (
+    <p className="trouble st past">
+      <Icon name="past" small />
+      <span>{t("past.files", { version: ran.version, scan: grouped(ran.scan) })}</span>
+    </p>
   );
 }

@@ -1,6 +1,8 @@
+import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
 import { useDocuments } from "../../store/documents";
 import { openFile } from "../../store/navigate";
+import { useRanApart } from "../../store/shownProgram";
 import { Icon, type IconName } from "../../ui/Icon";
 import type { Problem } from "../../wire/types";
 
@@ -15,9 +17,16 @@ export function ProblemsPanel() {
   const problems = useDocuments((documents) => documents.problems);
   const trouble = useDocuments((documents) => documents.trouble);
   const build = useDocuments((documents) => documents.build);
+  const ran = useRanApart();
   const refused = build.phase === "done" && !build.ok ? build.message : null;
   return (
     <div className="pane flexcol" data-pane="problems">
+      {ran && (
+        <p className="trouble st past">
+          <Icon name="past" small />
+          <span>{t("past.problems", { version: ran.version, scan: grouped(ran.scan) })}</span>
+        </p>
+      )}
       {trouble && <Line tone="fatal" text={trouble} />}
       {refused && <Line tone="fatal" text={`${t("build.refused")}: ${refused}`} />}
       {problems.length === 0 && !trouble && !refused ? (
