@@ -62,6 +62,8 @@ class PlcState:
     halt: Halt | None = None
     flavour: str = ""
     """Which code runs: empty is the ordinary one, `debug`, `probed`."""
+    startable: bool = True
+    """False while its model is missing: nothing starts it before the server finds that again."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -96,7 +96,7 @@ class Instance:
         self._cache, self._patience, self.why_not = cache, patience, why_not
         self.state = PlcState(
             "failed" if why_not else "off", "MONITOR", why_not or OFF, interval_ns=memory.sources.interval_ns,
-            version=memory.sources.version,
+            version=memory.sources.version, startable=not why_not,
         )  # fmt: skip
         self._memory = memory
         self._on_state, self._on_message = on_state, on_message

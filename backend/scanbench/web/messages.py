@@ -244,6 +244,7 @@ class InstanceState(Wire):
     late_percent: float = Field(description="scans of the last seconds that began after the next one was due")
     halt: HaltInfo | None = Field(description="where the debugger halted it, also in the past; null while it runs")
     flavour: str = Field(description="which code runs: empty is the ordinary one, `debug`, `probed`")
+    startable: bool = Field(description="false: nothing starts it, `message` says why and what to do")
 
 
 class InstanceLoad(Wire):

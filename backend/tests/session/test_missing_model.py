@@ -57,6 +57,7 @@ def test_it_stays_with_the_reason_and_nothing_of_it_is_lost(store: Store, direct
         try:
             [session] = bench.sessions
             assert (session.name, session.model.name, session.state.state) == ("line-1", "CJ1M-CPU63", "failed")
+            assert not session.state.startable
             reason = session.state.message
             assert reason.startswith(f"the model CJ1M-CPU63 is missing: no file in {directory} describes it. Put the")
             for refused in (

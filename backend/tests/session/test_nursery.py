@@ -269,21 +269,27 @@ def test_a_small_program_needs_little_memory(tmp_path: Path) -> None:
     nursery.close()
 
 
-def test_a_plc_that_is_out_of_memory_is_not_started_again(tmp_path: Path) -> None:
+def test_a_plc_that_is_out_of_memory_is_not_started_again_before_somebody_switches_it_on(tmp_path: Path) -> None:
     async def fails() -> PlcState:
-        failed = asyncio.Event()
+        failed, running = asyncio.Event(), asyncio.Event()
 
         def on_state(state: PlcState) -> None:
-            if state.state == "failed":
-                failed.set()
+            if state.state in ("failed", "running"):
+                (failed if state.state == "failed" else running).set()
 
         memory = Remembered("line", sources(LARGE.format(8_000_000)), tmp_path / "line.run", Limits(memory_mib=64))
         instance = Instance(memory, on_state, lambda _: None, tmp_path / "cache")
         instance.start()
         await asyncio.wait_for(failed.wait(), PATIENCE_S)
-        return instance.state
+        state = instance.state
+        instance.limit(Limits())
+        await instance.switch(on=True)
+        await asyncio.wait_for(running.wait(), PATIENCE_S)
+        await instance.stop()
+        return state
 
     state = asyncio.run(fails())
     assert state.message.startswith("out of memory: limit 64 MiB")
     assert state.restarts == 0
     assert state.pid is None
+    assert state.startable

@@ -22,6 +22,7 @@ const monitor: InstanceState = {
   halt: null,
   flavour: "",
   late_percent: 0,
+  startable: true,
 };
 
 describe("permits", () => {
@@ -56,6 +57,13 @@ describe("permits", () => {
       expect(forbidden(state, true, "anew")).toBeNull();
       expect(forbidden(state, true, "build")).toBeNull();
     }
+  });
+
+  it("a PLC whose model is missing cannot begin anew either", () => {
+    const missing: InstanceState = { ...monitor, state: "failed", pid: null, startable: false };
+    for (const deed of ["write", "restart", "anew", "change", "travel"] as const)
+      expect(forbidden(missing, true, deed)).toBe("permit.model");
+    expect(forbidden(missing, true, "build")).toBeNull();
   });
 
   it("a PLC that has a process answers while it waits for space", () => {

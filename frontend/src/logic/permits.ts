@@ -13,6 +13,7 @@ export function forbidden(state: InstanceState | null, connected: boolean, deed:
   // A build needs no PLC; one that shows its past waits, and could not take the program.
   if (deed === "build") return state?.past ? "permit.past.build" : null;
   if (!connected || state === null) return "permit.offline";
+  if (!state.startable) return "permit.model";
   const unreachable = unreachableBy(state);
   // A new run has a new process: it needs nothing of the old one.
   if (unreachable !== null) return deed === "anew" ? null : unreachable;

@@ -282,6 +282,7 @@ export const english = {
   "explorer.plant": "Plant",
   "explorer.program": "Programs",
   "explorer.type": "Types",
+  "failed.start": "Start again",
   "failed.title": "The PLC cannot be started.",
   "fatal.about":
     "Stopped in scan {scan}. Outputs are off, also where memory is held. Next: clear it, then choose MONITOR or RUN.",
@@ -712,6 +713,7 @@ export const english = {
   "past.readonly": "The PLC waits at its live scan. To change something here, branch.",
   "past.title": "Scan {scan} of {live}: the past,",
   "permit.failed": "The PLC cannot be started: build a corrected program, or begin a new run.",
+  "permit.model": "The PLC cannot be started: its model is missing. The banner above says what to do.",
   "permit.no_space":
     "The PLC waits for space on the disk, and nothing can be changed. Make room: it goes on by itself.",
   "permit.off": "The PLC is switched off.",

@@ -285,6 +285,7 @@ export const japanese: Record<TextKey, string> = {
   "explorer.plant": "プラント",
   "explorer.program": "プログラム",
   "explorer.type": "データ型",
+  "failed.start": "もう一度起動",
   "failed.title": "PLC を起動できません。",
   "fatal.about":
     "スキャン {scan} で停止、出力オフ（メモリ保持時も同じ）。解除してから MONITOR か RUN を選んでください。",
@@ -712,6 +713,7 @@ export const japanese: Record<TextKey, string> = {
   "past.readonly": "PLC は現在のスキャンで待っています。ここで何かを変えるには分岐してください。",
   "past.title": "スキャン {scan} / {live}: 過去です。",
   "permit.failed": "PLC を起動できません。プログラムを修正してビルドするか、新しい実行を始めてください。",
+  "permit.model": "モデルがないため、PLC を起動できません。対処は上のバナーに表示しています。",
   "permit.no_space": "PLC はディスクの空きを待っており、何も変更できません。空きを作ると自動的に続行します。",
   "permit.off": "PLC の電源が切れています。",
   "permit.offline": "PLC に接続していません。",

@@ -3678,6 +3678,11 @@ export interface components {
              */
             speed: number;
             /**
+             * Startable
+             * @description false: nothing starts it, `message` says why and what to do
+             */
+            startable: boolean;
+            /**
              * State
              * @enum {string}
              */

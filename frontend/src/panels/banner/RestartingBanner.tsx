@@ -1,22 +1,48 @@
+import { useState } from "react";
 import { t } from "../../logic/text";
-import { restart } from "../../store/run";
+import { useBench } from "../../store/bench";
+import { messageOf } from "../../store/documents";
+import { changeInstance } from "../../store/instances";
+import { useForbidden } from "../../store/plc";
 import { Icon } from "../../ui/Icon";
 import type { InstanceState } from "../../wire/types";
 
 /** The process of the PLC died: it is being started again, or that did not work either. Or it does not answer. */
 export function RestartingBanner({ state }: { state: InstanceState }) {
-  const failed = state.state === "failed";
   const silent = state.state === "silent";
+  if (state.state === "failed") return <FailedBanner state={state} />;
   return (
-    <div className={`banner ${failed ? "fatal" : "stale"}`} role="alert">
-      <Icon name={failed ? "error" : silent ? "lost" : "refresh"} />
+    <div className="banner stale" role="alert">
+      <Icon name={silent ? "lost" : "refresh"} />
       <span className="grow">
-        <b>{failed ? t("failed.title") : silent ? t("silent.title") : t("restarting.title")}</b>{" "}
+        <b>{silent ? t("silent.title") : t("restarting.title")}</b>{" "}
         <span className="muted">{silent ? t("silent.about") : state.message || t("restarting.about")}</span>
       </span>
-      {failed && (
-        <button type="button" className="btn danger sm" onClick={() => void restart("cold")}>
-          {t("restart.menu")}
+    </div>
+  );
+}
+
+/** It has no process that could take a restart: where anything can start it, it is switched on once more. */
+function FailedBanner({ state }: { state: InstanceState }) {
+  const instance = useBench((bench) => bench.instance);
+  const hopeless = useForbidden("anew") !== null;
+  const [refused, setRefused] = useState("");
+  return (
+    <div className="banner fatal" role="alert">
+      <Icon name="error" />
+      <span className="grow">
+        <b>{t("failed.title")}</b> <span className="muted">{refused || state.message}</span>
+      </span>
+      {instance && !hopeless && (
+        <button
+          type="button"
+          className="btn danger sm"
+          title={t("instances.power.on.hint")}
+          onClick={() =>
+            changeInstance(instance, { power: true }).catch((error: unknown) => setRefused(messageOf(error)))
+          }
+        >
+          {t("failed.start")}
         </button>
       )}
     </div>

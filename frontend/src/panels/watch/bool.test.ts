@@ -58,7 +58,7 @@ beforeEach(() => {
   sent.length = 0;
   useWatches.setState({ symbols: new Map([["motor", symbol]]) });
   usePlc.setState({
-    state: { state: "running", mode: "MONITOR", past: null } as InstanceState,
+    state: { state: "running", mode: "MONITOR", past: null, startable: true } as InstanceState,
     link: { state: "open", lostAt: null, attempt: 0, nextTryAt: null },
   });
 });
@@ -72,7 +72,7 @@ test("Space writes the other value of a BOOL, and nothing in the past", () => {
     { type: "write", path: "motor", value: "TRUE" },
     { type: "write", path: "motor", value: "FALSE" },
   ]);
-  usePlc.setState({ state: { state: "past", mode: "MONITOR", past: { live_scan: 9, by: "Ann" } } as InstanceState });
+  usePlc.setState({ state: { state: "past", mode: "MONITOR", past: { live_scan: 9, by: "Ann" }, startable: true } as InstanceState });
   press(" ");
   expect(sent).toHaveLength(2);
 });
