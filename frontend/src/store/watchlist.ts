@@ -230,6 +230,7 @@ export function chooseSite(path: string, site: string | null): void {
 const siteOf = (path: string): string => chosenFor(get().sites, path) ?? "";
 
 export async function write(path: string, root: string, value: string): Promise<void> {
+  forgetNote(path);
   const answer = await send({ type: "write", path, value: meant(path, root, value), site: siteOf(path) });
   landed("write", path, value, answer);
 }
@@ -241,6 +242,7 @@ export async function toggle(row: { path: string; root: string }): Promise<void>
 }
 
 export async function force(path: string, root: string, value: string): Promise<void> {
+  forgetNote(path);
   const answer = await send({ type: "force", path, value: meant(path, root, value), site: siteOf(path) });
   landed("force", path, value, answer);
 }
@@ -261,19 +263,32 @@ function memberSymbol(path: string) {
 
 export async function releaseForce(path: string | null): Promise<void> {
   const answer = await send({ type: "release", path });
-  if (!answer.ok && path !== null) landed("force", path, "", answer);
+  if (path !== null) landed("force", path, "", answer);
+  else if (answer.ok) dismissRefusals();
 }
 
 function landed(verb: "write" | "force", path: string, entry: string, answer: Answer): void {
   if (answer.ok) {
-    set(({ drafts, notes }) => ({
-      drafts: drafts.get(path) === entry ? without(drafts, path) : drafts,
-      notes: without(notes, path),
-    }));
+    set(({ drafts }) => ({ drafts: drafts.get(path) === entry ? without(drafts, path) : drafts }));
+    forgetNote(path);
+    dismissRefusals();
     return;
   }
   const note = noteOf(answer.sent, answer.message, answer.near ?? [], entry, verb);
   set(({ notes }) => ({ notes: new Map(notes).set(path, note) }));
+}
+
+function forgetNote(path: string): void {
+  set(({ notes }) => ({ notes: without(notes, path) }));
+}
+
+/** Why something was refused is over once something else was done. What was never sent waits on. False when there is none. */
+export function dismissRefusals(): boolean {
+  const { notes } = get();
+  const left = new Map([...notes].filter(([, note]) => note.kind !== "refused"));
+  if (left.size === notes.size) return false;
+  set({ notes: left });
+  return true;
 }
 
 function without<V>(map: ReadonlyMap<string, V>, key: string): ReadonlyMap<string, V> {

@@ -1,11 +1,19 @@
-import type { CSSProperties } from "react";
+import type { CSSProperties, Ref } from "react";
 import { t } from "../../logic/text";
 import type { NoteRow } from "../../logic/watchrows";
 import { force, replaceInWatch, setDraft, write } from "../../store/watchlist";
 import { Icon } from "../../ui/Icon";
 
+interface Props {
+  row: NoteRow;
+  style: CSSProperties;
+  index: number;
+  /** Its height is that of its text. */
+  measured: Ref<HTMLDivElement>;
+}
+
 /** What a row has to say: why nothing was written and what would be, what is not known and what it may have meant. */
-export function NoteLine({ row, style, index }: { row: NoteRow; style: CSSProperties; index: number }) {
+export function NoteLine({ row, style, index, measured }: Props) {
   const { note, path, root } = row;
   const refused = note.kind !== "unsent";
   const forcing = note.verb === "force";
@@ -22,10 +30,17 @@ export function NoteLine({ row, style, index }: { row: NoteRow; style: CSSProper
   }
 
   return (
-    <div className={`gr note${refused ? " bad" : ""}`} role="row" style={style} aria-rowindex={index + 2}>
+    <div
+      ref={measured}
+      className={`gr note whole${refused ? " bad" : ""}`}
+      role="row"
+      style={style}
+      aria-rowindex={index + 2}
+      data-index={index}
+    >
       <span className="full" role="gridcell">
         <Icon name={refused ? "error" : "wait"} />
-        <span className="cut" role="alert" title={message}>
+        <span role="alert">
           <b>{head}</b> {message}
         </span>
         {note.kind === "unknown" &&

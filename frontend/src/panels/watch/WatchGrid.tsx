@@ -1,5 +1,13 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
-import { type ClipboardEvent, type CSSProperties, type KeyboardEvent, useEffect, useRef, useState } from "react";
+import {
+  type ClipboardEvent,
+  type CSSProperties,
+  type KeyboardEvent,
+  type Ref,
+  useEffect,
+  useRef,
+  useState,
+} from "react";
 import { pathsIn } from "../../logic/paths";
 import { t } from "../../logic/text";
 import { fromCsv } from "../../logic/watchcsv";
@@ -117,6 +125,7 @@ export function WatchGrid({ rows, onNewGroup, onRenameGroup }: Props) {
               line={line}
               selected={selected !== null && selectsAs(row) === selected}
               target={row.kind === "value" && row.level === 0 && drop.before?.before === row.root}
+              measured={virtual.measureElement}
               onMenu={showMenu}
             />
           );
@@ -132,16 +141,17 @@ interface LineProps {
   line: { index: number; style: CSSProperties };
   selected: boolean;
   target: boolean;
+  measured: Ref<HTMLDivElement>;
   onMenu: (row: WatchRow, at: { x: number; y: number }) => void;
 }
 
-function Line({ row, line, selected, target, onMenu }: LineProps) {
+function Line({ row, line, selected, target, measured, onMenu }: LineProps) {
   const menu = (at: { x: number; y: number }) => onMenu(row, at);
   switch (row.kind) {
     case "group":
       return <GroupLine row={row} {...line} selected={selected} onSelect={() => select(row.key)} onMenu={menu} />;
     case "note":
-      return <NoteLine row={row} {...line} />;
+      return <NoteLine row={row} {...line} measured={measured} />;
     case "binding":
       return <BindingLine row={row} {...line} />;
     case "more":

@@ -72,7 +72,9 @@ test("Space writes the other value of a BOOL, and nothing in the past", () => {
     { type: "write", path: "motor", value: "TRUE" },
     { type: "write", path: "motor", value: "FALSE" },
   ]);
-  usePlc.setState({ state: { state: "past", mode: "MONITOR", past: { live_scan: 9, by: "Ann" }, startable: true } as InstanceState });
+  usePlc.setState({
+    state: { state: "past", mode: "MONITOR", past: { live_scan: 9, by: "Ann" }, startable: true } as InstanceState,
+  });
   press(" ");
   expect(sent).toHaveLength(2);
 });

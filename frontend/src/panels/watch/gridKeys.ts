@@ -5,6 +5,7 @@ import type { WatchRow } from "../../logic/watchrows";
 import { usePlc } from "../../store/plc";
 import { useWatches } from "../../store/watches";
 import {
+  dismissRefusals,
   force,
   releaseForce,
   removeFromWatch,
@@ -30,6 +31,7 @@ export function gridKey(event: KeyboardEvent<HTMLDivElement>, row: WatchRow | un
     undoEdit();
     return true;
   }
+  if (event.key === "Escape") return dismissRefusals();
   if (row?.kind === "group") {
     if (!["Enter", " "].includes(event.key) && event.key !== (row.open ? "ArrowLeft" : "ArrowRight")) return false;
     toggleGroup(row.name);
