@@ -140,10 +140,10 @@ class Guard:
     def _entrance(self, connection: HTTPConnection) -> Response | None:
         """The page itself: a token in the address moves into a cookie; without one there is an explanation."""
         if not self._knows_token(connection):
-            wrong = bool(connection.query_params.get("token"))
+            typed = connection.query_params.get("token")
             languages = connection.headers.get("accept-language", "")
             page = sign_in_page(
-                _path(connection), _query_without(connection, "token"), wrong=wrong, languages=languages
+                _path(connection), _query_without(connection, "token"), typed=typed, languages=languages
             )
             return HTMLResponse(page, 401)
         query = parse_qs(connection.url.query)
