@@ -4,6 +4,7 @@ from dataclasses import dataclass, field, replace
 
 from scanbench.check import fold
 from scanbench.check.context import Rejected, did_you_mean
+from scanbench.check.origin import in_library, is_system
 from scanbench.check.program import (
     Assign,
     CallFunction,
@@ -22,9 +23,8 @@ from scanbench.check.program import (
 )
 from scanbench.check.scopes import decode
 from scanbench.check.shown import shown
-from scanbench.check.standard.library import in_library
 from scanbench.check.standard_calls import StandardCallChecker
-from scanbench.check.system_text import STOP, is_system
+from scanbench.check.system_text import STOP
 from scanbench.check.types import (
     BOOL,
     INT,

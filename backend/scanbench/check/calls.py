@@ -14,6 +14,7 @@ from scanbench.check.methods import Receiver
 from scanbench.check.names import Names
 from scanbench.check.notes import note_of
 from scanbench.check.objects import dotted, named_itself
+from scanbench.check.origin import in_library
 from scanbench.check.program import (
     Assign,
     Base,
@@ -35,7 +36,6 @@ from scanbench.check.program import (
 from scanbench.check.scopes import decode, place_of
 from scanbench.check.shown import shown
 from scanbench.check.standard.functions import FUNCTIONS
-from scanbench.check.standard.library import in_library
 from scanbench.check.types import (
     BOOL,
     ULINT,

@@ -8,6 +8,7 @@ from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.initial_values import initial_image
 from scanbench.check.names import Names, Space, qualified
 from scanbench.check.notes import make_note, may_have_note
+from scanbench.check.origin import in_library
 from scanbench.check.program import Const, Expr
 from scanbench.check.specs import (
     EnumerationValues,
@@ -20,7 +21,6 @@ from scanbench.check.specs import (
     structure,
     subrange,
 )
-from scanbench.check.standard.library import in_library
 from scanbench.check.types import (
     ABBREVIATIONS,
     ELEMENTARY,

@@ -6,9 +6,10 @@ from scanbench.check import fold
 from scanbench.check.context import Rejected
 from scanbench.check.harmless import harmless
 from scanbench.check.operators import COMPARISONS, NUMERIC, OperatorChecker, conversion_hint
+from scanbench.check.own_variables import SYSTEM
 from scanbench.check.places import INSTANCE, character_of
 from scanbench.check.program import Assign, Const, Expr, Index, Intrinsic, Load, Place, Sequence, TrapKind
-from scanbench.check.scopes import SYSTEM, decode
+from scanbench.check.scopes import decode
 from scanbench.check.shown import shown
 from scanbench.check.types import (
     BOOL,

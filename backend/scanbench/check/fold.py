@@ -1,22 +1,12 @@
 """Constant folding, by the rules of `program.py`: what is known at build time costs nothing at run time."""
 
 import math
-import struct
 from typing import TypeVar
 
+from scanbench.check.numbers import round_real
 from scanbench.check.program import Binary, Compare, Const, Convert, Expr, Unary
 from scanbench.check.types import BOOL, Elementary, Kind, StringType
 from scanbench.check.untyped import ANY_INT, ANY_REAL, bounds, wrap
-
-
-def round_real(value: float, type: Elementary) -> float:
-    """To single precision, where the type has that."""
-    if type.size != 4 or math.isnan(value) or math.isinf(value):
-        return value
-    try:
-        return float(struct.unpack("<f", struct.pack("<f", value))[0])
-    except OverflowError:
-        return math.copysign(math.inf, value)
 
 
 def unary(op: str, type: Elementary, operand: Expr) -> Expr:

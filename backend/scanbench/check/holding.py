@@ -5,8 +5,8 @@ from collections.abc import Generator, Iterable, Iterator
 from typing import NamedTuple
 
 from scanbench.check.layout import Layout
+from scanbench.check.origin import in_library
 from scanbench.check.program import Program
-from scanbench.check.standard.library import in_library
 from scanbench.check.symbols import RAW_TYPES, Symbol, around, roots
 from scanbench.check.types import ELEMENTARY, Kind, Record, Section
 from scanbench.plcmodel.areas import Area

@@ -5,7 +5,7 @@ import struct
 from typing import TYPE_CHECKING
 
 from scanbench.check.context import Rejected, did_you_mean
-from scanbench.check.fold import round_real
+from scanbench.check.numbers import round_real
 from scanbench.check.program import Const
 from scanbench.check.types import ArrayType, Elementary, Kind, Record, Section, StringType, Type, initial_of
 from scanbench.syntax import tree

@@ -3,8 +3,8 @@
 import math
 from dataclasses import replace
 
-from scanbench.check import fold
 from scanbench.check.context import did_you_mean
+from scanbench.check.numbers import round_real
 from scanbench.check.program import Const, Expr, Intrinsic
 from scanbench.check.references import ReferenceChecker
 from scanbench.check.shown import shown
@@ -117,7 +117,7 @@ class LiteralChecker(ReferenceChecker):
         value = expr.value
         assert not isinstance(value, bytes)
         if type.kind is Kind.REAL:
-            rounded = fold.round_real(float(value), type)
+            rounded = round_real(float(value), type)
             if math.isinf(rounded) and not math.isinf(value):
                 raise self.report.reject("S004", f"{value} does not fit {type}.", span)
             return Const(type, rounded)

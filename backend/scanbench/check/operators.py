@@ -2,6 +2,7 @@
 
 from scanbench.check import fold
 from scanbench.check.literals import LiteralChecker
+from scanbench.check.numbers import round_real
 from scanbench.check.program import (
     Assign,
     Binary,
@@ -197,7 +198,7 @@ class OperatorChecker(LiteralChecker):
 
     def _power(self, left: Expr, right: Expr, span: Span, wanted: Type | None) -> Expr:
         if is_untyped(left) and isinstance(wanted, Elementary) and wanted.kind is Kind.REAL:
-            left = Const(wanted, fold.round_real(float(_plain(left)), wanted))
+            left = Const(wanted, round_real(float(_plain(left)), wanted))
         left, right = settle(left), settle(right)
         types = (left.type, right.type)
         if not all(isinstance(type, Elementary) and type.kind in NUMERIC for type in types):

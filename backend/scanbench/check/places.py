@@ -7,8 +7,9 @@ from scanbench.check import fold
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.embed import SubrangeChecker
 from scanbench.check.harmless import harmless
+from scanbench.check.own_variables import SYSTEM
 from scanbench.check.program import Base, Const, Expr, Index, Intrinsic, Load, Place, TrapKind
-from scanbench.check.scopes import SYSTEM, decode, place_of
+from scanbench.check.scopes import decode, place_of
 from scanbench.check.shown import shown
 from scanbench.check.types import (
     BOOL,

@@ -5,37 +5,26 @@ from dataclasses import dataclass, field
 from typing import TYPE_CHECKING
 
 from scanbench.check.classes import Classes
-from scanbench.check.layout import Layout
 from scanbench.check.names import Space
+from scanbench.check.own_variables import SYSTEM
 from scanbench.check.program import Base, Const, Place, Pou
 from scanbench.check.types import (
-    BOOL,
     SLOT_BYTES,
-    UDINT,
     ULINT,
     Elementary,
     Kind,
     Member,
     Record,
-    Section,
     StringType,
     Subrange,
     Type,
     base_of,
 )
 from scanbench.plcmodel.model import Who
-from scanbench.problems import Span
 from scanbench.syntax import tree
 
 if TYPE_CHECKING:
     from scanbench.check.generic import Instance
-
-_NOWHERE = Span("", 1, 1, 1, 1)
-SYSTEM = Record("$SYSTEM", Kind.STRUCT)
-"""Variables that every program has: of the subrange checks. An engine writes beside the program what a record of this name
-holds."""
-SYSTEM.place_at(Member("_SubrangeError", BOOL, Section.GLOBAL, _NOWHERE), Layout.SUBRANGE_ERROR)
-SYSTEM.place_at(Member("_SubrangeErrorCount", UDINT, Section.GLOBAL, _NOWHERE, constant=True), Layout.SUBRANGE_COUNT)
 
 
 @dataclass(slots=True)

@@ -8,9 +8,8 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
 from scanbench.check.bodies import bodies
+from scanbench.check.origin import in_library, is_system
 from scanbench.check.program import Blocks, Case, For, If, Pou, Program, Stmt, While
-from scanbench.check.standard.library import in_library
-from scanbench.check.system_text import is_system
 from scanbench.check.types import Record
 from scanbench.garbage import without_collection
 from scanbench.problems import Span

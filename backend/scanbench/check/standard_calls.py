@@ -4,6 +4,7 @@ import re
 
 from scanbench.check import conversions, fold, standard_fold
 from scanbench.check.context import did_you_mean
+from scanbench.check.origin import in_library
 from scanbench.check.program import Compare, Const, Expr, Place
 from scanbench.check.standard.functions import (
     FUNCTIONS,
@@ -16,7 +17,6 @@ from scanbench.check.standard.functions import (
     Special,
     StringFunction,
 )
-from scanbench.check.standard.library import in_library
 from scanbench.check.standard_choice import ChoiceFunctions
 from scanbench.check.types import (
     BOOL,

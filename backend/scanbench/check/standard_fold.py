@@ -6,7 +6,7 @@ Only what has a plain value is folded; NaN, infinities and whatever is out of a 
 import math
 from collections.abc import Callable
 
-from scanbench.check.fold import round_real
+from scanbench.check.numbers import round_real
 from scanbench.check.program import Const, Expr, Intrinsic
 from scanbench.check.types import Elementary, Kind, StringType
 from scanbench.check.untyped import bounds, wrap

@@ -7,8 +7,8 @@ from difflib import get_close_matches
 
 from scanbench.check.bound import NO_COPIES, Copies, Image, Spot, referred
 from scanbench.check.layout import Layout
+from scanbench.check.own_variables import SYSTEM
 from scanbench.check.program import Program
-from scanbench.check.scopes import SYSTEM
 from scanbench.check.types import (
     BOOL,
     ELEMENTARY,

@@ -9,8 +9,8 @@ from functools import lru_cache
 
 from scanbench.check import instruction_text, system_text
 from scanbench.check.layout import Layout
-from scanbench.check.scopes import SYSTEM
-from scanbench.check.system_text import FILE
+from scanbench.check.origin import SYSTEM_FILE
+from scanbench.check.own_variables import SYSTEM
 from scanbench.check.types import ELEMENTARY, LINT, LWORD, UDINT, ULINT, ArrayType, Kind, Member, Record, Section, Type
 from scanbench.plcmodel.model import Location, Model, Special
 from scanbench.problems import Span
@@ -28,7 +28,7 @@ _HEADER: tuple[tuple[str, Type, int], ...] = (
     ("__ASKED_COUNT", UDINT, Layout.ASKED_COUNT),
     ("__ASKED", ArrayType(((0, Layout.ASKED_LIMIT - 1),), LWORD), Layout.ASKED),
 )
-_NOWHERE = Span(FILE, 1, 1, 1, 1)
+_NOWHERE = Span(SYSTEM_FILE, 1, 1, 1, 1)
 _BITS = {1: "BOOL", 8: "BYTE", 16: "WORD", 32: "DWORD", 64: "LWORD"}
 _NUMBERS = {8: "USINT", 16: "UINT", 32: "UDINT", 64: "ULINT"}
 
@@ -100,7 +100,7 @@ def _system_of(same: _Same, areas: tuple[tuple[str, int], ...]) -> System:
         if special.symbol:
             type = ELEMENTARY[_BITS[special.location.bits]]
             _add(symbols, special.symbol, type, special.location, offsets, special.text)
-    file, problems = parse_st(Source(FILE, _text(model)))
+    file, problems = parse_st(Source(SYSTEM_FILE, _text(model)))
     assert not problems, (model.name, problems)
     return System(words, symbols, file)
 

@@ -7,11 +7,8 @@ the clock is taken apart only when its second changes.
 from collections.abc import Iterator
 from enum import IntEnum
 
-from scanbench.check.standard.library import FOLDER
 from scanbench.plcmodel.model import ClockField, Instruction, Model, ResetInstruction, Special
-from scanbench.problems import Span
 
-FILE = f"{FOLDER}system.st"
 COMMON = "__System"
 STOP = "__STOP"
 """Output of an instruction: the PLC stops where it was called."""
@@ -66,11 +63,6 @@ class Form(IntEnum):
     """To clear the error with this code."""
     CLEAR_FLAGS = 4
     """To clear what a `ResetInstruction` is for."""
-
-
-def is_system(span: Span) -> bool:
-    """Whether this stands in text that is made from a model."""
-    return span.file == FILE
 
 
 def word(number: int) -> str:

@@ -5,7 +5,7 @@ import re
 import struct
 from datetime import date as calendar_date
 
-from scanbench.check.fold import round_real
+from scanbench.check.numbers import round_real
 from scanbench.check.types import (
     ArrayType,
     Elementary,

@@ -11,11 +11,11 @@ from scanbench.debug.halt import Halt
 from scanbench.debug.listener import Actions, Found, Listener, Position
 from scanbench.debug.past import Past
 from scanbench.debug.placed import Placing, error_names
-from scanbench.debug.probing import Prober, Probes
+from scanbench.debug.probing import Probes
 from scanbench.debug.standing import halt_of
 from scanbench.engines.debug import NOTHING, Frame, Listen
 from scanbench.engines.engine import Pace, Reason, Stop
-from scanbench.engines.probe import Probe, ProbedEngine
+from scanbench.engines.probe import MakeProbed, Probe, ProbedEngine
 from scanbench.problems import Span
 from scanbench.runtime.command import Command, Entry, Plan, Refusal
 from scanbench.runtime.inside import HaltAt
@@ -113,12 +113,12 @@ class Debugger:
         return "probed" if self.busy and self.resource.probed is not None else ""
 
     @property
-    def prober(self) -> Prober | None:
+    def prober(self) -> MakeProbed | None:
         """Makes code with probes; without it long searches back take longer."""
         return self._past.prober
 
     @prober.setter
-    def prober(self, prober: Prober | None) -> None:
+    def prober(self, prober: MakeProbed | None) -> None:
         self._past.prober = prober
 
     @property

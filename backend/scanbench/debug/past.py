@@ -5,9 +5,9 @@ from typing import Literal
 from scanbench.debug.breakpoints import Breakpoints
 from scanbench.debug.goals import Goal
 from scanbench.debug.listener import Found, Listener, Position
-from scanbench.debug.probing import Prober
 from scanbench.debug.reverse import Raised, search
 from scanbench.engines.engine import Reason
+from scanbench.engines.probe import MakeProbed
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.timeline import Timeline
 
@@ -20,7 +20,7 @@ class Past:
 
     def __init__(self, timeline: Timeline, breakpoints: Breakpoints) -> None:
         self._timeline, self._breakpoints = timeline, breakpoints
-        self.prober: Prober | None = None
+        self.prober: MakeProbed | None = None
         self.raised: Raised = lambda entry: ()
         self._listener: Listener | None = None
         self._goal: Goal | None = None

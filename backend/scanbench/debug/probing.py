@@ -1,17 +1,13 @@
 """Breakpoints as probes: what the run flavour can look for itself, nearly as fast as without."""
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Iterable, Sequence
 
-from scanbench.check.program import Program
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.debug.breakpoints import Breakpoints
 from scanbench.debug.placed import Placed, Placing
 from scanbench.debug.writers import writers
 from scanbench.engines.probe import Probe, ProbedEngine
 from scanbench.runtime.programs import Loaded
-
-Prober = Callable[[Program, bytearray, Sequence[Probe]], ProbedEngine]
-"""Makes an engine with probes. Raises `BadProbe`."""
 
 
 class Probes:

@@ -9,10 +9,10 @@ from scanbench.debug.breakpoint import Breakpoint
 from scanbench.debug.breakpoints import Breakpoints
 from scanbench.debug.listener import Found, Listener, Position
 from scanbench.debug.placed import error_names
-from scanbench.debug.probing import Prober, notes_of
+from scanbench.debug.probing import notes_of
 from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Reason
-from scanbench.engines.probe import BadProbe, ProbedEngine
+from scanbench.engines.probe import BadProbe, MakeProbed, ProbedEngine
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.timeline import Timeline
@@ -105,7 +105,7 @@ class Search:
 
     def __init__(
         self, timeline: Timeline, breakpoints: Breakpoints, wanted: Sequence[Breakpoint], here: Position,
-        prober: Prober | None, raised: Raised, first: int = 0,
+        prober: MakeProbed | None, raised: Raised, first: int = 0,
     ) -> None:  # fmt: skip
         """Scans in front of `first` are not looked at."""
         self._timeline, self._breakpoints, self._wanted, self._here = timeline, breakpoints, wanted, here
@@ -258,7 +258,7 @@ class Search:
 
 
 def search(
-    timeline: Timeline, breakpoints: Breakpoints, here: Position, author: str, path: str, prober: Prober | None,
+    timeline: Timeline, breakpoints: Breakpoints, here: Position, author: str, path: str, prober: MakeProbed | None,
     raised: Raised,
 ) -> Found | Refusal:  # fmt: skip
     """Shows the last position before `here` where a breakpoint would have halted, or the statement that wrote `path`."""

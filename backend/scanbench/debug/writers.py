@@ -4,6 +4,7 @@ from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 
 from scanbench.check.local import this_of
+from scanbench.check.origin import in_library
 from scanbench.check.program import (
     Assign,
     Base,
@@ -26,7 +27,6 @@ from scanbench.check.program import (
     Violates,
 )
 from scanbench.check.sites import Sites
-from scanbench.check.standard.library import in_library
 from scanbench.check.symbols import Symbol, holding
 from scanbench.check.types import BOOL, LWORD, ULINT, Elementary, Kind, Record, Reference, Section, Type, base_of
 from scanbench.problems import Span

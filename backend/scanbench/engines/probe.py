@@ -6,9 +6,10 @@ the beginning of that scan, and runs it in the debug flavour up to the statement
 """
 
 from abc import abstractmethod
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from scanbench.check.program import Expr
+from scanbench.check.program import Expr, Program
 from scanbench.check.sites import StatementSite
 from scanbench.engines.engine import Engine
 
@@ -55,3 +56,7 @@ class ProbedEngine(Engine):
     @abstractmethod
     def forget(self) -> None:
         """No probe was reached."""
+
+
+MakeProbed = Callable[[Program, bytearray, Sequence[Probe]], ProbedEngine]
+"""Makes an engine with probes on a program's image. Raises `BadProbe`."""

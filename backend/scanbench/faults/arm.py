@@ -7,7 +7,7 @@ forget the steps between.
 
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import ClassVar, Literal
 
 from scanbench.check.condition import BadCondition, compile_condition
 from scanbench.faults.details import choose
@@ -15,7 +15,7 @@ from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.lines import find_line
 from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.faults.shapes import Wanted, describe_shape, flaw, lasts, step_count
-from scanbench.runtime.command import Command, Entry, Numbered, Plan, Refusal, View
+from scanbench.runtime.command import Category, Command, Entry, Numbered, Plan, Refusal, View
 from scanbench.runtime.journal import Fold
 
 MOST_ARMED = 200
@@ -25,6 +25,8 @@ MOST_ARMED = 200
 @dataclass(frozen=True, slots=True)
 class Arm(Command):
     """Errors that are to come, and how."""
+
+    category: ClassVar[Category] = "error"
 
     wanted: Wanted
 
@@ -42,6 +44,8 @@ class Arm(Command):
 @dataclass(frozen=True, slots=True)
 class Disarm(Command):
     """Takes armed faults back, None is all. What they raised and is still present is recovered in the same seam."""
+
+    category: ClassVar[Category] = "recover"
 
     ids: tuple[int, ...] | None
     why: str = ""
@@ -64,6 +68,8 @@ class Disarm(Command):
 @dataclass(frozen=True, slots=True)
 class Missed(Command):
     """A step of an armed fault that the PLC did not take: it is passed over."""
+
+    category: ClassVar[Category] = "error"
 
     arm: int
     step: int

@@ -6,12 +6,12 @@ an error stays until it is recovered there.
 
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal
 
 from scanbench.faults.details import Chosen
 from scanbench.faults.inject import ACTIVE, Active, Raised, Recover, describe, present_choices
 from scanbench.faults.reference import ErrorRef
-from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
+from scanbench.runtime.command import Category, Command, Patch, Plan, Refusal, View
 from scanbench.runtime.rights import Right, may
 
 WILL_NOT_CLEAR = "error will not clear"
@@ -59,6 +59,8 @@ class ClearErrors(Command):
 @dataclass(frozen=True, slots=True)
 class ClearErrorLog(Command):
     """As a tool does it: the model's own error log is empty."""
+
+    category: ClassVar[Category] = "recover"
 
     def plan(self, view: View) -> Plan | Refusal:
         """The counter to 0; records stay in the memory, as on the device."""

@@ -10,8 +10,8 @@ from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
 from scanbench.check.layout import Layout
+from scanbench.check.origin import in_library
 from scanbench.check.program import Base, Pou, Program
-from scanbench.check.standard.library import in_library
 from scanbench.check.symbols import Symbol, resolve
 from scanbench.check.types import ArrayType, Kind, Record, Type, has_instance
 from scanbench.faults.flows import ANYWHERE, Flow, Flows, Ref, ref_of

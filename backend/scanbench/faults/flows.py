@@ -10,6 +10,7 @@ from dataclasses import dataclass, fields, is_dataclass
 from typing import NamedTuple
 
 from scanbench.check.bodies import bodies
+from scanbench.check.origin import in_library
 from scanbench.check.program import (
     Assign,
     Base,
@@ -38,7 +39,6 @@ from scanbench.check.program import (
     Stmt,
     While,
 )
-from scanbench.check.standard.library import in_library
 from scanbench.check.types import Section
 
 

@@ -7,7 +7,7 @@ recovered, and to 0 when none is left. A fatal error stops the program and switc
 
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal
 
 from scanbench.check.layout import Layout
 from scanbench.check.program import TrapKind
@@ -16,7 +16,7 @@ from scanbench.faults.errorlog import log_patches, time_patches
 from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.faults.switch import switch
 from scanbench.faults.trap_errors import error_of
-from scanbench.runtime.command import Command, Entry, Patch, Plan, Refusal, View
+from scanbench.runtime.command import Category, Command, Entry, Patch, Plan, Refusal, View
 from scanbench.runtime.header import Halt, Mode
 from scanbench.runtime.journal import Fold
 from scanbench.runtime.modes import held, outputs_off, volatile_cleared
@@ -72,6 +72,8 @@ class Generate(Command):
     details. What the PLC finds takes other details; numbers that the program raises stand side by side, as on the device.
     """
 
+    category: ClassVar[Category] = "error"
+
     errors: tuple[ErrorRef, ...]
     origin: Origin = "simulator"
     again: bool = False
@@ -113,6 +115,8 @@ class Generate(Command):
 @dataclass(frozen=True, slots=True)
 class Recover(Command):
     """Takes errors back; None is all that are present."""
+
+    category: ClassVar[Category] = "recover"
 
     ids: tuple[str, ...] | None
     arm: int | None = None

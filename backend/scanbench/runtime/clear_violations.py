@@ -1,14 +1,17 @@
 """ClearViolations: empties the list of subrange violations, and what the program sees of it."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from scanbench.check.violations import cleared, read_violations
-from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
+from scanbench.runtime.command import Category, Command, Patch, Plan, Refusal, View
 
 
 @dataclass(frozen=True, slots=True)
 class ClearViolations(Command):
     """Also sets `_SubrangeError` to FALSE and `_SubrangeErrorCount` to 0, in every mode."""
+
+    category: ClassVar[Category] = "run"
 
     def plan(self, view: View) -> Plan | Refusal:
         """Zeros over the list."""

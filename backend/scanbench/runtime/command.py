@@ -7,7 +7,7 @@ why nothing will. The seam applies the plan and keeps both: the command for peop
 from abc import ABC, abstractmethod
 from dataclasses import dataclass, field
 from datetime import datetime
-from typing import Literal, TypeVar
+from typing import ClassVar, Literal, TypeVar
 
 from scanbench.check.program import Program
 from scanbench.plcmodel.model import Model
@@ -116,10 +116,15 @@ class Refusal:
     near: tuple[str, ...] = ()
 
 
+Category = Literal["write", "force", "error", "recover", "mode", "build", "run", "disturbance", "system"]
+"""What a command is to people: of a line of the log, of a mark of the timeline."""
+
+
 @dataclass(frozen=True, slots=True)
 class Command(ABC):
     """Something from outside that wants to change a PLC."""
 
+    category: ClassVar[Category] = "system"
     author: str
 
     def settled(self, view: "View") -> "Command":

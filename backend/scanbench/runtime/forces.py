@@ -8,13 +8,13 @@ there are the same bytes, and whoever releases one of them would release the oth
 import struct
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import TypeVar
+from typing import ClassVar, TypeVar
 
 from scanbench.check.layout import Layout
 from scanbench.check.symbols import Symbol
 from scanbench.check.types import Elementary
 from scanbench.check.values import format_value
-from scanbench.runtime.command import Command, Entry, Patch, Plan, Refusal, Restarted, Swapped, View
+from scanbench.runtime.command import Category, Command, Entry, Patch, Plan, Refusal, Restarted, Swapped, View
 from scanbench.runtime.holds import held, holder
 from scanbench.runtime.journal import Fold
 from scanbench.runtime.rights import Right, may
@@ -29,6 +29,8 @@ Known = TypeVar("Known")
 class Force(Naming):
     """Holds a variable or address at a value. A path through an in-out means a variable, as with `Write`: that is held, also
     when the block is called with another one from then on."""
+
+    category: ClassVar[Category] = "force"
 
     def plan(self, view: View) -> Plan | Refusal:
         """The new force table, and the value at once, so that a paused PLC shows it."""
@@ -109,6 +111,8 @@ def _not_forced(path: str, bits: range, held: list[tuple[Force, range]]) -> Refu
 @dataclass(frozen=True, slots=True)
 class Release(Command):
     """Ends the force of one path, or of all with None. The value stays until something writes it."""
+
+    category: ClassVar[Category] = "force"
 
     path: str | None
 

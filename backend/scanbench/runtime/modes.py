@@ -2,9 +2,10 @@
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import ClassVar
 
 from scanbench.check.layout import Layout
-from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
+from scanbench.runtime.command import Category, Command, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import forced_table
 from scanbench.runtime.header import Halt, Mode
 
@@ -12,6 +13,8 @@ from scanbench.runtime.header import Halt, Mode
 @dataclass(frozen=True, slots=True)
 class SetMode(Command):
     """PROGRAM: the program does not run. MONITOR: it runs, tools may write. RUN: it runs, tools may only look."""
+
+    category: ClassVar[Category] = "mode"
 
     mode: str
 

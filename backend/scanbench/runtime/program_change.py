@@ -1,9 +1,10 @@
 """ProgramChange: another program takes over in the seam, with the variables that both have."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from scanbench.check.layout import Layout
-from scanbench.runtime.command import Command, Patch, Plan, Refusal, Swapped, View
+from scanbench.runtime.command import Category, Command, Patch, Plan, Refusal, Swapped, View
 from scanbench.runtime.forces import FORCED, hold, table_patches
 from scanbench.runtime.header import Mode
 from scanbench.runtime.programs import Loaded, NoProgram
@@ -16,6 +17,8 @@ _WARM = "warm start, as the old program had stopped by a run-time error: what is
 @dataclass(frozen=True, slots=True)
 class ProgramChange(Command):
     """Program `version` runs from here on. The version that ran before is a roll back."""
+
+    category: ClassVar[Category] = "build"
 
     version: int
 

@@ -7,12 +7,13 @@ once. All other words of the system begin anew, so no error is present behind a 
 
 from collections.abc import Iterator
 from dataclasses import dataclass
+from typing import ClassVar
 
 from scanbench.check.classes import TYPE_NUMBER
 from scanbench.check.layout import Layout
 from scanbench.check.program import Program
 from scanbench.check.types import ArrayType, Kind, Member, Record, Section, Type
-from scanbench.runtime.command import Command, Plan, Refusal, Restarted, RestartKind, View
+from scanbench.runtime.command import Category, Command, Plan, Refusal, Restarted, RestartKind, View
 from scanbench.runtime.forces import read_table
 from scanbench.runtime.header import Header, Mode, fresh_image
 from scanbench.runtime.modes import held, started
@@ -29,6 +30,8 @@ _MESSAGES: dict[RestartKind, str] = {
 @dataclass(frozen=True, slots=True)
 class Restart(Command):
     """In every mode. It runs afterwards: in RUN if it was in RUN, else in MONITOR."""
+
+    category: ClassVar[Category] = "run"
 
     kind: RestartKind
 

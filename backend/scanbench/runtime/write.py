@@ -1,8 +1,9 @@
 """Write: gives a variable or an address a value, once."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
-from scanbench.runtime.command import Patch, Plan, Refusal, View
+from scanbench.runtime.command import Category, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import forced_table
 from scanbench.runtime.rights import Right
 from scanbench.runtime.target import Naming, everywhere, writable_target
@@ -15,6 +16,8 @@ class Write(Naming):
     A path through an in-out means the variable that the block's last execution was given, or, with `site` (`Main.st:12`), what
     that call passes; the journal has the path of the variable, and the in-out in `through`.
     """
+
+    category: ClassVar[Category] = "write"
 
     def plan(self, view: View) -> Plan | Refusal:
         """The patch of the value's bytes, and of copies of them."""

@@ -8,63 +8,22 @@ from collections.abc import Mapping
 from concurrent.futures import ProcessPoolExecutor
 from concurrent.futures.process import BrokenProcessPool
 from contextlib import suppress
-from dataclasses import dataclass
 from pathlib import Path
 
-from scanbench.check.build import PouInfo
 from scanbench.check.incremental import Checks
-from scanbench.check.program import CheckSite
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.lifeline import end_with_parent
 from scanbench.plcmodel.model import Model
-from scanbench.problems import Problem, Severity
+from scanbench.session.events import CheckOutcome
 from scanbench.session.known import keep, key_of
-from scanbench.session.protocol import Previewed, Sources
+from scanbench.session.protocol import Sources
 from scanbench.session.refused import Unavailable
-from scanbench.store.records import ProjectRow
 
 INTERVAL_NS = 10_000_000
 """A scan where no CONFIGURATION says another."""
 _NICENESS = 10
 _checks = Checks(limit=4)
 """In the child process: what it checked last."""
-
-
-@dataclass(frozen=True, slots=True)
-class CheckOutcome:
-    """What a check found."""
-
-    problems: tuple[Problem, ...]
-    pous: tuple[PouInfo, ...]
-    checks: tuple[CheckSite, ...] = ()
-    """Subrange checks that the compiler embedded, or proved needless; none while there are errors."""
-
-    @property
-    def errors(self) -> int:
-        """How many problems stand in the way of a program."""
-        return sum(problem.severity is Severity.ERROR for problem in self.problems)
-
-
-@dataclass(frozen=True, slots=True)
-class Change:
-    """What a swap does to the variables of one running PLC."""
-
-    instance: int
-    name: str
-    previewed: Previewed
-
-
-@dataclass(frozen=True, slots=True)
-class BuildOutcome:
-    """What became of a build, and the project after it."""
-
-    ok: bool
-    message: str
-    found: CheckOutcome
-    project: ProjectRow
-    changes: tuple[Change, ...] = ()
-    needs_agreement: bool = False
-    """Nothing was swapped yet: variables would begin anew."""
 
 
 class Checker:

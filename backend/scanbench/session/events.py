@@ -5,25 +5,64 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Literal, Protocol
 
+from scanbench.check.build import PouInfo
+from scanbench.check.program import CheckSite
 from scanbench.check.violations import Violations
 from scanbench.debug.breakpoint import Verdict
 from scanbench.debug.halt import Halt
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.history import ErrorRow
+from scanbench.problems import Problem, Severity
 from scanbench.runtime.forces import ForcedValue
 from scanbench.runtime.recording import RecordingInfo
 from scanbench.runtime.trap import TrapInfo
 from scanbench.session import debug_protocol
-from scanbench.session.builds import BuildOutcome
-from scanbench.session.protocol import RunMark, WatchItem
+from scanbench.session.protocol import Previewed, RunMark, WatchItem
 from scanbench.session.trace_protocol import TraceStatus
-from scanbench.store.records import AcceptedRow, CellRow, SweepRow
+from scanbench.store.records import AcceptedRow, CellRow, ProjectRow, SweepRow
 from scanbench.verify.disturb import DisturbanceInfo
 from scanbench.verify.findings import Divergence
 from scanbench.verify.verified import DEFAULT_LIMIT, Memory, Mismatch, Range
 
 VerifyPace = Literal["free", "scan", "step"]
 """How a verification goes on: by itself, scan by scan, statement by statement."""
+
+
+@dataclass(frozen=True, slots=True)
+class CheckOutcome:
+    """What a check found."""
+
+    problems: tuple[Problem, ...]
+    pous: tuple[PouInfo, ...]
+    checks: tuple[CheckSite, ...] = ()
+    """Subrange checks that the compiler embedded, or proved needless; none while there are errors."""
+
+    @property
+    def errors(self) -> int:
+        """How many problems stand in the way of a program."""
+        return sum(problem.severity is Severity.ERROR for problem in self.problems)
+
+
+@dataclass(frozen=True, slots=True)
+class Change:
+    """What a swap does to the variables of one running PLC."""
+
+    instance: int
+    name: str
+    previewed: Previewed
+
+
+@dataclass(frozen=True, slots=True)
+class BuildOutcome:
+    """What became of a build, and the project after it."""
+
+    ok: bool
+    message: str
+    found: CheckOutcome
+    project: ProjectRow
+    changes: tuple[Change, ...] = ()
+    needs_agreement: bool = False
+    """Nothing was swapped yet: variables would begin anew."""
 
 
 @dataclass(frozen=True, slots=True)

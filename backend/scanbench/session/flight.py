@@ -12,7 +12,6 @@ import numpy as np
 from scanbench.check.condition import BadCondition, Signal, compile_signal
 from scanbench.check.program import Program
 from scanbench.check.types import BOOL, Elementary
-from scanbench.engines.cache import BlobCache
 from scanbench.engines.engine import Engine
 from scanbench.engines.sample import HEAD_WORDS, Sampling
 from scanbench.runtime.command import Entry, Swapped
@@ -43,19 +42,6 @@ class BadSignal(NoStart):
     def __init__(self, message: str, near: tuple[str, ...]) -> None:
         super().__init__(message)
         self.near = near
-
-
-def plain_engines(cache: BlobCache | None) -> MakeEngine:
-    """Native where LLVM is there, else the reference engine."""
-    try:
-        from scanbench.engines.native.compiler import Compiler
-        from scanbench.engines.native.engine import NativeEngine
-    except ImportError:
-        from scanbench.engines.interpreter.engine import ReferenceEngine
-
-        return ReferenceEngine
-    compiler = Compiler(cache)
-    return lambda program, memory: NativeEngine(program, memory, objects=compiler.build(program).objects)
 
 
 def fly(ask: RecordFlight, program_of: ProgramOf, make: MakeEngine, on_chunk: Callable[[int, int], None]) -> FlightDone:

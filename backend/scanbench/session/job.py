@@ -1,6 +1,6 @@
 """The job process: reactions, sweeps, records of earlier scans, verifications, questions about the past; so that neither the server nor a PLC has to wait for them.
 
-Forked from the nursery, or `python -m scanbench.session.job FD [CACHE]`; see `job_protocol.py`. Whatever goes wrong with a request is told in its answer.
+Forked from the nursery; see `job_protocol.py`. Whatever goes wrong with a request is told in its answer.
 """
 
 import logging
@@ -8,16 +8,15 @@ import os
 import select
 import signal
 import socket
-import sys
 from collections import deque
 from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import BinaryIO
 
 from scanbench.check.program import Program
+from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.lifeline import end_with_parent
-from scanbench.engines.observe import MakeObserved
 from scanbench.faults.observed import ObservedPrograms
 from scanbench.faults.react import Point
 from scanbench.faults.sweep import sweep
@@ -26,7 +25,7 @@ from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram
 from scanbench.session import past_job, verify_job, verify_protocol
 from scanbench.session.codec import BadMessage, Splitter, pack
-from scanbench.session.flight import BadSignal, fly, plain_engines
+from scanbench.session.flight import BadSignal, fly
 from scanbench.session.job_protocol import CellFound, FindReaction, JobDone, Reacted, RunSweep, Trying
 from scanbench.session.known import key_of, recall
 from scanbench.session.protocol import Sources
@@ -50,7 +49,7 @@ class Job:
         self._verify: verify_job.VerifyJob | None = None
         self._past: past_job.PastJob | None = None
         self._answers = answers
-        self._make = _engines(self._cache)
+        self._flavours = flavours(self._cache)
         self._programs: dict[str, Program] = {}
 
     def on_request(self, request: object) -> None:
@@ -85,7 +84,7 @@ class Job:
 
     def _asked_about_past(self, request: past_job.Request) -> None:
         if self._past is None:
-            self._past = past_job.PastJob(self._program, self._cache, self._make, self._say)
+            self._past = past_job.PastJob(self._program, self._cache, self._flavours.observed, self._say)
         try:
             self._past.on_request(request)
         except Exception as error:  # as above
@@ -93,7 +92,9 @@ class Job:
 
     def _reacted(self, ask: FindReaction) -> Reacted:
         try:
-            found = reaction_in(Path(ask.run), ask.error, ask.scan, ask.end, ask.window, self._program, self._make)
+            found = reaction_in(
+                Path(ask.run), ask.error, ask.scan, ask.end, ask.window, self._program, self._flavours.observed
+            )
         except NoStart as why:
             return Reacted(ask.ref, None, str(why))
         except Exception as error:  # whatever it is, somebody waits for the answer
@@ -110,7 +111,7 @@ class Job:
                 self._say(FlightAt(ask.ref, done, of))
 
         try:
-            return fly(ask, self._program, plain_engines(self._cache), on_chunk)
+            return fly(ask, self._program, self._flavours.run, on_chunk)
         except NoStart as why:
             near = why.near if isinstance(why, BadSignal) else ()
             return FlightDone(ask.ref, False, message=str(why), near=near)
@@ -131,7 +132,7 @@ class Job:
         program = self._program(ask.sources)
         points = {each.name: self._point(each.name, Path(each.run), ask.sources) for each in ask.points}
         scans = {name: Header(point.state).scan for name, point in points.items()}
-        programs = ObservedPrograms({ask.sources.version: program}.__getitem__, self._make)
+        programs = ObservedPrograms({ask.sources.version: program}.__getitem__, self._flavours.observed)
         told = 0
 
         def on_try(error: str, point: str) -> None:
@@ -145,7 +146,7 @@ class Job:
 
     def _point(self, name: str, run: Path, sources: Sources) -> Point:
         try:
-            return point_in(run, None, sources, self._program, self._make)
+            return point_in(run, None, sources, self._program, self._flavours.observed)
         except NoStart as why:
             raise NoStart(f"the state {name} cannot be used: {why}") from why
 
@@ -174,17 +175,6 @@ _FAILED: dict[type, Callable[[int, str], object]] = {
     verify_protocol.CompareRuns: lambda ref, why: verify_protocol.RunsCompared(ref, None, why),
     verify_protocol.RerunRun: lambda ref, why: verify_protocol.RerunDone(ref, False, 0, (), why),
 }
-
-
-def _engines(cache: BlobCache | None) -> MakeObserved:
-    """Native where LLVM is there, else the reference engine."""
-    try:
-        from scanbench.engines.native.observed import ObservedBuilds
-    except ImportError:
-        from scanbench.engines.interpreter.observed import observed_engine
-
-        return observed_engine
-    return ObservedBuilds(cache).engine
 
 
 def _unexpected(error: Exception) -> str:
@@ -226,9 +216,3 @@ def _served(requests: int, answers: BinaryIO, cache: Path | None, parent: int) -
     except (BrokenPipeError, ConnectionResetError):
         return 0
     return 0
-
-
-if __name__ == "__main__":
-    sys.exit(
-        serve(socket.socket(fileno=int(sys.argv[1])), Path(sys.argv[2]) if len(sys.argv) > 2 else None, os.getppid())
-    )

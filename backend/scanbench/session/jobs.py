@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import TypeVar
 
 from scanbench.session.codec import LENGTH, BadMessage, body_length, pack, unpack
-from scanbench.session.nursery import NoProcess, Process, nursery
+from scanbench.session.nursery import JOB, NoProcess, Process, nursery
 
 log = logging.getLogger("scanbench")
 DIED = "the process that computes it died: try again"
@@ -69,7 +69,7 @@ class Job:
         ours, theirs = socket.socketpair()
         try:
             with theirs:
-                self._process = process = await asyncio.to_thread(nursery().spawn, theirs, cache, "job")
+                self._process = process = await asyncio.to_thread(nursery().spawn, theirs, cache, JOB)
         except NoProcess:
             ours.close()
             log.exception("a job process could not be started")

@@ -3,41 +3,20 @@
 from collections.abc import Sequence
 
 from scanbench.debug.halt import Halt
-from scanbench.faults.arm import Arm, Disarm, Missed
-from scanbench.faults.clear import ClearErrorLog
-from scanbench.faults.inject import Generate, Recover
-from scanbench.runtime.clear_violations import ClearViolations
-from scanbench.runtime.command import Command, Entry
-from scanbench.runtime.forces import Force, Release
-from scanbench.runtime.modes import SetMode
-from scanbench.runtime.program_change import ProgramChange
+from scanbench.runtime.command import Entry
 from scanbench.runtime.recording import RecordingInfo
-from scanbench.runtime.restart import Restart
-from scanbench.runtime.trap import Trapped
-from scanbench.runtime.write import Write
 from scanbench.session.events import TimelineChanged
 from scanbench.session.protocol import RunMark, RunMarks
-from scanbench.verify.disturb import is_disturbance
 
 LIMIT = 5000
 """Marks that are kept to be shown."""
-_KINDS: dict[type, str] = {
-    Write: "write", Force: "force", Release: "force", Generate: "error", Recover: "recover", SetMode: "mode",
-    ClearErrorLog: "recover", ProgramChange: "build", Trapped: "system", ClearViolations: "run", Restart: "run",
-    Arm: "error", Disarm: "recover", Missed: "error",
-}  # fmt: skip
 _LONGEST = 200
-
-
-def kind_of(command: Command) -> str:
-    """The kind of a line of the log, or of a mark."""
-    return "disturbance" if is_disturbance(command) else _KINDS.get(type(command), "system")
 
 
 def marks_of(entries: Sequence[Entry]) -> tuple[RunMark, ...]:
     """A mark for each entry."""
     return tuple(
-        RunMark(entry.scan, kind_of(entry.command), entry.command.author, entry.plan.message[:_LONGEST])
+        RunMark(entry.scan, entry.command.category, entry.command.author, entry.plan.message[:_LONGEST])
         for entry in entries[-LIMIT:]
     )
 

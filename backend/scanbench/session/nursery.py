@@ -16,11 +16,11 @@ import threading
 from contextlib import suppress
 from functools import cache
 from pathlib import Path
-from typing import Literal
 
 import msgpack  # type: ignore[import-untyped]
 
-Kind = Literal["host", "job"]
+HOST, JOB = "scanbench.session.host.host:serve", "scanbench.session.job:serve"
+"""Entries of the processes: of one PLC; of jobs."""
 _PR_SET_CHILD_SUBREAPER = 36
 _LARGEST_REPLY = 4096
 _THRIFT = {
@@ -114,11 +114,11 @@ class Nursery:
             with self._lock:
                 self._connected()
 
-    def spawn(self, sock: socket.socket, cache: Path | None, kind: Kind = "host") -> Process:
+    def spawn(self, sock: socket.socket, cache: Path | None, entry: str = HOST) -> Process:
         """A host, or a job process, that speaks on `sock`, which is the caller's to close, and keeps what it builds in `cache`."""
         if not _can_fork():
-            return _single(sock, cache, kind)
-        request = msgpack.packb((kind, str(cache) if cache is not None else None))
+            return _single(sock, cache, entry)
+        request = msgpack.packb((entry, str(cache) if cache is not None else None))
         with self._lock:
             reply = self._asked(request, sock) or self._asked(request, sock)  # again, in a new nursery
         if not reply:
@@ -166,7 +166,7 @@ class Nursery:
             _adopt_orphans()
             ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
             with theirs:
-                command = [sys.executable, "-m", "scanbench.session.host.forking", str(theirs.fileno())]
+                command = [sys.executable, "-m", "scanbench.session.host.forking", str(theirs.fileno()), HOST, JOB]
                 try:
                     self._process = subprocess.Popen(
                         command, pass_fds=(theirs.fileno(),), stdin=subprocess.DEVNULL, env=os.environ | _THRIFT
@@ -206,9 +206,10 @@ def _adopt_orphans() -> None:
         raise NoProcess("this system does not let a process adopt its grandchildren (Linux 3.4 or newer does)")
 
 
-def _single(sock: socket.socket, cache: Path | None, kind: Kind) -> _Single:
+def _single(sock: socket.socket, cache: Path | None, entry: str) -> _Single:
     fd = sock.fileno()
-    command = [sys.executable, "-m", f"scanbench.session.{kind}", str(fd), *([str(cache)] if cache is not None else [])]
+    kept = [str(cache)] if cache is not None else []
+    command = [sys.executable, "-m", "scanbench.session.host", str(fd), entry, *kept]
     return _Single(subprocess.Popen(command, pass_fds=(fd,), stdin=subprocess.DEVNULL))
 
 

@@ -5,7 +5,8 @@ from collections.abc import Callable, Mapping, Sequence
 
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import USER_ERRORS
-from scanbench.session.builds import INTERVAL_NS, BuildOutcome, Change, Checker, CheckOutcome
+from scanbench.session.builds import INTERVAL_NS, Checker
+from scanbench.session.events import BuildOutcome, Change, CheckOutcome
 from scanbench.session.protocol import Sources
 from scanbench.session.refused import Refused, Unavailable
 from scanbench.session.session import Session

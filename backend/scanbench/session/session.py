@@ -18,14 +18,13 @@ from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import Force, ForcedValue
 from scanbench.runtime.write import Write
 from scanbench.session import debug_protocol, events, protocol
-from scanbench.session.builds import BuildOutcome
 from scanbench.session.debug_protocol import DebugAnswer, DebugRequest
 from scanbench.session.debugging import Debugging
-from scanbench.session.events import Event, LogEntry, PlcState, Subscriber, User
+from scanbench.session.events import BuildOutcome, Event, LogEntry, PlcState, Subscriber, User
 from scanbench.session.instance import Instance, Remembered
 from scanbench.session.keeper import Keeper
 from scanbench.session.load import Load, Loads
-from scanbench.session.marks import Marks, kind_of
+from scanbench.session.marks import Marks
 from scanbench.session.reacting import Raised, Reacting
 from scanbench.session.reactions import Reactions
 from scanbench.session.refused import Refused, Unavailable
@@ -488,7 +487,7 @@ class Session:
         self._publish(self._timeline.add(entries))
         for entry in entries[:LISTED]:
             command = entry.command
-            self._add_line(LogEntry(entry.at, entry.scan, command.author, entry.plan.message, kind_of(command)))
+            self._add_line(LogEntry(entry.at, entry.scan, command.author, entry.plan.message, command.category))
         if len(entries) > LISTED:
             last, more = entries[-1], len(entries) - LISTED
             self._add_line(LogEntry(last.at, last.scan, last.command.author, f"... and {more} more entries", "system"))

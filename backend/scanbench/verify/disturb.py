@@ -6,10 +6,10 @@
 
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import ClassVar, Literal
 
 from scanbench.faults.arm import NUMBERED
-from scanbench.runtime.command import Command, Entry, Numbered, Plan, Refusal, Restarted, Swapped, View
+from scanbench.runtime.command import Category, Command, Entry, Numbered, Plan, Refusal, Restarted, Swapped, View
 from scanbench.runtime.command import Freed as FreedEffect
 from scanbench.runtime.journal import Fold
 from scanbench.verify.disturb_fire import Corrupt, Firing, Flip, Hold, Unfired, Unhold, freed
@@ -22,6 +22,8 @@ MOST_DISTURBANCES = 200
 @dataclass(frozen=True, slots=True)
 class Disturb(Command):
     """Something is to go wrong, once or by chance."""
+
+    category: ClassVar[Category] = "disturbance"
 
     wanted: Disturbance
 
@@ -39,6 +41,8 @@ class Disturb(Command):
 @dataclass(frozen=True, slots=True)
 class Calm(Command):
     """Takes disturbances back, None is all. What they hold has its real value again."""
+
+    category: ClassVar[Category] = "disturbance"
 
     ids: tuple[int, ...] | None
 
@@ -118,7 +122,7 @@ def disturbances(state: Disturbeds) -> tuple[DisturbanceInfo, ...]:
 
 def is_disturbance(command: Command) -> bool:
     """Whether the monitor leaves this out: it happens to the control device alone."""
-    return isinstance(command, Disturb | Calm | Firing)
+    return command.category == "disturbance"
 
 
 def told(entry: Entry) -> str:

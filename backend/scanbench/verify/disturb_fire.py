@@ -6,12 +6,13 @@ forget those between.
 
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
+from typing import ClassVar
 
 from scanbench.check.layout import Layout
 from scanbench.check.symbols import Symbol
 from scanbench.check.types import Elementary, StringType
 from scanbench.check.values import format_value
-from scanbench.runtime.command import Command, Freed, Held, Patch, Plan, Refusal, View
+from scanbench.runtime.command import Category, Command, Freed, Held, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import notes_of, read_table, table_patches
 from scanbench.runtime.holds import HELD, HeldByte, held, holder
 from scanbench.runtime.target import not_called
@@ -21,6 +22,8 @@ from scanbench.verify.disturb_wanted import bits_of, single_value
 @dataclass(frozen=True, slots=True)
 class Firing(Command):
     """Of the disturbance of this number."""
+
+    category: ClassVar[Category] = "disturbance"
 
     id: int
     time: int

@@ -3,6 +3,7 @@
 from collections.abc import Callable
 
 from scanbench.check.program import Program
+from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.interpreter.debugged import debug_engine
 from scanbench.runtime.programs import Loaded
@@ -20,17 +21,10 @@ def reference(version: int, program: Program) -> Loaded:
 
 def native(cache: BlobCache | None = None) -> Make:
     """On machine code where LLVM is there, else on the reference interpreter."""
-    try:
-        from scanbench.engines.native.compiler import Compiler
-        from scanbench.engines.native.debugged import DebugBuilds
-        from scanbench.engines.native.engine import NativeEngine
-    except ImportError:
-        return reference
-    compiler, builds = Compiler(cache), DebugBuilds(cache)
+    code = flavours(cache)
 
     def make(version: int, program: Program) -> Loaded:
         memory = bytearray(program.layout.size)
-        engine = NativeEngine(program, memory, objects=compiler.build(program).objects)
-        return Loaded(version, program, memory, engine, debug=builds.engine(program, memory))
+        return Loaded(version, program, memory, code.run(program, memory), debug=code.debug(program, memory))
 
     return make

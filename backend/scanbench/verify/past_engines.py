@@ -4,9 +4,9 @@ from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
 from scanbench.check.program import Program
-from scanbench.debug.probing import Prober
+from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
-from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.probe import MakeProbed
 from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.programs import Loaded, NoProgram
 from scanbench.runtime.timeline import ProgramsOf
@@ -16,23 +16,15 @@ ProgramOf = Callable[[KeptProgram], Program]
 """Builds a program; `NoProgram` says why it cannot be built."""
 
 
-def past_engines(cache: BlobCache | None = None) -> tuple[Make, Prober | None]:
+def past_engines(cache: BlobCache | None = None) -> tuple[Make, MakeProbed | None]:
     """Makes programs ready to run, and code with probes: on machine code where LLVM is there."""
-    try:
-        from scanbench.engines.native.compiler import Compiler
-        from scanbench.engines.native.debugged import DebugBuilds
-        from scanbench.engines.native.engine import NativeEngine
-        from scanbench.engines.native.probed import ProbedBuilds
-    except ImportError:
-        return lambda version, program: Loaded.make(program, ReferenceEngine, version), None
-    compiler, builds = Compiler(cache), DebugBuilds(cache)
+    code = flavours(cache)
 
     def make(version: int, program: Program) -> Loaded:
         memory = bytearray(program.layout.size)
-        engine = NativeEngine(program, memory, objects=compiler.build(program).objects)
-        return Loaded(version, program, memory, engine, make_debug=builds.engine)
+        return Loaded(version, program, memory, code.run(program, memory), make_debug=code.debug)
 
-    return make, ProbedBuilds(cache).engine
+    return make, code.probed(aside=False)
 
 
 def programs_of(program_of: ProgramOf, make: Make) -> ProgramsOf:

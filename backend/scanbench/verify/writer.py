@@ -12,8 +12,8 @@ from scanbench.debug.breakpoints import Breakpoints
 from scanbench.debug.frames import frame_name, instance_path, task_of
 from scanbench.debug.listener import Position
 from scanbench.debug.placed import bytes_of
-from scanbench.debug.probing import Prober
 from scanbench.debug.reverse import Noted, Search, in_front
+from scanbench.engines.probe import MakeProbed
 from scanbench.runtime.carry_over import changes
 from scanbench.runtime.command import Entry, Held, Patch, Refusal, Restarted, Swapped
 from scanbench.runtime.forces import read_table
@@ -50,7 +50,7 @@ class _Bytes:
         return bytes((bool(data[0] & self.mask),)) if self.mask != 0xFF else data
 
 
-def find_writer(reading: Reading, path: str, scan: int, prober: Prober | None = None) -> Writer:
+def find_writer(reading: Reading, path: str, scan: int, prober: MakeProbed | None = None) -> Writer:
     """Who wrote the variable last before `scan` began. `NoReading` says why that cannot be told.
 
     The reading has been followed as far as the scan.
@@ -180,7 +180,7 @@ def _covered(spans: list[tuple[int, int]], place: _Bytes) -> bool:
     )
 
 
-def _statement(reading: Reading, path: str, here: Position, prober: Prober | None, first: int) -> Noted | None:
+def _statement(reading: Reading, path: str, here: Position, prober: MakeProbed | None, first: int) -> Noted | None:
     """The last write by a statement since scan `first`."""
     wanted = [Breakpoint(0, "data", "", path=path, access="write")]
     found = Search(reading.timeline, Breakpoints(), wanted, here, prober, lambda entry: (), first).run()

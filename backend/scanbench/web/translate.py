@@ -9,8 +9,7 @@ from scanbench.problems import Problem
 from scanbench.runtime.clock import iso
 from scanbench.runtime.forces import ForcedValue
 from scanbench.session import events
-from scanbench.session.builds import BuildOutcome, Change, CheckOutcome
-from scanbench.session.events import LogEntry, PlcState, User
+from scanbench.session.events import BuildOutcome, Change, CheckOutcome, LogEntry, PlcState, User
 from scanbench.session.protocol import SymbolInfo, WatchItem
 from scanbench.session.session import Session
 from scanbench.store.records import FileInfo, FileRow, ProjectRow

@@ -10,6 +10,7 @@ from typing import Self, TypeVar
 from scanbench.debug.halt import Halt
 from scanbench.session import debug_protocol, protocol
 from scanbench.session.codec import Splitter, pack
+from scanbench.session.nursery import HOST
 from scanbench.session.protocol import Sources
 
 T = TypeVar("T")
@@ -25,7 +26,7 @@ class Child:
         ours, theirs = socket.socketpair()
         self._socket, self._splitter = ours, Splitter()
         ours.settimeout(60)
-        command = [sys.executable, "-m", "scanbench.session.host", str(theirs.fileno()), str(cache)]
+        command = [sys.executable, "-m", "scanbench.session.host", str(theirs.fileno()), HOST, str(cache)]
         self.process = subprocess.Popen(command, pass_fds=[theirs.fileno()])
         theirs.close()
         self.messages: list[object] = []

@@ -34,6 +34,7 @@ from scanbench.session import job as job_process
 from scanbench.session import starting
 from scanbench.session.codec import ENTRIES, Splitter, pack, pack_body, unpack
 from scanbench.session.job_protocol import CellFound, FindReaction, JobDone, Reacted, RunSweep, StartPoint, Trying
+from scanbench.session.nursery import JOB
 from scanbench.session.protocol import Sources
 from scanbench.session.starting import NoStart, reaction_in
 from tests.faults.reacting import MAKES, ref
@@ -56,7 +57,7 @@ class Job:
         self._sock, theirs = socket.socketpair()
         with theirs:
             fd = theirs.fileno()
-            command = [sys.executable, "-m", "scanbench.session.job", str(fd), str(cache)]
+            command = [sys.executable, "-m", "scanbench.session.host", str(fd), JOB, str(cache)]
             self.process = subprocess.Popen(command, pass_fds=(fd,))
         self._answers = self._sock.makefile("rb")
 
@@ -343,7 +344,7 @@ def test_it_ends_with_its_parent(tmp_path: Path) -> None:
     code = (
         "import os, socket, subprocess, sys\n"
         "ours, theirs = socket.socketpair()\n"
-        "command = [sys.executable, '-m', 'scanbench.session.job', str(theirs.fileno()), sys.argv[1]]\n"
+        "command = [sys.executable, '-m', 'scanbench.session.host', str(theirs.fileno()), 'scanbench.session.job:serve', sys.argv[1]]\n"
         "process = subprocess.Popen(command, pass_fds=(theirs.fileno(),))\n"
         "ours.sendall(sys.stdin.buffer.read())\n"
         "ours.recv(1)\n"

@@ -34,8 +34,8 @@ def test_the_program_checked_anew_has_the_statements_that_run() -> None:
     start = bytes(memory)
     loaded.engine.run(20)
     plain, memory[:] = bytes(memory), start
-    builder.observed.prepare(loaded.statements)
-    engine, observer = builder.observed.make(loaded.statements, memory)
+    builder.flavours.prepare_observed(loaded.statements)
+    engine, observer = builder.flavours.observed(loaded.statements, memory)
     engine.run(4)
     assert observer.take().reached == {0, 1}
     engine.run(16)

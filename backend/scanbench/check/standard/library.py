@@ -5,13 +5,11 @@ from collections.abc import Iterator
 from functools import cache
 from importlib.resources import files
 
-from scanbench.problems import Span
+from scanbench.check.origin import LIBRARY_FOLDER
 from scanbench.syntax import tree
 from scanbench.syntax.parse_st import parse_st
 from scanbench.syntax.source import Source
 
-FOLDER = "<standard>/"
-"""Where the spans of the library are; no project has a folder of that name."""
 FILES = ("timers", "counters", "bistable", "strings", "bits", "dates", "text_of_times", "clock")
 COUNTED = {
     "INT": (-(1 << 15), (1 << 15) - 1),
@@ -22,11 +20,6 @@ COUNTED = {
 }
 """Types of counters, and their bounds; `counters.st` has them for INT."""
 WORD = re.compile(r"-32768|\w+(?:#\w+)?")
-
-
-def in_library(span: Span) -> bool:
-    """Whether this stands in the library, and not in a project."""
-    return span.file.startswith(FOLDER)
 
 
 @cache
@@ -43,7 +36,7 @@ def library() -> tuple[tree.File, ...]:
 def _texts() -> Iterator[tuple[str, str]]:
     """Path and text of each file; those that stand for several types once for each, line by line the same."""
     for name in FILES:
-        path = f"{FOLDER}{name}.st"
+        path = f"{LIBRARY_FOLDER}{name}.st"
         text = files("scanbench.check").joinpath(f"standard/{name}.st").read_text("utf-8")
         yield path, text
         if name == "counters":

@@ -5,6 +5,7 @@ from collections.abc import Callable, Sequence
 from typing import Protocol, cast
 
 from scanbench.check.layout import Layout
+from scanbench.check.origin import is_system
 from scanbench.check.program import (
     Base,
     Binary,
@@ -24,7 +25,6 @@ from scanbench.check.program import (
     Violates,
 )
 from scanbench.check.program import Sequence as SequenceNode
-from scanbench.check.system_text import is_system
 from scanbench.check.types import Elementary, Kind, Section, StringType
 from scanbench.engines.interpreter import arithmetic
 from scanbench.engines.interpreter.arithmetic import Operand

@@ -9,9 +9,9 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 
 from scanbench.check.layout import Layout
+from scanbench.check.origin import is_system
 from scanbench.check.program import Base, Place, Pou, Program, Stmt
 from scanbench.check.sites import Sites, sites_of
-from scanbench.check.system_text import is_system
 from scanbench.check.types import Kind
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_memory import Address

@@ -1,15 +1,12 @@
-"""A host as a Python of its own, where forking is not to be had: `python -m scanbench.session.host FD [CACHE]`.
-
-FD is the socket to the parent, CACHE a directory.
-"""
+"""`python -m scanbench.session.host FD ENTRY [CACHE]`: a process that is not forked. The server started it; see `entry.py`."""
 
 import os
 import socket
 import sys
 from pathlib import Path
 
-from scanbench.session.host.host import serve
+from scanbench.session.host.entry import entry
 
 if __name__ == "__main__":
-    cache = Path(sys.argv[2]) if len(sys.argv) > 2 else None
-    sys.exit(serve(socket.socket(fileno=int(sys.argv[1])), cache, os.getppid()))
+    cache = Path(sys.argv[3]) if len(sys.argv) > 3 else None
+    sys.exit(entry(sys.argv[2])(socket.socket(fileno=int(sys.argv[1])), cache, os.getppid()))

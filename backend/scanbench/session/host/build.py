@@ -9,13 +9,12 @@ from typing import TYPE_CHECKING
 
 from scanbench.check.incremental import Checks
 from scanbench.check.program import Program
+from scanbench.engines.available import flavours, no_machine_code
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.engine import Engine
 from scanbench.plcmodel.load import NoSuchModel, load_all, model_directory, model_named
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem, Severity
-from scanbench.session.host.debugcode import DebugCode
-from scanbench.session.host.observed import ObservedCode
 from scanbench.session.known import key_of, recall
 from scanbench.session.protocol import Sources
 
@@ -37,10 +36,10 @@ class Engines:
 
 def find_engines(cache: BlobCache | None) -> Engines:
     """Native where LLVM is there, else the reference engine."""
-    try:
-        from scanbench.session.host.tiers import Tiers
-    except ImportError as error:
-        return Engines(None, f"LLVM is missing ({error}): the slow reference engine runs the program")
+    if why := no_machine_code():
+        return Engines(None, f"LLVM is missing ({why}): the slow reference engine runs the program")
+    from scanbench.session.host.tiers import Tiers
+
     return Engines(Tiers(cache), "")
 
 
@@ -67,10 +66,8 @@ class Builder:
         self._cache = BlobCache(cache) if cache is not None else None
         self._engines = find_engines(self._cache)
         self._checks = Checks()
-        self.observed = ObservedCode(self._cache)
-        """Who notes what statements do."""
-        self.debug = DebugCode(self._cache)
-        """Who halts in the middle of a scan."""
+        self.flavours = flavours(self._cache)
+        """Who notes what statements do, and who halts in the middle of a scan."""
         self._lock = threading.Lock()
         self._ready = False  # what was checked before makes the next check a short one
 

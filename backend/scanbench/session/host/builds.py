@@ -9,7 +9,7 @@ from scanbench.runtime.carry_over import NEW, REMOVED, Change, changes
 from scanbench.runtime.programs import Loaded
 from scanbench.session import protocol
 from scanbench.session.host.build import Builder
-from scanbench.session.host.debugcode import Debuggable, Probed
+from scanbench.session.host.debugcode import Debuggable, Probed, probed
 from scanbench.session.host.limits import MemoryLimit
 from scanbench.session.host.link import Link
 from scanbench.session.host.loop import Loop
@@ -28,6 +28,7 @@ class Builds:
         self._builder, self._link, self._memory = builder, link, memory
         self._building = threading.Lock()
         self._ready = False
+        self._probed = builder.flavours.probed(aside=True)
 
     def take(self, message: protocol.Build | protocol.Preview | protocol.RollBack, loop: Loop) -> None:
         """Begins what is asked for; the answer comes when it is done."""
@@ -61,7 +62,7 @@ class Builds:
         loop.debugging.build = lambda: self.debug(loop)
         debugger = loop.debugging.debugger
         debugger.want_probes = lambda loaded, probes: self.probe(loop, loaded, probes)
-        debugger.prober = self._builder.debug.prober
+        debugger.prober = self._builder.flavours.probed(aside=False)
 
     def debug(self, loop: Loop) -> None:
         """Builds debugged code of what runs; the loop gets it."""
@@ -77,7 +78,7 @@ class Builds:
             try:
                 loaded = loop.programs.make(sources)
                 if loop.resource.observing:
-                    self._builder.observed.prepare(loaded.program)
+                    self._builder.flavours.prepare_observed(loaded.program)
                 debugger = loop.debugging.debugger
                 if debugger.busy or debugger.breakpoints.placed:  # disabled ones, too: they have to find their places
                     self._debuggable(loaded).put_in_place()
@@ -108,7 +109,7 @@ class Builds:
             version = loaded.version
             try:
                 program = loaded.renewed()
-                self._builder.observed.prepare(program)
+                self._builder.flavours.prepare_observed(program)
             except Exception as error:  # as above
                 why = f"no code could be built that tells when a statement is reached: {self._why(error)}"
                 loop.give(BuildRefused(submit.ref, why))
@@ -143,7 +144,7 @@ class Builds:
             if loop.timeline.live is not loaded:
                 return
             try:
-                engine = self._builder.debug.probed(loaded, probes)
+                engine = probed(self._probed, loaded, probes)
             except Exception as error:  # as above: it is slower without
                 log.warning("breakpoints stay slow: %s", self._why(error))
                 return
@@ -154,7 +155,7 @@ class Builds:
         if loaded.debug is not None:
             return Debuggable(loaded, loaded.fresh, None)
         program = loaded.renewed()
-        return Debuggable(loaded, program, self._builder.debug.make(program, loaded.memory))
+        return Debuggable(loaded, program, self._builder.flavours.debug(program, loaded.memory))
 
     def _why(self, error: Exception) -> str:
         return self._memory.report(error) if isinstance(error, MemoryError) else str(error)

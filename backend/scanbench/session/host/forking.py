@@ -1,7 +1,7 @@
-"""The nursery: `python -m scanbench.session.host.forking FD` imports everything once, and forks a host for every request.
+"""The nursery: `python -m scanbench.session.host.forking FD ENTRY...` imports everything once, and forks a process for every request.
 
-A request on the socket FD is what is wanted (`host` or `job`) and the directory of the cache, with the new process's own socket; the reply is the number of the process,
-or why there is none. It ends when the server closes the socket, or is gone.
+A request on the socket FD is the entry of the new process and the directory of the cache, with the new process's own socket; the
+reply is the number of the process, or why there is none. It ends when the server closes the socket, or is gone.
 
 A host is forked twice, so that the server, which adopts orphans, becomes its parent. This process has one thread, and must
 never get another: a fork would lose it.
@@ -23,8 +23,7 @@ from scanbench.check.incremental import Checks
 from scanbench.engines.lifeline import end_with_parent
 from scanbench.plcmodel.load import NoModels
 from scanbench.session.host.build import Builder, all_models
-from scanbench.session.host.host import serve
-from scanbench.session.job import serve as serve_job
+from scanbench.session.host.entry import Serve, entry
 from scanbench.session.known import key_of
 from scanbench.session.protocol import Sources
 
@@ -40,6 +39,7 @@ def main() -> int:
     end_with_parent(server)  # also when it is stopped, and so does not see that the socket is closed
     with socket.socket(fileno=int(sys.argv[1])) as channel:
         channel.set_inheritable(False)
+        entries = {name: entry(name) for name in sys.argv[2:]}
         _warm()
         gc.collect()
         gc.freeze()  # a collection in a host would touch every object, and so copy every page
@@ -47,8 +47,8 @@ def main() -> int:
             request, fds, _, _ = socket.recv_fds(channel, _LARGEST_REQUEST, 1)
             if not request:
                 return 0
-            kind, cache = msgpack.unpackb(request)
-            child = Child(kind, fds[0], Path(cache) if cache is not None else None, server)
+            name, cache = msgpack.unpackb(request)
+            child = Child(entries[name], fds[0], Path(cache) if cache is not None else None, server)
             try:
                 reply: int | str = _fork(channel, child)
             except OSError as error:
@@ -75,17 +75,16 @@ def _warm() -> None:
 
 @dataclass(frozen=True, slots=True)
 class Child:
-    """What is wanted: a host or a job process that speaks on `fd`."""
+    """What is wanted: a process that speaks on `fd`."""
 
-    kind: str
+    work: Serve
     fd: int
     cache: Path | None
     server: int
 
     def serve(self) -> int:
         """Its life; the exit code."""
-        work = serve_job if self.kind == "job" else serve
-        return work(socket.socket(fileno=self.fd), self.cache, self.server)
+        return self.work(socket.socket(fileno=self.fd), self.cache, self.server)
 
 
 def _fork(channel: socket.socket, child: Child) -> int:

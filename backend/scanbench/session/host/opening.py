@@ -75,4 +75,4 @@ def _resumed(start: protocol.Start, path: Path, builder: Builder) -> tuple[Timel
 
 
 def _agenda(builder: Builder) -> Agenda:
-    return Joined(Schedule(builder.observed.make), DisturbanceSchedule())
+    return Joined(Schedule(builder.flavours.observed), DisturbanceSchedule())
