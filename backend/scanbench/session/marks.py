@@ -1,4 +1,4 @@
-"""The points of a run's timeline: which commands leave one, and the parent's copy of them."""
+"""The points of a run's timeline, as its host has told of them."""
 
 from collections.abc import Sequence
 
@@ -6,19 +6,8 @@ from scanbench.debug.halt import Halt
 from scanbench.runtime.command import Entry
 from scanbench.runtime.recording import RecordingInfo
 from scanbench.session.events import TimelineChanged
+from scanbench.session.host.marks import LIMIT, LONGEST, marks_of
 from scanbench.session.protocol import RunMark, RunMarks
-
-LIMIT = 5000
-"""Marks that are kept to be shown."""
-_LONGEST = 200
-
-
-def marks_of(entries: Sequence[Entry]) -> tuple[RunMark, ...]:
-    """A mark for each entry."""
-    return tuple(
-        RunMark(entry.scan, entry.command.category, entry.command.author, entry.plan.message[:_LONGEST])
-        for entry in entries[-LIMIT:]
-    )
 
 
 class Marks:
@@ -43,7 +32,7 @@ class Marks:
 
     def halted(self, halt: Halt) -> TimelineChanged:
         """A mark where a debugger halted the PLC, though the journal knows nothing of it."""
-        mark = RunMark(halt.scan, "halt", halt.by or "PLC", f"halted: {halt.text}"[:_LONGEST])
+        mark = RunMark(halt.scan, "halt", halt.by or "PLC", f"halted: {halt.text}"[:LONGEST])
         return self.take(RunMarks(self._info, (mark,), fresh=False))
 
     @property

@@ -18,9 +18,9 @@ from scanbench.session import protocol
 from scanbench.session.host.course import Course
 from scanbench.session.host.link import Link
 from scanbench.session.host.lookup import watch_item
+from scanbench.session.host.marks import marks_of
 from scanbench.session.host.status import host_state
 from scanbench.session.host.swaps import Optimising
-from scanbench.session.marks import marks_of
 from scanbench.taps.watch import WatchPlan
 from scanbench.verify.disturb import DISTURBED, disturbances
 
