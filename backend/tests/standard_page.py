@@ -5,7 +5,7 @@ from pathlib import Path
 from scanbench.check import conversions
 from scanbench.check.standard.functions import FUNCTIONS, Chain, Operator, Row, Same, Shift, Special, StringFunction
 from scanbench.check.standard.library import library
-from scanbench.check.types import Kind
+from scanbench.program.types import Kind
 from scanbench.syntax import tree
 
 PAGE = Path(__file__).parents[2] / "docs" / "standard-library.md"

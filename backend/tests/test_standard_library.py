@@ -7,11 +7,11 @@ import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.check.standard.functions import FUNCTIONS
-from scanbench.check.types import ELEMENTARY, Kind
 from scanbench.engines.engine import Reason
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.problems import Severity
+from scanbench.program.types import ELEMENTARY, Kind
 from tests.caseformat import MODELS, first_difference, look_up
 
 TYPES = [*ELEMENTARY, "STRING", "WSTRING"]

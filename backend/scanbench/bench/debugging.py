@@ -21,9 +21,7 @@ from scanbench.bench.building import LARGE
 from scanbench.bench.run import PROGRAMS, BenchError, checked_program
 from scanbench.check.build import check_sources
 from scanbench.check.local import Local, Locals
-from scanbench.check.program import Pou, Program
 from scanbench.check.sites import Sites
-from scanbench.check.types import Elementary, Kind, Record
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.debug import DebugEngine, Listen
 from scanbench.engines.engine import Engine, Reason
@@ -34,6 +32,8 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.probed import ProbedBuilds, probed_engine
 from scanbench.engines.probe import Probe
 from scanbench.plcmodel.load import model_named
+from scanbench.program.program import Pou, Program
+from scanbench.program.types import Elementary, Kind, Record
 from scanbench.session.samples import samples
 
 T = TypeVar("T")

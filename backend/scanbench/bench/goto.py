@@ -16,9 +16,9 @@ from time import perf_counter_ns
 
 from scanbench.bench.run import INTERVAL_NS, MODEL
 from scanbench.check.build import check_sources
-from scanbench.check.program import Program
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.plcmodel.load import model_named
+from scanbench.program.program import Program
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.timeline import Timeline

@@ -14,10 +14,10 @@ from time import monotonic_ns, perf_counter_ns, thread_time_ns
 
 from scanbench.check.build import check_sources
 from scanbench.check.condition import Condition, compile_condition
-from scanbench.check.program import Program
 from scanbench.engines.engine import Engine, Pace, Reason
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.plcmodel.load import model_named
+from scanbench.program.program import Program
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource

@@ -12,7 +12,6 @@ from time import perf_counter_ns
 
 from scanbench.bench.run import INTERVAL_NS, MODEL
 from scanbench.check.build import check_sources
-from scanbench.check.program import Program
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.debug.debugger import Debugger
 from scanbench.engines.native.debugged import DebugBuilds
@@ -20,6 +19,7 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.probed import ProbedBuilds
 from scanbench.plcmodel.load import model_named
 from scanbench.problems import Span
+from scanbench.program.program import Program
 from scanbench.runtime.command import Entry
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.timeline import Timeline

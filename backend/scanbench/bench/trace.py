@@ -11,10 +11,10 @@ import time
 from dataclasses import asdict, dataclass
 
 from scanbench.check.build import check_sources
-from scanbench.check.program import Program
 from scanbench.engines.engine import Pace, Reason
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.plcmodel.load import model_named
+from scanbench.program.program import Program
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.taps.trace import Trace, TraceDefinition, TraceTrigger

@@ -20,12 +20,12 @@ from tracemalloc import get_traced_memory, start, stop
 from scanbench.bench.reverse import FIRST, SOURCE
 from scanbench.bench.run import INTERVAL_NS, MODEL
 from scanbench.check.build import check_sources
-from scanbench.check.program import Program
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.debugged import DebugBuilds
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.probed import ProbedBuilds
 from scanbench.plcmodel.load import model_named
+from scanbench.program.program import Program
 from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.headless import run_headless
 from scanbench.runtime.programs import Loaded, Shelf

@@ -4,8 +4,12 @@ from dataclasses import dataclass, field, replace
 
 from scanbench.check import fold
 from scanbench.check.context import Rejected, did_you_mean
-from scanbench.check.origin import in_library, is_system
-from scanbench.check.program import (
+from scanbench.check.scopes import decode
+from scanbench.check.standard_calls import StandardCallChecker
+from scanbench.check.system_text import STOP
+from scanbench.problems import Span
+from scanbench.program.origin import in_library, is_system
+from scanbench.program.program import (
     Assign,
     CallFunction,
     Const,
@@ -21,11 +25,8 @@ from scanbench.check.program import (
     Stmt,
     TrapKind,
 )
-from scanbench.check.scopes import decode
-from scanbench.check.shown import shown
-from scanbench.check.standard_calls import StandardCallChecker
-from scanbench.check.system_text import STOP
-from scanbench.check.types import (
+from scanbench.program.shown import shown
+from scanbench.program.types import (
     BOOL,
     INT,
     ArrayType,
@@ -41,7 +42,6 @@ from scanbench.check.types import (
     initial_of,
     is_derived,
 )
-from scanbench.problems import Span
 from scanbench.syntax import tree
 
 VARIABLES = (tree.Name, tree.MemberOf, tree.IndexOf, tree.DirectAddress, tree.Dereference, tree.PartialAccess)

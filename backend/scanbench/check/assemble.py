@@ -3,19 +3,19 @@
 import math
 from dataclasses import dataclass, field, replace
 
-from scanbench.check.bound import copies_of
 from scanbench.check.configuration import PlannedBlock, PlannedInstance, PlannedTask, Planner
 from scanbench.check.connections import Wiring, calls_instance
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare import Declarations
-from scanbench.check.layout import Layout
-from scanbench.check.program import Base, Place, Pou, Program, ProgramInstance, Task
 from scanbench.check.scopes import Pous
 from scanbench.check.settings import Settings
 from scanbench.check.start_references import bind_start_references
-from scanbench.check.types import BOOL, Kind, Member, Record, Section
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Span
+from scanbench.program.copies import copies_of
+from scanbench.program.layout import Layout
+from scanbench.program.program import Base, Place, Pou, Program, ProgramInstance, Task
+from scanbench.program.types import BOOL, Kind, Member, Record, Section
 from scanbench.syntax import tree
 
 BUDGET = 10_000_000

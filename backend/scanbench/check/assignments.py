@@ -7,11 +7,11 @@ from scanbench.check.arguments import together
 from scanbench.check.calls import CallChecker
 from scanbench.check.context import Rejected
 from scanbench.check.places import Found
-from scanbench.check.program import Assign, Const, Expr, If, Load, Place, Pou, Stmt
-from scanbench.check.shown import shown
-from scanbench.check.types import BOOL, ArrayType, Kind, Member, Record, Section, Type, has_instance
-from scanbench.check.untyped import ANY_INT, settle
 from scanbench.problems import Span
+from scanbench.program.program import Assign, Const, Expr, If, Load, Place, Pou, Stmt
+from scanbench.program.shown import shown
+from scanbench.program.types import BOOL, ArrayType, Kind, Member, Record, Section, Type, has_instance
+from scanbench.program.untyped import ANY_INT, settle
 from scanbench.syntax import tree
 
 

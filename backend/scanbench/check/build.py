@@ -22,18 +22,18 @@ from scanbench.check.generic import is_generic
 from scanbench.check.names import Space, qualified
 from scanbench.check.notes import Looks
 from scanbench.check.order import Order
-from scanbench.check.origin import in_library, is_system
 from scanbench.check.plant import Plant, plant_files
-from scanbench.check.program import Assign, Base, CheckSite, Const, Expr, Place, Pou, Program
 from scanbench.check.scopes import Pous, Scope, place_of
 from scanbench.check.statements import StatementChecker
 from scanbench.check.stimulus import StimulusChecker
 from scanbench.check.system import System, system_of
 from scanbench.check.system_text import COMMON
-from scanbench.check.types import BOOL, Kind, Member, Record, Reference, Section, Type
 from scanbench.plcmodel.model import Model, Who
 from scanbench.plcmodel.user_errors import extended, is_user_errors
 from scanbench.problems import Problem, Severity, Span
+from scanbench.program.origin import in_library, is_system
+from scanbench.program.program import Assign, Base, CheckSite, Const, Expr, Place, Pou, Program
+from scanbench.program.types import BOOL, Kind, Member, Record, Reference, Section, Type
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunked, read
 

@@ -8,7 +8,8 @@ whatever calls it, through whatever base or interface, they are made once.
 from collections.abc import Callable
 from dataclasses import replace
 
-from scanbench.check.program import (
+from scanbench.check.scopes import place_of
+from scanbench.program.program import (
     Assign,
     Base,
     Blocks,
@@ -23,8 +24,7 @@ from scanbench.check.program import (
     Stmt,
     While,
 )
-from scanbench.check.scopes import place_of
-from scanbench.check.types import BOOL, Member, Record, actual_of
+from scanbench.program.types import BOOL, Member, Record, actual_of
 
 NullTrap = Callable[[Member], int]
 """The trap site of an in-out that is not connected."""

@@ -7,10 +7,12 @@ image now. A call that reaches its instance through a reference counts where tha
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from scanbench.check.bodies import bodies, every
-from scanbench.check.bound import BIT_SHIFT, Image, referred
 from scanbench.check.instances import instances_of
-from scanbench.check.program import (
+from scanbench.check.symbols import PART, Symbol, UnknownPath, holding, resolve
+from scanbench.problems import Span
+from scanbench.program.bodies import bodies, every
+from scanbench.program.copies import BIT_SHIFT, Image, referred
+from scanbench.program.program import (
     Base,
     Binary,
     CallBlock,
@@ -29,9 +31,7 @@ from scanbench.check.program import (
     Return,
     Stmt,
 )
-from scanbench.check.symbols import PART, Symbol, UnknownPath, holding, resolve
-from scanbench.check.types import Elementary, Kind, Member, Record, Section, actual_of, is_derived
-from scanbench.problems import Span
+from scanbench.program.types import Elementary, Kind, Member, Record, Section, actual_of, is_derived
 
 WHOLE = (Kind.INT, Kind.UINT, Kind.BITS)
 

@@ -14,8 +14,11 @@ from scanbench.check.methods import Receiver
 from scanbench.check.names import Names
 from scanbench.check.notes import note_of
 from scanbench.check.objects import dotted, named_itself
-from scanbench.check.origin import in_library
-from scanbench.check.program import (
+from scanbench.check.scopes import decode, place_of
+from scanbench.check.standard.functions import FUNCTIONS
+from scanbench.problems import Span
+from scanbench.program.origin import in_library
+from scanbench.program.program import (
     Assign,
     Base,
     CallBlock,
@@ -33,10 +36,8 @@ from scanbench.check.program import (
     TrapKind,
     Violates,
 )
-from scanbench.check.scopes import decode, place_of
-from scanbench.check.shown import shown
-from scanbench.check.standard.functions import FUNCTIONS
-from scanbench.check.types import (
+from scanbench.program.shown import shown
+from scanbench.program.types import (
     BOOL,
     ULINT,
     Elementary,
@@ -50,8 +51,7 @@ from scanbench.check.types import (
     base_of,
     initial_of,
 )
-from scanbench.check.untyped import is_untyped, settle
-from scanbench.problems import Span
+from scanbench.program.untyped import is_untyped, settle
 from scanbench.syntax import tree
 
 

@@ -4,10 +4,10 @@ from abc import ABC, abstractmethod
 
 from scanbench.check.context import Report
 from scanbench.check.declare import Declarations
-from scanbench.check.program import Base, Expr, Place, Pou, TrapKind
 from scanbench.check.scopes import Pous, Scope, place_of
-from scanbench.check.types import Member, Record, Reference, Section, Type
 from scanbench.problems import Span
+from scanbench.program.program import Base, Expr, Place, Pou, TrapKind
+from scanbench.program.types import Member, Record, Reference, Section, Type
 from scanbench.syntax import tree
 
 

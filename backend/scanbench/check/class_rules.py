@@ -4,8 +4,8 @@ from collections.abc import Iterable
 
 from scanbench.check.classes import Class, Classes, Method
 from scanbench.check.context import Report, did_you_mean
-from scanbench.check.types import ArrayType, Member, Record, Section, Type
 from scanbench.problems import Span
+from scanbench.program.types import ArrayType, Member, Record, Section, Type
 
 OPEN_TO = {"PRIVATE": 0, "INTERNAL": 1, "PROTECTED": 1, "PUBLIC": 2}
 LIFE_CYCLE = ("FB_INIT", "FB_REINIT", "FB_EXIT")

@@ -6,8 +6,8 @@ from dataclasses import dataclass, field, replace
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.declare import Declarations
 from scanbench.check.names import Space, qualified
-from scanbench.check.program import Pou
-from scanbench.check.types import UDINT, Kind, Member, Record, Reference, Section
+from scanbench.program.program import Pou
+from scanbench.program.types import UDINT, Kind, Member, Record, Reference, Section
 from scanbench.syntax import tree
 
 TYPE_NUMBER = "$type"

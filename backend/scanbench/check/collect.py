@@ -8,8 +8,8 @@ from scanbench.check.declare import Declarations
 from scanbench.check.names import LIBRARY, Space, qualified
 from scanbench.check.scopes import Pous
 from scanbench.check.standard.library import library
-from scanbench.check.types import ELEMENTARY, Record, Section
 from scanbench.problems import Span
+from scanbench.program.types import ELEMENTARY, Record, Section
 from scanbench.syntax import tree
 
 ENABLE = (("EN", "VAR_INPUT"), ("ENO", "VAR_OUTPUT"))

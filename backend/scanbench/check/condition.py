@@ -18,11 +18,13 @@ from scanbench.check.declare import Declarations
 from scanbench.check.objects import dotted
 from scanbench.check.passed_on import Unclear, behind_copies, passed_on
 from scanbench.check.places import Found
-from scanbench.check.program import Base, Const, Convert, Expr, Load, Place, Program, Stmt
 from scanbench.check.scopes import Pous, Scope
 from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.check.symbols import RAW_TYPES, UnknownPath, resolve
-from scanbench.check.types import (
+from scanbench.plcmodel.model import Location
+from scanbench.problems import Problem, Span, perhaps
+from scanbench.program.program import Base, Const, Convert, Expr, Load, Place, Program, Stmt
+from scanbench.program.types import (
     BOOL,
     ArrayType,
     Elementary,
@@ -38,9 +40,7 @@ from scanbench.check.types import (
     base_of,
     has_instance,
 )
-from scanbench.check.untyped import settle
-from scanbench.plcmodel.model import Location
-from scanbench.problems import Problem, Span, perhaps
+from scanbench.program.untyped import settle
 from scanbench.syntax import tree
 from scanbench.syntax.cursor import Unexpected
 from scanbench.syntax.parse_st import StParser

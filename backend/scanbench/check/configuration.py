@@ -5,10 +5,10 @@ from dataclasses import dataclass, field
 
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare import Declarations
-from scanbench.check.program import Const, Pou
 from scanbench.check.scopes import Pous
-from scanbench.check.types import TIME, Record, Type
 from scanbench.problems import Span
+from scanbench.program.program import Const, Pou
+from scanbench.program.types import TIME, Record, Type
 from scanbench.syntax import tree
 
 SHORTEST_NS = 1_000

@@ -3,11 +3,23 @@
 from scanbench.check.calls import CallChecker
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare import Declarations
-from scanbench.check.program import Assign, CallBlock, Case, For, If, Load, Place, ProgramInstance, Repeat, Stmt, While
 from scanbench.check.scopes import Pous, Scope
-from scanbench.check.shown import shown
-from scanbench.check.types import BOOL, Kind, Member, Record, Section
 from scanbench.problems import Span
+from scanbench.program.program import (
+    Assign,
+    CallBlock,
+    Case,
+    For,
+    If,
+    Load,
+    Place,
+    ProgramInstance,
+    Repeat,
+    Stmt,
+    While,
+)
+from scanbench.program.shown import shown
+from scanbench.program.types import BOOL, Kind, Member, Record, Section
 from scanbench.syntax import tree
 
 SOURCES = (tree.Literal, tree.TypedName, tree.Name, tree.MemberOf, tree.IndexOf, tree.DirectAddress, tree.PartialAccess)

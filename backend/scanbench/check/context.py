@@ -8,8 +8,8 @@ from functools import lru_cache
 from heapq import nlargest
 from itertools import pairwise
 
-from scanbench.check.program import CheckSite, Pou, TrapKind, TrapSite
 from scanbench.problems import Problem, Severity, Span, perhaps
+from scanbench.program.program import CheckSite, Pou, TrapKind, TrapSite
 
 
 class Rejected(Exception):

@@ -18,9 +18,9 @@ from collections.abc import Callable
 from dataclasses import dataclass, replace
 
 from scanbench.check import fold
-from scanbench.check.program import Compare, Const, Expr, Intrinsic
 from scanbench.check.standard_fold import intrinsic
-from scanbench.check.types import (
+from scanbench.program.program import Compare, Const, Expr, Intrinsic
+from scanbench.program.types import (
     ABBREVIATIONS,
     BOOL,
     DATE_AND_TIME,
@@ -36,7 +36,7 @@ from scanbench.check.types import (
     Subrange,
     Type,
 )
-from scanbench.check.untyped import bounds
+from scanbench.program.untyped import bounds
 
 TRUNC = re.compile(r"(?:(\w+?)_)?TRUNC(?:_(\w+))?")
 FROM_BCD = re.compile(r"(?:(\w+?)_)?BCD_TO_(\w+)")

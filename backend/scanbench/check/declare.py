@@ -8,8 +8,6 @@ from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.initial_values import initial_image
 from scanbench.check.names import Names, Space, qualified
 from scanbench.check.notes import make_note, may_have_note
-from scanbench.check.origin import in_library
-from scanbench.check.program import Const, Expr
 from scanbench.check.specs import (
     EnumerationValues,
     enumeration,
@@ -21,7 +19,11 @@ from scanbench.check.specs import (
     structure,
     subrange,
 )
-from scanbench.check.types import (
+from scanbench.plcmodel.model import Model
+from scanbench.problems import Span
+from scanbench.program.origin import in_library
+from scanbench.program.program import Const, Expr
+from scanbench.program.types import (
     ABBREVIATIONS,
     ELEMENTARY,
     MAX_STRING,
@@ -41,8 +43,6 @@ from scanbench.check.types import (
     has_instance,
     initial_of,
 )
-from scanbench.plcmodel.model import Model
-from scanbench.problems import Span
 from scanbench.syntax import tree
 
 DEFAULT_STRING = 80

@@ -5,7 +5,9 @@ from dataclasses import dataclass, replace
 
 from scanbench.check.classes import TYPE_NUMBER, Class, Method, reachable_pou
 from scanbench.check.context import Report
-from scanbench.check.program import (
+from scanbench.check.scopes import Pous, place_of
+from scanbench.problems import Span
+from scanbench.program.program import (
     Assign,
     Base,
     CallBlock,
@@ -20,9 +22,7 @@ from scanbench.check.program import (
     Stmt,
     TrapKind,
 )
-from scanbench.check.scopes import Pous, place_of
-from scanbench.check.types import BOOL, NULL, UDINT, Kind, Member, Record, Section
-from scanbench.problems import Span
+from scanbench.program.types import BOOL, NULL, UDINT, Kind, Member, Record, Section
 
 
 def type_number(instance: Place) -> Place:

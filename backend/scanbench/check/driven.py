@@ -4,8 +4,8 @@ from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
 from scanbench.check.context import Report
-from scanbench.check.program import Place, Pou
 from scanbench.problems import Span
+from scanbench.program.program import Place, Pou
 
 
 @dataclass(frozen=True, slots=True)

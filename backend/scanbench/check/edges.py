@@ -1,9 +1,9 @@
 """Inputs with R_EDGE and F_EDGE: a body begins by finding out whether the edge is there, and reads that."""
 
 from scanbench.check import fold
-from scanbench.check.program import Assign, Base, Expr, Load, Stmt
 from scanbench.check.scopes import place_of
-from scanbench.check.types import BOOL, Record
+from scanbench.program.program import Assign, Base, Expr, Load, Stmt
+from scanbench.program.types import BOOL, Record
 
 
 def edges(record: Record) -> tuple[Stmt, ...]:

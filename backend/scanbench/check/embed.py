@@ -12,7 +12,8 @@ from dataclasses import replace
 from scanbench.check.checker import PouChecker
 from scanbench.check.harmless import again, again_at, limited
 from scanbench.check.notes import note_of
-from scanbench.check.program import (
+from scanbench.problems import Span
+from scanbench.program.program import (
     Assign,
     Binary,
     CallFunction,
@@ -28,10 +29,9 @@ from scanbench.check.program import (
     Sequence,
     Violates,
 )
-from scanbench.check.shown import shown
-from scanbench.check.types import BOOL, Elementary, Kind, Member, Subrange, base_of
-from scanbench.check.untyped import bounds
-from scanbench.problems import Span
+from scanbench.program.shown import shown
+from scanbench.program.types import BOOL, Elementary, Kind, Member, Subrange, base_of
+from scanbench.program.untyped import bounds
 from scanbench.syntax import tree
 
 WHOLE = (Kind.INT, Kind.UINT, Kind.BITS)

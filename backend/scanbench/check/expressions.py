@@ -6,12 +6,13 @@ from scanbench.check import fold
 from scanbench.check.context import Rejected
 from scanbench.check.harmless import harmless
 from scanbench.check.operators import COMPARISONS, NUMERIC, OperatorChecker, conversion_hint
-from scanbench.check.own_variables import SYSTEM
 from scanbench.check.places import INSTANCE, character_of
-from scanbench.check.program import Assign, Const, Expr, Index, Intrinsic, Load, Place, Sequence, TrapKind
 from scanbench.check.scopes import decode
-from scanbench.check.shown import shown
-from scanbench.check.types import (
+from scanbench.problems import Span
+from scanbench.program.own_variables import SYSTEM
+from scanbench.program.program import Assign, Const, Expr, Index, Intrinsic, Load, Place, Sequence, TrapKind
+from scanbench.program.shown import shown
+from scanbench.program.types import (
     BOOL,
     LINT,
     LWORD,
@@ -29,8 +30,7 @@ from scanbench.check.types import (
     Type,
     base_of,
 )
-from scanbench.check.untyped import is_untyped, settle, widens
-from scanbench.problems import Span
+from scanbench.program.untyped import is_untyped, settle, widens
 from scanbench.syntax import tree
 
 FORMS = ("REF", "ADR", "SIZEOF", "LOWER_BOUND", "UPPER_BOUND", "EN_CHECK", "SUBRANGE_ERROR", "__ISVALIDREF")

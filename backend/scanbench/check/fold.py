@@ -3,10 +3,10 @@
 import math
 from typing import TypeVar
 
-from scanbench.check.numbers import round_real
-from scanbench.check.program import Binary, Compare, Const, Convert, Expr, Unary
-from scanbench.check.types import BOOL, Elementary, Kind, StringType
-from scanbench.check.untyped import ANY_INT, ANY_REAL, bounds, wrap
+from scanbench.program.numbers import round_real
+from scanbench.program.program import Binary, Compare, Const, Convert, Expr, Unary
+from scanbench.program.types import BOOL, Elementary, Kind, StringType
+from scanbench.program.untyped import ANY_INT, ANY_REAL, bounds, wrap
 
 
 def unary(op: str, type: Elementary, operand: Expr) -> Expr:

@@ -6,10 +6,10 @@ from scanbench.check.classes import called_pou
 from scanbench.check.context import Rejected
 from scanbench.check.interfaces import InterfaceChecker
 from scanbench.check.names import Space, qualified
-from scanbench.check.program import Expr, Pou
-from scanbench.check.types import Elementary, Kind, Record, StringType, Subrange, base_of
-from scanbench.check.untyped import common, is_untyped, settle
 from scanbench.problems import Span
+from scanbench.program.program import Expr, Pou
+from scanbench.program.types import Elementary, Kind, Record, StringType, Subrange, base_of
+from scanbench.program.untyped import common, is_untyped, settle
 from scanbench.syntax import tree
 
 WHOLE = (Kind.INT, Kind.UINT)

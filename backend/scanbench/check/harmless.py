@@ -2,7 +2,7 @@
 
 from dataclasses import replace
 
-from scanbench.check.program import (
+from scanbench.program.program import (
     Binary,
     Compare,
     Const,
@@ -15,7 +15,7 @@ from scanbench.check.program import (
     Place,
     Unary,
 )
-from scanbench.check.types import Elementary
+from scanbench.program.types import Elementary
 
 
 def harmless(expr: Expr) -> bool:

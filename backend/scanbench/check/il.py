@@ -11,9 +11,10 @@ from scanbench.check import conversions
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.expressions import FORMS
 from scanbench.check.il_flow import BROKEN, NOTHING, Current, Flow, Label
-from scanbench.check.program import Assign, Blocks, Const, If, Jump, Pou, Return, Stmt, TrapKind
 from scanbench.check.standard.functions import FUNCTIONS
-from scanbench.check.types import (
+from scanbench.problems import Span
+from scanbench.program.program import Assign, Blocks, Const, If, Jump, Pou, Return, Stmt, TrapKind
+from scanbench.program.types import (
     BOOL,
     ArrayType,
     Elementary,
@@ -25,8 +26,7 @@ from scanbench.check.types import (
     base_of,
     has_instance,
 )
-from scanbench.check.untyped import ANY_INT, is_untyped, settle
-from scanbench.problems import Span
+from scanbench.program.untyped import ANY_INT, is_untyped, settle
 from scanbench.syntax import tree
 
 if TYPE_CHECKING:

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from scanbench.check.types import Type
+from scanbench.program.types import Type
 from scanbench.syntax import tree
 
 ROUNDS = 8

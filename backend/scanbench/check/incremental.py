@@ -23,9 +23,9 @@ from scanbench.check.build import (
 from scanbench.check.context import Report
 from scanbench.check.names import qualified
 from scanbench.check.notes import Looks
-from scanbench.check.program import Pou
 from scanbench.garbage import without_collection
 from scanbench.plcmodel.model import Model
+from scanbench.program.program import Pou
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunk, Chunked, read
 from scanbench.syntax.parse_file import is_stimulus

@@ -5,9 +5,9 @@ import struct
 from typing import TYPE_CHECKING
 
 from scanbench.check.context import Rejected, did_you_mean
-from scanbench.check.numbers import round_real
-from scanbench.check.program import Const
-from scanbench.check.types import ArrayType, Elementary, Kind, Record, Section, StringType, Type, initial_of
+from scanbench.program.numbers import round_real
+from scanbench.program.program import Const
+from scanbench.program.types import ArrayType, Elementary, Kind, Record, Section, StringType, Type, initial_of
 from scanbench.syntax import tree
 
 if TYPE_CHECKING:

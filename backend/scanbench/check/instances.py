@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
-from scanbench.check.program import Program
 from scanbench.check.symbols import Symbol, members, roots
-from scanbench.check.types import ArrayType, Record, Type
+from scanbench.program.program import Program
+from scanbench.program.types import ArrayType, Record, Type
 
 
 def instances_of(program: Program, pou: str, limit: int = 1000) -> list[Symbol]:

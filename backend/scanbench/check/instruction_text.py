@@ -5,9 +5,9 @@ news of an error of the device, only the seam can tell: the code word may show a
 A number outside of what an instruction takes gives FALSE, and does nothing.
 """
 
-from scanbench.check.layout import Layout
 from scanbench.check.system_text import CODE, STOP, Form, ask, flag, number_name, reset_flags, stand_in
 from scanbench.plcmodel.model import ErrorAddress, ErrorEntry, Instruction, Model, ResetInstruction, Severity
+from scanbench.program.layout import Layout
 
 _LAST = Layout.ASKED_LIMIT - 1
 

@@ -4,10 +4,10 @@ from scanbench.check.arguments import together
 from scanbench.check.context import Rejected
 from scanbench.check.dispatch import type_number
 from scanbench.check.methods import MethodChecker
-from scanbench.check.program import Assign, Base, Case, Compare, Const, Expr, If, Load, Place, RefOf, Stmt, TrapKind
 from scanbench.check.references import reference_type
-from scanbench.check.types import BOOL, NULL, Kind, Record, Reference, Type, is_derived
 from scanbench.problems import Span
+from scanbench.program.program import Assign, Base, Case, Compare, Const, Expr, If, Load, Place, RefOf, Stmt, TrapKind
+from scanbench.program.types import BOOL, NULL, Kind, Record, Reference, Type, is_derived
 from scanbench.syntax import tree
 
 

@@ -4,11 +4,12 @@ import math
 from dataclasses import replace
 
 from scanbench.check.context import did_you_mean
-from scanbench.check.numbers import round_real
-from scanbench.check.program import Const, Expr, Intrinsic
 from scanbench.check.references import ReferenceChecker
-from scanbench.check.shown import shown
-from scanbench.check.types import (
+from scanbench.problems import Span
+from scanbench.program.numbers import round_real
+from scanbench.program.program import Const, Expr, Intrinsic
+from scanbench.program.shown import shown
+from scanbench.program.types import (
     ABBREVIATIONS,
     BOOL,
     CHAR,
@@ -27,8 +28,7 @@ from scanbench.check.types import (
     Type,
     base_of,
 )
-from scanbench.check.untyped import ANY_INT, ANY_REAL, bounds
-from scanbench.problems import Span
+from scanbench.program.untyped import ANY_INT, ANY_REAL, bounds
 from scanbench.syntax import tree
 
 MOMENTS = {"time": Kind.TIME, "date": Kind.DATE, "tod": Kind.DATE, "dt": Kind.DATE}

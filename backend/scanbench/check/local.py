@@ -23,14 +23,14 @@ from scanbench.check.condition import (
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.names import Space
 from scanbench.check.objects import dotted, named_itself
-from scanbench.check.origin import in_library, is_system
-from scanbench.check.program import Assign, Base, Expr, If, Load, Place, Pou, Program, TrapKind, TrapSite
 from scanbench.check.scopes import Scope, place_of
-from scanbench.check.shown import shown
 from scanbench.check.standard.functions import FUNCTIONS
-from scanbench.check.types import BOOL, Member, Record, Subrange, Type
-from scanbench.check.untyped import settle
 from scanbench.problems import Span
+from scanbench.program.origin import in_library, is_system
+from scanbench.program.program import Assign, Base, Expr, If, Load, Place, Pou, Program, TrapKind, TrapSite
+from scanbench.program.shown import shown
+from scanbench.program.types import BOOL, Member, Record, Subrange, Type
+from scanbench.program.untyped import settle
 from scanbench.syntax import tree
 from scanbench.syntax.cursor import Unexpected
 from scanbench.syntax.parse_st import StParser

@@ -7,10 +7,10 @@ from scanbench.check.classes import Class, Method
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.dispatch import Dispatcher
 from scanbench.check.objects import ObjectChecker, dotted, named_itself
-from scanbench.check.program import Assign, Base, Expr, Load, Place, Pou, RefOf, Sequence, Stmt, TrapKind
 from scanbench.check.references import reference_type
-from scanbench.check.types import ArrayType, Record, Reference, Section, has_instance
 from scanbench.problems import Span
+from scanbench.program.program import Assign, Base, Expr, Load, Place, Pou, RefOf, Sequence, Stmt, TrapKind
+from scanbench.program.types import ArrayType, Record, Reference, Section, has_instance
 from scanbench.syntax import tree
 
 

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator
 
-from scanbench.check.bound import Spot
-from scanbench.check.program import Pou, Program
 from scanbench.check.symbols import Symbol, UnknownPath, around, members, resolve, roots, roots_at
-from scanbench.check.types import BOOL, ArrayType, Elementary, Record, Type
+from scanbench.program.copies import Spot
+from scanbench.program.program import Pou, Program
+from scanbench.program.types import BOOL, ArrayType, Elementary, Record, Type
 
 
 def variable_at(program: Program, place: Spot, type: Type) -> Symbol | None:

@@ -9,7 +9,7 @@ from dataclasses import dataclass, replace
 
 from scanbench.check.context import Report
 from scanbench.check.embed import value_range
-from scanbench.check.program import (
+from scanbench.program.program import (
     Assign,
     Binary,
     Blocks,
@@ -37,7 +37,7 @@ from scanbench.check.program import (
     Violates,
     While,
 )
-from scanbench.check.types import Elementary, Subrange
+from scanbench.program.types import Elementary, Subrange
 
 Key = tuple[object, ...]
 

@@ -9,8 +9,9 @@ import re
 from collections.abc import Iterable, Iterator
 from dataclasses import fields, is_dataclass, replace
 
-from scanbench.check.program import Base, Place
-from scanbench.check.types import (
+from scanbench.problems import Span
+from scanbench.program.program import Base, Place
+from scanbench.program.types import (
     ArrayType,
     Elementary,
     Kind,
@@ -22,7 +23,6 @@ from scanbench.check.types import (
     base_of,
     has_instance,
 )
-from scanbench.problems import Span
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunk
 

@@ -5,9 +5,9 @@ from dataclasses import replace
 from scanbench.check.arguments import ArgumentChecker
 from scanbench.check.classes import Class
 from scanbench.check.context import Rejected
-from scanbench.check.program import Base, Place, TrapKind, TrapSite
-from scanbench.check.types import Member, Record, Section
 from scanbench.problems import Span
+from scanbench.program.program import Base, Place, TrapKind, TrapSite
+from scanbench.program.types import Member, Record, Section
 from scanbench.syntax import tree
 
 

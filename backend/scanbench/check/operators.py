@@ -2,8 +2,9 @@
 
 from scanbench.check import fold
 from scanbench.check.literals import LiteralChecker
-from scanbench.check.numbers import round_real
-from scanbench.check.program import (
+from scanbench.problems import Span
+from scanbench.program.numbers import round_real
+from scanbench.program.program import (
     Assign,
     Binary,
     Compare,
@@ -16,8 +17,8 @@ from scanbench.check.program import (
     Sequence,
     TrapKind,
 )
-from scanbench.check.shown import OPERATORS
-from scanbench.check.types import (
+from scanbench.program.shown import OPERATORS
+from scanbench.program.types import (
     BOOL,
     ELEMENTARY,
     LREAL,
@@ -32,8 +33,7 @@ from scanbench.check.types import (
     Type,
     base_of,
 )
-from scanbench.check.untyped import ANY_INT, ANY_REAL, bounds, common, is_untyped, real_beside, settle
-from scanbench.problems import Span
+from scanbench.program.untyped import ANY_INT, ANY_REAL, bounds, common, is_untyped, real_beside, settle
 
 COMPARISONS = ("eq", "ne", "lt", "le", "gt", "ge")
 NUMERIC = (Kind.INT, Kind.UINT, Kind.REAL)

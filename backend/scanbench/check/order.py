@@ -3,8 +3,8 @@
 from collections.abc import Iterable
 
 from scanbench.check.context import Report
-from scanbench.check.program import Pou
 from scanbench.check.scopes import Pous
+from scanbench.program.program import Pou
 
 MAX_CALLS = 1_000_000
 """Calls that one call may lead to, loops not counted: those have a budget at run time, plain calls have none."""

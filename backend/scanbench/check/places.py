@@ -7,11 +7,12 @@ from scanbench.check import fold
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.embed import SubrangeChecker
 from scanbench.check.harmless import harmless
-from scanbench.check.own_variables import SYSTEM
-from scanbench.check.program import Base, Const, Expr, Index, Intrinsic, Load, Place, TrapKind
 from scanbench.check.scopes import decode, place_of
-from scanbench.check.shown import shown
-from scanbench.check.types import (
+from scanbench.problems import Span
+from scanbench.program.own_variables import SYSTEM
+from scanbench.program.program import Base, Const, Expr, Index, Intrinsic, Load, Place, TrapKind
+from scanbench.program.shown import shown
+from scanbench.program.types import (
     BOOL,
     CHAR,
     DINT,
@@ -32,8 +33,7 @@ from scanbench.check.types import (
     Type,
     actual_of,
 )
-from scanbench.check.untyped import ANY_INT, settle
-from scanbench.problems import Span
+from scanbench.program.untyped import ANY_INT, settle
 from scanbench.syntax import tree
 
 WIDTHS = {

@@ -8,9 +8,9 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from scanbench.check.context import Report
-from scanbench.check.program import Pou
 from scanbench.check.scopes import Pous
 from scanbench.problems import Span
+from scanbench.program.program import Pou
 from scanbench.syntax import tree
 from scanbench.syntax.parse_file import is_stimulus
 

@@ -4,9 +4,10 @@ from dataclasses import replace
 
 from scanbench.check import fold
 from scanbench.check.places import PlaceChecker
-from scanbench.check.program import Base, Const, Expr, Load, Place, RefOf
-from scanbench.check.shown import shown
-from scanbench.check.types import (
+from scanbench.problems import Span
+from scanbench.program.program import Base, Const, Expr, Load, Place, RefOf
+from scanbench.program.shown import shown
+from scanbench.program.types import (
     BOOL,
     LINT,
     NULL,
@@ -23,8 +24,7 @@ from scanbench.check.types import (
     Type,
     is_derived,
 )
-from scanbench.check.untyped import ANY_INT, settle
-from scanbench.problems import Span
+from scanbench.program.untyped import ANY_INT, settle
 from scanbench.syntax import tree
 
 COUNTED = (Kind.INT, Kind.UINT)

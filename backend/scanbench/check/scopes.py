@@ -6,9 +6,10 @@ from typing import TYPE_CHECKING
 
 from scanbench.check.classes import Classes
 from scanbench.check.names import Space
-from scanbench.check.own_variables import SYSTEM
-from scanbench.check.program import Base, Const, Place, Pou
-from scanbench.check.types import (
+from scanbench.plcmodel.model import Who
+from scanbench.program.own_variables import SYSTEM
+from scanbench.program.program import Base, Const, Place, Pou
+from scanbench.program.types import (
     SLOT_BYTES,
     ULINT,
     Elementary,
@@ -20,7 +21,6 @@ from scanbench.check.types import (
     Type,
     base_of,
 )
-from scanbench.plcmodel.model import Who
 from scanbench.syntax import tree
 
 if TYPE_CHECKING:

@@ -7,12 +7,12 @@ values, what goes around a call, bodies that choose a method; nor have the syste
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass
 
-from scanbench.check.bodies import bodies
-from scanbench.check.origin import in_library, is_system
-from scanbench.check.program import Blocks, Case, For, If, Pou, Program, Stmt, While
-from scanbench.check.types import Record
 from scanbench.garbage import without_collection
 from scanbench.problems import Span
+from scanbench.program.bodies import bodies
+from scanbench.program.origin import in_library, is_system
+from scanbench.program.program import Blocks, Case, For, If, Pou, Program, Stmt, While
+from scanbench.program.types import Record
 
 
 @dataclass(frozen=True, slots=True)

@@ -4,7 +4,8 @@ import re
 from typing import TYPE_CHECKING
 
 from scanbench.check.context import Rejected
-from scanbench.check.types import (
+from scanbench.problems import Span
+from scanbench.program.types import (
     ELEMENTARY,
     SLOT_BYTES,
     Elementary,
@@ -18,8 +19,7 @@ from scanbench.check.types import (
     Subrange,
     has_instance,
 )
-from scanbench.check.untyped import bounds
-from scanbench.problems import Span
+from scanbench.program.untyped import bounds
 from scanbench.syntax import tree
 
 if TYPE_CHECKING:

@@ -7,11 +7,11 @@ from scanbench.check import fold
 from scanbench.check.context import did_you_mean
 from scanbench.check.expressions import ExpressionChecker
 from scanbench.check.names import LIBRARY
-from scanbench.check.program import Assign, CallFunction, Const, Expr, Load, Stmt
 from scanbench.check.standard.functions import Row
-from scanbench.check.types import LINT, Elementary, Kind, StringType, Type
-from scanbench.check.untyped import ANY_REAL, common, is_untyped, real_beside, settle
 from scanbench.problems import Span
+from scanbench.program.program import Assign, CallFunction, Const, Expr, Load, Stmt
+from scanbench.program.types import LINT, Elementary, Kind, StringType, Type
+from scanbench.program.untyped import ANY_REAL, common, is_untyped, real_beside, settle
 from scanbench.syntax import tree
 
 

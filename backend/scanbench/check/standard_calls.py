@@ -4,8 +4,6 @@ import re
 
 from scanbench.check import conversions, fold, standard_fold
 from scanbench.check.context import did_you_mean
-from scanbench.check.origin import in_library
-from scanbench.check.program import Compare, Const, Expr, Place
 from scanbench.check.standard.functions import (
     FUNCTIONS,
     INTERNAL,
@@ -18,7 +16,9 @@ from scanbench.check.standard.functions import (
     StringFunction,
 )
 from scanbench.check.standard_choice import ChoiceFunctions
-from scanbench.check.types import (
+from scanbench.program.origin import in_library
+from scanbench.program.program import Compare, Const, Expr, Place
+from scanbench.program.types import (
     BOOL,
     CHAR,
     DINT,
@@ -32,7 +32,7 @@ from scanbench.check.types import (
     StringType,
     Type,
 )
-from scanbench.check.untyped import settle
+from scanbench.program.untyped import settle
 from scanbench.syntax import tree
 
 TYPED = re.compile(r"([A-Z]+)_([A-Z]+)")

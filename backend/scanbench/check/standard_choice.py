@@ -4,11 +4,11 @@ from collections.abc import Callable
 from itertools import pairwise
 
 from scanbench.check import fold, standard_fold
-from scanbench.check.program import Assign, Const, Expr, If, Load, Place, Sequence, Stmt
 from scanbench.check.standard.functions import Chain, Row, Same
 from scanbench.check.standard_arguments import StandardArguments
-from scanbench.check.types import BOOL, LINT, Elementary, Kind, StringType, Type
 from scanbench.problems import Span
+from scanbench.program.program import Assign, Const, Expr, If, Load, Place, Sequence, Stmt
+from scanbench.program.types import BOOL, LINT, Elementary, Kind, StringType, Type
 from scanbench.syntax import tree
 
 

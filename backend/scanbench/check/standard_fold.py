@@ -6,10 +6,10 @@ Only what has a plain value is folded; NaN, infinities and whatever is out of a 
 import math
 from collections.abc import Callable
 
-from scanbench.check.numbers import round_real
-from scanbench.check.program import Const, Expr, Intrinsic
-from scanbench.check.types import Elementary, Kind, StringType
-from scanbench.check.untyped import bounds, wrap
+from scanbench.program.numbers import round_real
+from scanbench.program.program import Const, Expr, Intrinsic
+from scanbench.program.types import Elementary, Kind, StringType
+from scanbench.program.untyped import bounds, wrap
 
 REALS: dict[str, Callable[..., float]] = {
     "SQRT": math.sqrt, "LN": math.log, "LOG": math.log10, "EXP": math.exp, "SIN": math.sin, "COS": math.cos,

@@ -4,9 +4,9 @@ from collections.abc import Iterable, Iterator
 
 from scanbench.check.context import Rejected
 from scanbench.check.declare import Declarations
-from scanbench.check.program import Base, Place, ProgramInstance, RefOf
-from scanbench.check.types import SLOT_BYTES, ArrayType, Record, Reference
 from scanbench.problems import Span
+from scanbench.program.program import Base, Place, ProgramInstance, RefOf
+from scanbench.program.types import SLOT_BYTES, ArrayType, Record, Reference
 
 
 def bind_start_references(

@@ -10,7 +10,8 @@ from scanbench.check.edges import edges
 from scanbench.check.il import InstructionList
 from scanbench.check.needless import without_needless
 from scanbench.check.notes import SUFFIX as NOTE
-from scanbench.check.program import (
+from scanbench.check.scopes import decode, place_of
+from scanbench.program.program import (
     Assign,
     Base,
     Case,
@@ -28,9 +29,8 @@ from scanbench.check.program import (
     TrapKind,
     While,
 )
-from scanbench.check.scopes import decode, place_of
-from scanbench.check.shown import shown
-from scanbench.check.types import (
+from scanbench.program.shown import shown
+from scanbench.program.types import (
     Elementary,
     Enumeration,
     Kind,
@@ -40,7 +40,7 @@ from scanbench.check.types import (
     Subrange,
     base_of,
 )
-from scanbench.check.untyped import bounds, settle
+from scanbench.program.untyped import bounds, settle
 from scanbench.syntax import tree
 
 COUNTED = (Kind.INT, Kind.UINT)

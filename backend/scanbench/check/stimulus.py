@@ -11,8 +11,11 @@ from scanbench.check.calls import CallChecker
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare import Declarations
 from scanbench.check.driven import Driven, Taken
-from scanbench.check.layout import Layout
-from scanbench.check.program import (
+from scanbench.check.scopes import Pous, Scope, place_of
+from scanbench.check.values import parse_value
+from scanbench.problems import Span
+from scanbench.program.layout import Layout
+from scanbench.program.program import (
     Assign,
     Base,
     Binary,
@@ -29,8 +32,7 @@ from scanbench.check.program import (
     TrapKind,
     While,
 )
-from scanbench.check.scopes import Pous, Scope, place_of
-from scanbench.check.types import (
+from scanbench.program.types import (
     BOOL,
     ELEMENTARY,
     LINT,
@@ -46,8 +48,6 @@ from scanbench.check.types import (
     Subrange,
     Type,
 )
-from scanbench.check.values import parse_value
-from scanbench.problems import Span
 from scanbench.syntax import tree
 from scanbench.syntax.cursor import Unexpected
 from scanbench.syntax.parse_st import StParser

@@ -5,11 +5,12 @@ from collections.abc import Iterator
 from dataclasses import dataclass, replace
 from difflib import get_close_matches
 
-from scanbench.check.bound import NO_COPIES, Copies, Image, Spot, referred
-from scanbench.check.layout import Layout
-from scanbench.check.own_variables import SYSTEM
-from scanbench.check.program import Program
-from scanbench.check.types import (
+from scanbench.plcmodel.model import Access
+from scanbench.program.copies import NO_COPIES, Copies, Image, Spot, referred
+from scanbench.program.layout import Layout
+from scanbench.program.own_variables import SYSTEM
+from scanbench.program.program import Program
+from scanbench.program.types import (
     BOOL,
     ELEMENTARY,
     SLOT_BYTES,
@@ -24,7 +25,6 @@ from scanbench.check.types import (
     Type,
     actual_of,
 )
-from scanbench.plcmodel.model import Access
 
 PART = re.compile(r"\s*\.?\s*([^\W\d]\w*)|\s*\[\s*([-\d\s,]+)\]|\s*\^")
 PIECE = re.compile(r"\s*\.\s*(?:%\s*([XBWDL]))?(\d{1,9})(?!\w)", re.IGNORECASE)

@@ -8,12 +8,24 @@ from dataclasses import dataclass
 from functools import lru_cache
 
 from scanbench.check import instruction_text, system_text
-from scanbench.check.layout import Layout
-from scanbench.check.origin import SYSTEM_FILE
-from scanbench.check.own_variables import SYSTEM
-from scanbench.check.types import ELEMENTARY, LINT, LWORD, UDINT, ULINT, ArrayType, Kind, Member, Record, Section, Type
 from scanbench.plcmodel.model import Location, Model, Special
 from scanbench.problems import Span
+from scanbench.program.layout import Layout
+from scanbench.program.origin import SYSTEM_FILE
+from scanbench.program.own_variables import SYSTEM
+from scanbench.program.types import (
+    ELEMENTARY,
+    LINT,
+    LWORD,
+    UDINT,
+    ULINT,
+    ArrayType,
+    Kind,
+    Member,
+    Record,
+    Section,
+    Type,
+)
 from scanbench.syntax import tree
 from scanbench.syntax.parse_st import parse_st
 from scanbench.syntax.source import Source

@@ -5,8 +5,8 @@ import re
 import struct
 from datetime import date as calendar_date
 
-from scanbench.check.numbers import round_real
-from scanbench.check.types import (
+from scanbench.program.numbers import round_real
+from scanbench.program.types import (
     ArrayType,
     Elementary,
     Enumeration,
@@ -17,7 +17,7 @@ from scanbench.check.types import (
     Type,
     base_of,
 )
-from scanbench.check.untyped import bounds
+from scanbench.program.untyped import bounds
 from scanbench.syntax import literals
 
 TRUE, FALSE = ("TRUE", "1", "ON", "BOOL#TRUE", "BOOL#1"), ("FALSE", "0", "OFF", "BOOL#FALSE", "BOOL#0")

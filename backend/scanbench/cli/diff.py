@@ -7,8 +7,8 @@ from pathlib import Path
 
 import typer
 
-from scanbench.check.program import Program
 from scanbench.cli.inputs import DAMAGED, find_model_named, tell_damage, unreadable, unusable, with_near
+from scanbench.program.program import Program
 from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.programs import NoProgram
 from scanbench.runtime.runfile import RunFileError

@@ -9,7 +9,6 @@ from pathlib import Path
 import typer
 
 from scanbench.check.build import check_sources
-from scanbench.check.program import Program
 from scanbench.cli.inputs import (
     below,
     find_model,
@@ -47,6 +46,7 @@ from scanbench.faults.sweep_report import (
 from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_text
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import extended
+from scanbench.program.program import Program
 from scanbench.runtime.clock import iso, wall_time
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.header import Header

@@ -13,13 +13,13 @@ import re
 from dataclasses import replace
 
 from scanbench.check.condition import BadCondition, compile_condition
-from scanbench.check.program import Program
 from scanbench.cli.inputs import usage, with_near
 from scanbench.faults.arm import Arm
 from scanbench.faults.inject import Generate
 from scanbench.faults.lines import find_line
 from scanbench.faults.reference import ErrorRef, parse_reference
 from scanbench.faults.shapes import Shape, Start, Wanted
+from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Refusal
 
 _AT = re.compile(r"(.*)@(\d+)\s*", re.DOTALL)

@@ -4,8 +4,8 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from pathlib import Path
 
-from scanbench.check.program import Program
 from scanbench.cli.inputs import usage
+from scanbench.program.program import Program
 from scanbench.runtime.recording import DEFAULT_LIMIT, Recording
 from scanbench.session.codec import ENTRIES, pack_body
 from scanbench.session.protocol import Sources

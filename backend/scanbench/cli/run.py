@@ -7,7 +7,6 @@ from pathlib import Path
 import typer
 
 from scanbench.check.build import check_sources
-from scanbench.check.program import Program
 from scanbench.cli.inputs import Sources, below, find_model, problem_json, read_sources, usage, with_near
 from scanbench.cli.interrupt import INTERRUPTED, interruptible
 from scanbench.cli.record import check_whole, recorded
@@ -25,6 +24,7 @@ from scanbench.faults.arm import Arm
 from scanbench.faults.detect import Detection
 from scanbench.faults.schedule import Schedule
 from scanbench.plcmodel.model import Model
+from scanbench.program.program import Program
 from scanbench.runtime.command import Command
 from scanbench.runtime.headless import run_headless
 from scanbench.runtime.joined import Joined

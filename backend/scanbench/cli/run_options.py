@@ -5,12 +5,12 @@ from dataclasses import dataclass
 from typing import get_args
 
 from scanbench.check.condition import Condition, compile_condition
-from scanbench.check.program import Program
 from scanbench.check.symbols import Symbol, UnknownPath, resolve
 from scanbench.cli.inputs import usage, with_near
 from scanbench.cli.raising import read_raise
 from scanbench.faults.inject import Recover
 from scanbench.faults.reference import parse_reference
+from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Refusal, RestartKind
 from scanbench.runtime.forces import Force
 from scanbench.runtime.modes import SetMode

@@ -5,11 +5,11 @@ import json
 
 import typer
 
-from scanbench.check.program import TrapKind
 from scanbench.check.symbols import Symbol, members
-from scanbench.check.types import ArrayType, Record
 from scanbench.check.values import format_value, python_value
 from scanbench.check.violations import read_violations
+from scanbench.program.program import TrapKind
+from scanbench.program.types import ArrayType, Record
 from scanbench.runtime.headless import HeadlessRun
 from scanbench.runtime.resource import Resource
 

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 
-from scanbench.check.program import Program
 from scanbench.check.symbols import UnknownPath, resolve
 from scanbench.check.values import parse_value
 from scanbench.engines.observe import MakeObserved
@@ -16,6 +15,7 @@ from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.react import Point
 from scanbench.faults.reference import parse_reference
 from scanbench.problems import perhaps
+from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Refusal
 from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.header import Mode

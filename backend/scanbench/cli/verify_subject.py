@@ -10,7 +10,6 @@ from typing import NoReturn, Protocol
 import typer
 
 from scanbench.check.build import check_sources
-from scanbench.check.program import Program
 from scanbench.cli.inputs import below, find_model, read_sources, tell_damage, unreadable, unusable, usage, with_near
 from scanbench.cli.record import check_whole, recorded
 from scanbench.cli.run_options import Options, read_commands, read_interval
@@ -18,6 +17,7 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.faults.detect import Detection
 from scanbench.faults.schedule import Schedule
+from scanbench.program.program import Program
 from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.headless import HeadlessRun, run_headless
 from scanbench.runtime.programs import NoProgram

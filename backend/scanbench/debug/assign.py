@@ -2,14 +2,14 @@
 
 from dataclasses import dataclass
 
-from scanbench.check.bound import Spot
 from scanbench.check.condition import BadCondition
 from scanbench.check.local import LocalAssignments, locals_of
-from scanbench.check.program import Pou, Program
-from scanbench.check.types import ArrayType, OpenArray, Record, Type
 from scanbench.check.values import format_value
 from scanbench.debug.called import called
 from scanbench.engines.interpreter.evaluate import Evaluator, NoValue
+from scanbench.program.copies import Spot
+from scanbench.program.program import Pou, Program
+from scanbench.program.types import ArrayType, OpenArray, Record, Type
 from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import forced_table
 from scanbench.runtime.rights import Right, may

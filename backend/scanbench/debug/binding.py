@@ -1,6 +1,5 @@
 """What an in-out is bound to: who passes what to it, and which of them ran last."""
 
-from scanbench.check.bound import Spot, referred
 from scanbench.check.call_sites import (
     Calls,
     CallSite,
@@ -12,10 +11,11 @@ from scanbench.check.call_sites import (
     slot_value,
 )
 from scanbench.check.named import same_place, temporary_at, variable_at
-from scanbench.check.program import Program, Task
 from scanbench.check.symbols import Symbol, resolve
-from scanbench.check.types import Elementary, StringType
 from scanbench.debug.bound_to import Bound, BoundTo, Convention
+from scanbench.program.copies import Spot, referred
+from scanbench.program.program import Program, Task
+from scanbench.program.types import Elementary, StringType
 from scanbench.runtime.command import View
 from scanbench.runtime.target import not_called, passed_by, read_only_reason
 

@@ -2,12 +2,12 @@
 
 from scanbench.check.condition import BadCondition
 from scanbench.check.local import Local
-from scanbench.check.types import Elementary, StringType
 from scanbench.debug.scene import NoFrame, Scene, at
 from scanbench.debug.scopes import named
 from scanbench.debug.shown import VariableInfo
 from scanbench.debug.variables import info
 from scanbench.engines.interpreter.evaluate import NoValue
+from scanbench.program.types import Elementary, StringType
 
 
 def evaluate(scene: Scene, index: int | None, text: str) -> VariableInfo | BadCondition:

@@ -4,8 +4,6 @@ from collections.abc import Iterable, Mapping
 from dataclasses import dataclass
 from typing import TypeVar
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import Pou
 from scanbench.debug.assign import Assigning
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.debug.goals import Goal
@@ -14,6 +12,8 @@ from scanbench.debug.placed import Placed, Placing
 from scanbench.debug.watching import Watching
 from scanbench.engines.debug import Frame, Listen
 from scanbench.problems import Span
+from scanbench.program.layout import Layout
+from scanbench.program.program import Pou
 from scanbench.runtime.resource import Resource
 
 T = TypeVar("T")

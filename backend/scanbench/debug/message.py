@@ -5,8 +5,8 @@ from dataclasses import dataclass
 
 from scanbench.check.condition import BadCondition
 from scanbench.check.local import Local, Locals
-from scanbench.check.program import Pou
 from scanbench.engines.interpreter.evaluate import Evaluator, NoValue
+from scanbench.program.program import Pou
 
 _PART = re.compile(r"\{\{|\}\}|\{([^{}]*)\}|[{}]")
 LONGEST = 4000

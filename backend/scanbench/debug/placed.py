@@ -4,17 +4,17 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 
-from scanbench.check.bodies import every
 from scanbench.check.call_sites import formal_of
-from scanbench.check.program import Pou, Program, Return
 from scanbench.check.sites import Sites
 from scanbench.check.symbols import Symbol, UnknownPath, resolve
-from scanbench.check.types import BOOL, Kind, Record
 from scanbench.debug.assign import Assigning
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.hits import HitRule, parse_hits
 from scanbench.debug.texts import BadText, Holds, Says, Texts
 from scanbench.problems import perhaps
+from scanbench.program.bodies import every
+from scanbench.program.program import Pou, Program, Return
+from scanbench.program.types import BOOL, Kind, Record
 
 
 @dataclass(eq=False, slots=True)

@@ -3,10 +3,10 @@
 from collections.abc import Callable
 
 from scanbench.check.local import Bad, Local, locals_of
-from scanbench.check.program import Pou, Program
 from scanbench.debug.assign import Assigning
 from scanbench.debug.message import Message
 from scanbench.engines.interpreter.evaluate import Evaluator
+from scanbench.program.program import Pou, Program
 
 Holds = Callable[[int], bool]
 """Whether a condition holds, for an instance of its POU."""

@@ -4,7 +4,11 @@ from dataclasses import dataclass, replace
 
 from scanbench.check.named import variable_at
 from scanbench.check.symbols import Symbol, behind
-from scanbench.check.types import (
+from scanbench.check.values import format_value
+from scanbench.debug.called import address_at, called
+from scanbench.debug.scene import Scene
+from scanbench.debug.shown import VariableInfo
+from scanbench.program.types import (
     SLOT_BYTES,
     ArrayType,
     Elementary,
@@ -15,10 +19,6 @@ from scanbench.check.types import (
     StringType,
     Type,
 )
-from scanbench.check.values import format_value
-from scanbench.debug.called import address_at, called
-from scanbench.debug.scene import Scene
-from scanbench.debug.shown import VariableInfo
 
 UNBOUND = "not connected"
 MANY = 10_000_000

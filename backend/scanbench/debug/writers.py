@@ -4,8 +4,11 @@ from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 
 from scanbench.check.local import this_of
-from scanbench.check.origin import in_library
-from scanbench.check.program import (
+from scanbench.check.sites import Sites
+from scanbench.check.symbols import Symbol, holding
+from scanbench.problems import Span
+from scanbench.program.origin import in_library
+from scanbench.program.program import (
     Assign,
     Base,
     Binary,
@@ -26,10 +29,7 @@ from scanbench.check.program import (
     Stmt,
     Violates,
 )
-from scanbench.check.sites import Sites
-from scanbench.check.symbols import Symbol, holding
-from scanbench.check.types import BOOL, LWORD, ULINT, Elementary, Kind, Record, Reference, Section, Type, base_of
-from scanbench.problems import Span
+from scanbench.program.types import BOOL, LWORD, ULINT, Elementary, Kind, Record, Reference, Section, Type, base_of
 
 _ANYTHING = Reference("REF_TO", Kind.REF, 8)
 

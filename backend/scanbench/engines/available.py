@@ -6,7 +6,6 @@ The one place that finds out; everybody else asks for a flavour.
 from functools import cache
 from typing import Protocol
 
-from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.debug import DebugEngine
 from scanbench.engines.engine import Engine
@@ -15,6 +14,7 @@ from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.interpreter.observed import observed_engine
 from scanbench.engines.observe import Observed
 from scanbench.engines.probe import MakeProbed
+from scanbench.program.program import Program
 
 
 class Flavours(Protocol):

@@ -20,8 +20,8 @@ from dataclasses import dataclass
 from enum import StrEnum
 
 from scanbench.check.condition import Condition
-from scanbench.check.program import Program
 from scanbench.engines.sample import Sampling
+from scanbench.program.program import Program
 
 
 class Reason(StrEnum):

@@ -15,7 +15,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scanbench.check.condition import Signal
-from scanbench.check.program import Program
+from scanbench.program.program import Program
 
 MAX_SIGNALS = 64
 WORD = 8

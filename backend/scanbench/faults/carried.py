@@ -6,11 +6,11 @@ recovered; one that writes other bits now would leave the old ones behind. So su
 
 from collections.abc import Mapping
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import Program
 from scanbench.faults.details import Chosen, choose
 from scanbench.faults.inject import Active
 from scanbench.faults.reference import ErrorRef
+from scanbench.program.layout import Layout
+from scanbench.program.program import Program
 from scanbench.runtime.command import Refusal
 
 

@@ -5,8 +5,8 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from difflib import get_close_matches
 
-from scanbench.check.layout import Layout
 from scanbench.plcmodel.model import ErrorAddress, ErrorDetail, ErrorEntry, Location
+from scanbench.program.layout import Layout
 from scanbench.runtime.command import Refusal
 
 _WORD = re.compile(r"16#[0-9A-Fa-f]{1,4}")

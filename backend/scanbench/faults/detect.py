@@ -3,12 +3,12 @@
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 
-from scanbench.check.program import Pou, Program, TrapKind
 from scanbench.faults.answers import Answers, is_news, number_text
 from scanbench.faults.inject import ACTIVE, Generate
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.trap_errors import error_of
 from scanbench.plcmodel.model import ErrorDetail, ErrorEntry, Model
+from scanbench.program.program import Pou, Program, TrapKind
 from scanbench.runtime.command import Command, View
 from scanbench.runtime.detect import Asked
 from scanbench.runtime.trap import TrapInfo

@@ -6,10 +6,10 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import Program
 from scanbench.faults.details import Bits, Chosen, field_bits
 from scanbench.faults.reaction import What
+from scanbench.program.layout import Layout
+from scanbench.program.program import Program
 from scanbench.runtime.command import Patch
 
 Words = NDArray[np.uint64]

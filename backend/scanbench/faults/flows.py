@@ -9,9 +9,9 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, fields, is_dataclass
 from typing import NamedTuple
 
-from scanbench.check.bodies import bodies
-from scanbench.check.origin import in_library
-from scanbench.check.program import (
+from scanbench.program.bodies import bodies
+from scanbench.program.origin import in_library
+from scanbench.program.program import (
     Assign,
     Base,
     Blocks,
@@ -39,7 +39,7 @@ from scanbench.check.program import (
     Stmt,
     While,
 )
-from scanbench.check.types import Section
+from scanbench.program.types import Section
 
 
 class Ref(NamedTuple):

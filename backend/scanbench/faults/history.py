@@ -5,12 +5,12 @@ from dataclasses import dataclass, replace
 from datetime import datetime
 from typing import Literal
 
-from scanbench.check.layout import Layout
 from scanbench.faults.details import choose
 from scanbench.faults.inject import Active, Generate, Origin, Recover
 from scanbench.faults.reaction import FINDINGS, Reaction, Verdict
 from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.model import ErrorEntry, Model
+from scanbench.program.layout import Layout
 from scanbench.runtime.command import Entry, Refusal, Swapped
 
 Status = Literal["never", "generated", "cleared"]

@@ -9,13 +9,13 @@ from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import ClassVar, Literal
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import TrapKind
 from scanbench.faults.details import Chosen, choose
 from scanbench.faults.errorlog import log_patches, time_patches
 from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.faults.switch import switch
 from scanbench.faults.trap_errors import error_of
+from scanbench.program.layout import Layout
+from scanbench.program.program import TrapKind
 from scanbench.runtime.command import Category, Command, Entry, Patch, Plan, Refusal, View
 from scanbench.runtime.header import Halt, Mode
 from scanbench.runtime.journal import Fold

@@ -2,9 +2,9 @@
 
 from difflib import get_close_matches
 
-from scanbench.check.program import Program
 from scanbench.check.sites import sites_of
 from scanbench.problems import perhaps
+from scanbench.program.program import Program
 from scanbench.runtime.command import Refusal
 
 

@@ -2,8 +2,8 @@
 
 from collections.abc import Callable
 
-from scanbench.check.program import Program
 from scanbench.engines.observe import MakeObserved, Observer
+from scanbench.program.program import Program
 from scanbench.runtime.programs import Loaded
 
 

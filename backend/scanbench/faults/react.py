@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scanbench.check.program import Program
 from scanbench.check.sites import StatementSite
 from scanbench.engines.observe import Observer, ReadAt
 from scanbench.faults.details import Chosen, choose
@@ -26,6 +25,7 @@ from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.faults.tasks import Turns, triggers
 from scanbench.faults.trace import Trace
 from scanbench.problems import Span
+from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Entry, Refusal, Swapped
 from scanbench.runtime.header import Halt
 from scanbench.runtime.journal import Journal

@@ -3,13 +3,13 @@
 from collections.abc import Iterator
 
 from scanbench.check.condition import Condition, compile_condition
-from scanbench.check.program import Program
 from scanbench.engines.observe import MakeObserved, Observed
 from scanbench.faults.arm import ARMED, Disarm, Lane, Lanes, Missed, unmeant
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.lasting import returning
 from scanbench.faults.lines import find_line
 from scanbench.faults.shapes import Wanted
+from scanbench.program.program import Program
 from scanbench.runtime.agenda import NOTHING, Met, Waits
 from scanbench.runtime.command import Command, Refusal, View
 from scanbench.runtime.programs import Loaded

@@ -8,12 +8,12 @@ the variable of the same path, or to nothing; in-out slots start unconnected, as
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from scanbench.check.bound import BYTE_OFFSET
 from scanbench.check.classes import TYPE_NUMBER
-from scanbench.check.layout import Layout
-from scanbench.check.program import Program
 from scanbench.check.symbols import UnknownPath, resolve, starting_at
-from scanbench.check.types import (
+from scanbench.program.copies import BYTE_OFFSET
+from scanbench.program.layout import Layout
+from scanbench.program.program import Program
+from scanbench.program.types import (
     ArrayType,
     Elementary,
     Enumeration,

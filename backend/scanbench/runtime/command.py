@@ -9,8 +9,8 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from typing import ClassVar, Literal, TypeVar
 
-from scanbench.check.program import Program
 from scanbench.plcmodel.model import Model
+from scanbench.program.program import Program
 from scanbench.runtime.header import Header
 from scanbench.runtime.journal import Fold, Journal
 from scanbench.runtime.programs import Programs, Shelf

@@ -21,7 +21,7 @@ from typing import Protocol
 
 import numpy as np
 
-from scanbench.check.program import Program
+from scanbench.program.program import Program
 from scanbench.runtime.clock import iso, wall_time
 from scanbench.runtime.command import Command, Entry, Plan, Swapped
 from scanbench.runtime.fingerprints import libm_fingerprint, model_fingerprint

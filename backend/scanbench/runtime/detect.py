@@ -2,7 +2,7 @@
 
 from typing import NamedTuple, Protocol
 
-from scanbench.check.layout import Layout
+from scanbench.program.layout import Layout
 from scanbench.runtime.command import Command, View
 from scanbench.runtime.trap import TrapInfo
 

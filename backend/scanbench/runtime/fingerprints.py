@@ -7,10 +7,10 @@ from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 from functools import cache
 
-from scanbench.check.program import Program
-from scanbench.check.types import Record
 from scanbench.plcmodel.model import Area, Model
 from scanbench.plcmodel.user_errors import device_of
+from scanbench.program.program import Program
+from scanbench.program.types import Record
 
 _SAMPLES = 500
 _WORDS = frozenset({"description", "source", "verified", "wordings", "user"})

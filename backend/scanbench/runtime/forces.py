@@ -10,10 +10,10 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import ClassVar, TypeVar
 
-from scanbench.check.layout import Layout
 from scanbench.check.symbols import Symbol
-from scanbench.check.types import Elementary
 from scanbench.check.values import format_value
+from scanbench.program.layout import Layout
+from scanbench.program.types import Elementary
 from scanbench.runtime.command import Category, Command, Entry, Patch, Plan, Refusal, Restarted, Swapped, View
 from scanbench.runtime.holds import held, holder
 from scanbench.runtime.journal import Fold

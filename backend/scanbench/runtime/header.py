@@ -1,10 +1,10 @@
-"""The header of an image, by name: virtual time, mode, force table. See `check/layout.py`."""
+"""The header of an image, by name: virtual time, mode, force table. See `program/layout.py`."""
 
 import struct
 from enum import IntEnum, IntFlag
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import Program
+from scanbench.program.layout import Layout
+from scanbench.program.program import Program
 
 _I64 = struct.Struct("<q")
 _U64 = struct.Struct("<Q")

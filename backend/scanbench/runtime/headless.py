@@ -5,8 +5,8 @@ from dataclasses import dataclass
 from typing import Generic, TypeVar
 
 from scanbench.check.condition import Condition
-from scanbench.check.program import Program
 from scanbench.engines.engine import Reason
+from scanbench.program.program import Program
 from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.checkpoints import Checkpoints
 from scanbench.runtime.command import Command, Entry, Refusal

@@ -9,8 +9,8 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, replace
 from typing import Protocol
 
-from scanbench.check.layout import Layout
 from scanbench.engines.debug import NOTHING, READ, WRITE, DebugEngine, Frame, Hook, Listen
+from scanbench.program.layout import Layout
 from scanbench.runtime.command import Command, Entry, Patch, Plan, Restarted, Swapped
 
 

@@ -4,7 +4,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from scanbench.check.layout import Layout
+from scanbench.program.layout import Layout
 from scanbench.runtime.command import Category, Command, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import forced_table
 from scanbench.runtime.header import Halt, Mode

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from scanbench.check.layout import Layout
+from scanbench.program.layout import Layout
 from scanbench.runtime.command import Category, Command, Patch, Plan, Refusal, Swapped, View
 from scanbench.runtime.forces import FORCED, hold, table_patches
 from scanbench.runtime.header import Mode

@@ -4,10 +4,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from typing import Protocol
 
-from scanbench.check.program import Program
 from scanbench.engines.debug import DebugEngine
 from scanbench.engines.engine import Engine
 from scanbench.engines.interpreter.debugged import debug_engine
+from scanbench.program.program import Program
 
 EngineFactory = Callable[[Program, bytearray], Engine]
 

@@ -15,7 +15,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
-from scanbench.check.program import Program
+from scanbench.program.program import Program
 from scanbench.runtime.clock import iso, wall_time
 from scanbench.runtime.command import Entry
 from scanbench.runtime.contents import (

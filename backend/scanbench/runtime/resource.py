@@ -7,12 +7,12 @@ from functools import partial
 from operator import is_
 
 from scanbench.check.condition import Condition
-from scanbench.check.program import Program
 from scanbench.engines.debug import NOTHING as NOT_LISTENING
 from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.observe import Observer, Seen
 from scanbench.engines.sample import Sampling
+from scanbench.program.program import Program
 from scanbench.runtime import seam
 from scanbench.runtime.agenda import NONE_MET, NOTHING, Agenda, Met, Waits
 from scanbench.runtime.clock import monotonic_ns, wall_time

@@ -10,9 +10,9 @@ from dataclasses import dataclass
 from typing import ClassVar
 
 from scanbench.check.classes import TYPE_NUMBER
-from scanbench.check.layout import Layout
-from scanbench.check.program import Program
-from scanbench.check.types import ArrayType, Kind, Member, Record, Section, Type
+from scanbench.program.layout import Layout
+from scanbench.program.program import Program
+from scanbench.program.types import ArrayType, Kind, Member, Record, Section, Type
 from scanbench.runtime.command import Category, Command, Plan, Refusal, Restarted, RestartKind, View
 from scanbench.runtime.forces import read_table
 from scanbench.runtime.header import Header, Mode, fresh_image

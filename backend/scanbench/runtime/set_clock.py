@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 
-from scanbench.check.layout import Layout
+from scanbench.program.layout import Layout
 from scanbench.runtime.clock import iso
 from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
 

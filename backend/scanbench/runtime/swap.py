@@ -1,7 +1,7 @@
 """What the memory is when a new program takes over."""
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import Program
+from scanbench.program.layout import Layout
+from scanbench.program.program import Program
 from scanbench.runtime.carry_over import Change, carry_over
 from scanbench.runtime.header import Header, Mode, fresh_image
 from scanbench.runtime.restart import restarted

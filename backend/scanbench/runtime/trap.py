@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import Program, TrapKind, TrapSite
+from scanbench.program.layout import Layout
+from scanbench.program.program import Program, TrapKind, TrapSite
 from scanbench.runtime.command import Command, Entry, Patch, Plan, Refusal, View
 from scanbench.runtime.header import Halt
 from scanbench.runtime.journal import Fold

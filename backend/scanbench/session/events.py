@@ -6,13 +6,13 @@ from datetime import datetime
 from typing import Literal, Protocol
 
 from scanbench.check.build import PouInfo
-from scanbench.check.program import CheckSite
 from scanbench.check.violations import Violations
 from scanbench.debug.breakpoint import Verdict
 from scanbench.debug.halt import Halt
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.history import ErrorRow
 from scanbench.problems import Problem, Severity
+from scanbench.program.program import CheckSite
 from scanbench.runtime.forces import ForcedValue
 from scanbench.runtime.recording import RecordingInfo
 from scanbench.runtime.trap import TrapInfo

@@ -10,10 +10,10 @@ from pathlib import Path
 import numpy as np
 
 from scanbench.check.condition import BadCondition, Signal, compile_signal
-from scanbench.check.program import Program
-from scanbench.check.types import BOOL, Elementary
 from scanbench.engines.engine import Engine
 from scanbench.engines.sample import HEAD_WORDS, Sampling
+from scanbench.program.program import Program
+from scanbench.program.types import BOOL, Elementary
 from scanbench.runtime.command import Entry, Swapped
 from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.programs import Loaded, NoProgram

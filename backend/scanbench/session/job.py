@@ -13,13 +13,13 @@ from collections.abc import Callable, Iterator
 from pathlib import Path
 from typing import BinaryIO
 
-from scanbench.check.program import Program
 from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.lifeline import end_with_parent
 from scanbench.faults.observed import ObservedPrograms
 from scanbench.faults.react import Point
 from scanbench.faults.sweep import sweep
+from scanbench.program.program import Program
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram

@@ -8,10 +8,10 @@ from functools import cache
 from importlib.resources import files
 from importlib.resources.abc import Traversable
 
-from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
 from scanbench.garbage import without_collection
 from scanbench.plcmodel.model import Model
+from scanbench.program.program import Program
 from scanbench.session.protocol import Sources
 
 _ROOMS = ("syntax", "check", "plcmodel", "engines")

@@ -6,8 +6,6 @@ from pathlib import Path
 from typing import TypeVar
 
 from scanbench.check.build import check_sources
-from scanbench.check.layout import Layout
-from scanbench.check.program import Program
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.carried import why_not_carried
 from scanbench.faults.inject import ACTIVE, Generate
@@ -17,6 +15,8 @@ from scanbench.faults.reaction import Reaction
 from scanbench.faults.sweep import AUTHOR
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Severity
+from scanbench.program.layout import Layout
+from scanbench.program.program import Program
 from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.contents import KeptProgram

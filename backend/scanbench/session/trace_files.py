@@ -5,8 +5,8 @@ import json
 from dataclasses import dataclass
 from pathlib import Path
 
-from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
+from scanbench.program.program import Program
 from scanbench.runtime.clock import fresh_token, monotonic_ns
 from scanbench.runtime.programs import NoProgram
 from scanbench.session.known import key_of, recall

@@ -3,8 +3,8 @@
 from collections.abc import Callable, Iterable, Sequence
 from pathlib import Path
 
-from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
+from scanbench.program.program import Program
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.programs import NoProgram

@@ -12,9 +12,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scanbench.check.condition import BadCondition, Signal, compile_signal, parsed
-from scanbench.check.program import Program
-from scanbench.check.types import BOOL, Elementary, Enumeration, Kind
 from scanbench.engines.sample import HEAD_WORDS, MAX_SIGNALS, Sampling
+from scanbench.program.program import Program
+from scanbench.program.types import BOOL, Elementary, Enumeration, Kind
 from scanbench.taps.trace_buffer import TraceBuffer, Words, row_bytes
 
 When = Literal["rises", "falls", "changes", "above", "below", "equals", "holds"]

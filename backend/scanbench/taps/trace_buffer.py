@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from scanbench.check.types import Elementary, Kind
 from scanbench.engines.sample import HEAD_WORDS
+from scanbench.program.types import Elementary, Kind
 
 BLOCK = 4096
 SAMPLES = 2

@@ -4,7 +4,7 @@ import csv
 import io
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from scanbench.check.types import Elementary, Kind
+from scanbench.program.types import Elementary, Kind
 from scanbench.taps.trace import TraceSignal
 from scanbench.taps.trace_buffer import Samples, number_type
 

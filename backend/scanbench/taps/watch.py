@@ -12,7 +12,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scanbench.check.symbols import Symbol
-from scanbench.check.types import Elementary, StringType
+from scanbench.program.types import Elementary, StringType
 
 VALUES = 1
 _HEAD = struct.Struct("<BBHIQq")

@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
-from scanbench.check.layout import Layout
+from scanbench.program.layout import Layout
 from scanbench.runtime.command import Entry
 from scanbench.runtime.holds import held
 from scanbench.runtime.trap import Trapped, trap_info

@@ -7,11 +7,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scanbench.check.holding import Holders
-from scanbench.check.program import Program
 from scanbench.check.symbols import Symbol
-from scanbench.check.types import Elementary, Enumeration, StringType, Type
 from scanbench.check.values import format_value, python_value
 from scanbench.faults.error_memory import code_bits, kept_bits, log_bits
+from scanbench.program.program import Program
+from scanbench.program.types import Elementary, Enumeration, StringType, Type
 from scanbench.runtime.carry_over import carry_over
 from scanbench.runtime.command import Entry
 from scanbench.runtime.header import Mode, fresh_image

@@ -5,9 +5,9 @@ from collections.abc import Callable, Mapping, Sequence
 from operator import attrgetter
 from pathlib import Path
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import Program
 from scanbench.engines.engine import Reason, Stop
+from scanbench.program.layout import Layout
+from scanbench.program.program import Program
 from scanbench.runtime.command import Entry
 from scanbench.runtime.contents import Codec, KeptProgram
 from scanbench.runtime.header import Halt

@@ -4,9 +4,9 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from scanbench.check.named import temporary_at
-from scanbench.check.program import Program
 from scanbench.check.symbols import UnknownPath, at_offset, resolve
-from scanbench.check.types import BOOL, ArrayType, Elementary, Record, StringType, Type
+from scanbench.program.program import Program
+from scanbench.program.types import BOOL, ArrayType, Elementary, Record, StringType, Type
 from scanbench.runtime.command import Command
 from scanbench.verify.disturb import Disturbed
 from scanbench.verify.disturb_fire import Corrupt

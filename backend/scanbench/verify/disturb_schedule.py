@@ -2,8 +2,8 @@
 
 from collections.abc import Sequence
 
-from scanbench.check.program import Program
 from scanbench.engines.observe import Observed
+from scanbench.program.program import Program
 from scanbench.runtime.agenda import NOTHING, Met, Waits
 from scanbench.runtime.command import Command, Refusal, View
 from scanbench.runtime.programs import Loaded

@@ -3,10 +3,10 @@
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 
-from scanbench.check.types import StringType
 from scanbench.check.values import parse_value
 from scanbench.engines.engine import Reason
 from scanbench.problems import perhaps
+from scanbench.program.types import StringType
 from scanbench.runtime.command import Patch
 from scanbench.runtime.trap import trap_info
 from scanbench.verify.both import Both, Ran

@@ -2,10 +2,10 @@
 
 from collections.abc import Callable
 
-from scanbench.check.program import Program
 from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.interpreter.debugged import debug_engine
+from scanbench.program.program import Program
 from scanbench.runtime.programs import Loaded
 
 Make = Callable[[int, Program], Loaded]

@@ -9,13 +9,13 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from scanbench.check.bound import Image, referred
-from scanbench.check.layout import Layout
 from scanbench.check.named import located
-from scanbench.check.program import Pou, Program
 from scanbench.check.sites import Sites
 from scanbench.check.symbols import RAW_TYPES, Symbol, at_offset, instance_at, roots_at
-from scanbench.check.types import (
+from scanbench.program.copies import Image, referred
+from scanbench.program.layout import Layout
+from scanbench.program.program import Pou, Program
+from scanbench.program.types import (
     BOOL,
     SLOT_BYTES,
     ArrayType,

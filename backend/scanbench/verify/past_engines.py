@@ -3,10 +3,10 @@
 from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 
-from scanbench.check.program import Program
 from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.probe import MakeProbed
+from scanbench.program.program import Program
 from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.programs import Loaded, NoProgram
 from scanbench.runtime.timeline import ProgramsOf

@@ -4,10 +4,10 @@ from collections.abc import Callable
 from dataclasses import dataclass
 
 from scanbench.check.instances import instances_of
-from scanbench.check.program import Pou, Program
 from scanbench.check.sites import Sites
 from scanbench.check.symbols import instance_at
 from scanbench.engines.debug import Frame
+from scanbench.program.program import Pou, Program
 from scanbench.verify.ranges import owner_of
 from scanbench.verify.verified import Place
 

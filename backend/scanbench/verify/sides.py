@@ -4,9 +4,9 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from typing import Protocol, TypeVar
 
-from scanbench.check.program import Program
 from scanbench.engines.debug import Frame, Listen
 from scanbench.engines.engine import Reason, Stop
+from scanbench.program.program import Program
 from scanbench.runtime.command import Entry
 from scanbench.runtime.inside import HaltAt, Onlooker, front
 from scanbench.runtime.journal import Journal

@@ -5,10 +5,10 @@ from bisect import bisect_right
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import dataclass
 
-from scanbench.check.program import Program
-from scanbench.check.types import StringType
 from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Reason, Stop
+from scanbench.program.program import Program
+from scanbench.program.types import StringType
 from scanbench.runtime.command import Patch
 from scanbench.runtime.header import pass_time
 from scanbench.runtime.inside import Onlooker

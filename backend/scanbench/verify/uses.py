@@ -8,8 +8,8 @@ from collections.abc import Callable, Iterable, Iterator
 from dataclasses import dataclass, field
 from typing import NamedTuple
 
-from scanbench.check.program import Blocks, Pou
 from scanbench.engines.debug import READ, WRITE, Frame, Listen
+from scanbench.program.program import Blocks, Pou
 from scanbench.runtime.resource import Resource
 from scanbench.verify.naming import ANYWHERE, WHOLE, Around, Namer
 from scanbench.verify.ranges import Resolved

@@ -6,7 +6,7 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self, TypeVar
 
-from scanbench.check.program import Program
+from scanbench.program.program import Program
 from scanbench.runtime.command import Swapped
 from scanbench.runtime.contents import Codec, KeptProgram
 from scanbench.runtime.inside import Diverged

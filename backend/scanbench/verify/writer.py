@@ -2,10 +2,7 @@
 
 from dataclasses import dataclass
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import Program
 from scanbench.check.symbols import Symbol, UnknownPath, resolve
-from scanbench.check.types import BOOL, Elementary, StringType
 from scanbench.check.values import format_value
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.debug.breakpoints import Breakpoints
@@ -14,6 +11,9 @@ from scanbench.debug.listener import Position
 from scanbench.debug.placed import bytes_of
 from scanbench.debug.reverse import Noted, Search, in_front
 from scanbench.engines.probe import MakeProbed
+from scanbench.program.layout import Layout
+from scanbench.program.program import Program
+from scanbench.program.types import BOOL, Elementary, StringType
 from scanbench.runtime.carry_over import changes
 from scanbench.runtime.command import Entry, Held, Patch, Refusal, Restarted, Swapped
 from scanbench.runtime.forces import read_table

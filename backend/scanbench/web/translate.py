@@ -1,11 +1,11 @@
 """The session's dataclasses -> wire shapes. Nothing is decided here."""
 
 from scanbench.check.build import PouInfo
-from scanbench.check.program import CheckSite
 from scanbench.check.violations import Violation, Violations
 from scanbench.faults.history import ErrorRow
 from scanbench.plcmodel import model as plc
 from scanbench.problems import Problem
+from scanbench.program.program import CheckSite
 from scanbench.runtime.clock import iso
 from scanbench.runtime.forces import ForcedValue
 from scanbench.session import events

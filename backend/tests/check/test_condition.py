@@ -4,9 +4,9 @@ import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.check.condition import MAX_LENGTH, BadCondition, Condition, compile_condition
-from scanbench.check.program import Program
 from scanbench.engines.engine import Reason
 from scanbench.engines.pair import PairEngine
+from scanbench.program.program import Program
 from tests.caseformat import MODELS
 
 SOURCE = """

@@ -9,8 +9,8 @@ import pytest
 from scanbench.bench.run import HERE
 from scanbench.check.build import Checked, Checker, check_sources
 from scanbench.check.incremental import Checks
-from scanbench.check.program import Program
 from scanbench.engines.native.emit_program import emit_program
+from scanbench.program.program import Program
 from scanbench.syntax import tree
 from tests.caseformat import MODELS
 

@@ -8,9 +8,9 @@ import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.check.incremental import Checks
-from scanbench.check.program import Program
 from scanbench.engines.native import parts
 from scanbench.engines.native.parts import Parts
+from scanbench.program.program import Program
 from tests.caseformat import MODELS, Case, read_cases
 
 CASES = [

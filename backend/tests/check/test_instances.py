@@ -2,7 +2,7 @@
 
 from scanbench.check.build import check_sources
 from scanbench.check.instances import instances_of
-from scanbench.check.program import Program
+from scanbench.program.program import Program
 from tests.caseformat import MODELS
 
 SOURCE = """

@@ -4,9 +4,9 @@ import pytest
 
 from scanbench.check.condition import BadCondition
 from scanbench.check.local import Local, Locals, locals_of
-from scanbench.check.program import Pou, Program
 from scanbench.engines.interpreter.debugged import debug_engine
 from scanbench.engines.interpreter.evaluate import Evaluator, NoValue
+from scanbench.program.program import Pou, Program
 from tests.debug.scenes import checked
 
 SOURCE = """

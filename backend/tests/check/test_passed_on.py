@@ -7,9 +7,9 @@ import pytest
 from scanbench.check.build import check_sources
 from scanbench.check.condition import BadCondition, Condition, Signal, compile_condition, compile_signal
 from scanbench.check.local import Local, Locals
-from scanbench.check.program import Program
 from scanbench.engines.engine import Reason
 from scanbench.engines.pair import PairEngine
+from scanbench.program.program import Program
 from tests.caseformat import MODELS
 
 SOURCE = """

@@ -3,10 +3,10 @@
 from collections.abc import Mapping
 
 from scanbench.check.build import check_sources
-from scanbench.check.program import Program
 from scanbench.debug.scene import Scene
 from scanbench.engines.debug import DebugEngine, Listen
 from scanbench.engines.interpreter.debugged import debug_engine
+from scanbench.program.program import Program
 from tests.caseformat import MODELS
 
 

@@ -3,12 +3,12 @@
 import pytest
 
 from scanbench.check.condition import BadCondition
-from scanbench.check.program import Program
 from scanbench.debug.assign import Assign
 from scanbench.debug.evaluate import evaluate
 from scanbench.debug.scene import Scene
 from scanbench.debug.set_value import SetLocal, set_value
 from scanbench.debug.shown import VariableInfo
+from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Plan, Refusal, View
 from scanbench.runtime.write import Write
 from scanbench.session.codec import pack_body, unpack

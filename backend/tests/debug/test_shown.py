@@ -3,7 +3,6 @@
 import pytest
 
 from scanbench.check.condition import BadCondition
-from scanbench.check.program import Program
 from scanbench.debug.evaluate import evaluate
 from scanbench.debug.frames import stack
 from scanbench.debug.message import LONGEST, Message
@@ -11,6 +10,7 @@ from scanbench.debug.scene import NoFrame, Scene
 from scanbench.debug.scopes import scopes, variables
 from scanbench.debug.shown import VariableInfo
 from scanbench.engines.interpreter.evaluate import NoValue
+from scanbench.program.program import Program
 from tests.debug.scenes import checked, halted
 
 SOURCE = """TYPE Color : (RED, GREEN); Pt : STRUCT x, y : INT; c : Color := GREEN; END_STRUCT; END_TYPE

@@ -4,7 +4,6 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 
-from scanbench.check.program import Program
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.debugger import Debugger
 from scanbench.debug.halt import Halt
@@ -13,6 +12,7 @@ from scanbench.engines.native.probed import ProbedBuilds
 from scanbench.engines.probe import Probe, ProbedEngine
 from scanbench.faults.inject import Generate
 from scanbench.problems import Span
+from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Entry, Refusal
 from tests.runtime.recorded import begun
 

@@ -10,8 +10,6 @@ import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.check.condition import Condition, compile_condition
-from scanbench.check.layout import Layout
-from scanbench.check.program import Program
 from scanbench.check.symbols import resolve
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.debug import NOTHING, READ, WRITE, DebugEngine, Frame, Listen
@@ -20,6 +18,8 @@ from scanbench.engines.interpreter.debugged import debug_engine as reference_eng
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.debugged import DebugBuilds
 from scanbench.engines.native.emit_program import emit_program
+from scanbench.program.layout import Layout
+from scanbench.program.program import Program
 from tests.caseformat import MODELS, first_difference, read_cases, run_case
 from tests.engines.test_observe import check
 from tests.programs import generate

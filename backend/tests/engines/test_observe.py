@@ -7,8 +7,6 @@ from pathlib import Path
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.layout import Layout
-from scanbench.check.program import Program
 from scanbench.check.symbols import resolve
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.engine import Engine, Reason, Stop
@@ -21,6 +19,8 @@ from scanbench.engines.native.emit_program import emit_program
 from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.engines.native.observed import observed_engine as linked_engine
 from scanbench.engines.observe import LIMIT, MakeObserved, Observed, ReadAt, Seen, areas_end
+from scanbench.program.layout import Layout
+from scanbench.program.program import Program
 from tests.caseformat import MODELS, first_difference, read_cases, run_case
 from tests.programs import generate
 from tests.programs.areas import areas

@@ -6,8 +6,6 @@ from collections.abc import Callable
 import pytest
 
 from scanbench.check.condition import BadCondition, Signal, compile_signal
-from scanbench.check.layout import Layout
-from scanbench.check.program import Program
 from scanbench.engines.engine import Engine, Reason, Stop
 from scanbench.engines.interpreter.debugged import debug_engine
 from scanbench.engines.interpreter.engine import ReferenceEngine
@@ -16,6 +14,8 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.probed import ProbedBuilds
 from scanbench.engines.pair import PairEngine
 from scanbench.engines.sample import Sampling
+from scanbench.program.layout import Layout
+from scanbench.program.program import Program
 from tests.engines.native.plc import check
 
 SOURCE = """

@@ -10,12 +10,12 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 
 from scanbench.check.condition import Condition, compile_condition
-from scanbench.check.layout import Layout
-from scanbench.check.program import Program
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.pair import Differs, PairEngine
+from scanbench.program.layout import Layout
+from scanbench.program.program import Program
 from tests.engines.native.plc import check
 
 COUNT = "PROGRAM Main VAR n : DINT; a : INT; END_VAR n := n + 1; a := DINT_TO_INT(n * 7 MOD 11); END_PROGRAM"

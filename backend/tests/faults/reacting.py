@@ -1,7 +1,6 @@
 """Points and reactions for tests."""
 
 from scanbench.check.build import check_sources
-from scanbench.check.program import Program
 from scanbench.engines.interpreter.observed import observed_engine
 from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.engines.observe import MakeObserved
@@ -11,6 +10,7 @@ from scanbench.faults.observed import ObservedPrograms
 from scanbench.faults.react import Point, react
 from scanbench.faults.reaction import Reaction
 from scanbench.faults.reference import ErrorRef, parse_reference
+from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.resource import Resource
 from tests.runtime.bench import model

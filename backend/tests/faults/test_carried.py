@@ -5,11 +5,11 @@ from pathlib import Path
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.program import Program
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.faults.carried import why_not_carried
 from scanbench.faults.inject import ACTIVE, Generate, Recover
 from scanbench.faults.reference import ErrorRef
+from scanbench.program.program import Program
 from scanbench.runtime.command import Entry
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource

@@ -6,10 +6,10 @@ from shutil import copy
 
 import pytest
 
-from scanbench.check.layout import Layout
 from scanbench.faults.details import Chosen, choose
 from scanbench.plcmodel.load import load_file, model_directory
 from scanbench.plcmodel.model import ErrorEntry, Model
+from scanbench.program.layout import Layout
 from scanbench.runtime.command import Refusal
 
 BODY = """

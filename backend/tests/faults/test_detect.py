@@ -2,11 +2,11 @@
 
 import pytest
 
-from scanbench.check.layout import Layout
 from scanbench.faults.detect import Detection
 from scanbench.faults.history import History
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef
+from scanbench.program.layout import Layout
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.header import Halt, Mode
 from scanbench.runtime.modes import SetMode

@@ -6,11 +6,11 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scanbench.check.layout import Layout
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import ErrorDetail, ErrorEntry, Location, Model
+from scanbench.program.layout import Layout
 from scanbench.runtime.command import Entry, Refusal, RestartKind
 from scanbench.runtime.header import Mode
 from scanbench.runtime.modes import SetMode

@@ -4,12 +4,12 @@ from dataclasses import replace
 from typing import Literal
 
 from scanbench.check.build import check_sources
-from scanbench.check.layout import Layout
-from scanbench.check.program import Program
 from scanbench.engines.engine import Reason
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.problems import Severity
+from scanbench.program.layout import Layout
+from scanbench.program.program import Program
 from tests.caseformat import MODELS, first_difference
 
 SCANS = 3

@@ -3,13 +3,13 @@
 from functools import cache
 
 from scanbench.check.build import check_sources
-from scanbench.check.program import Program
 from scanbench.check.symbols import resolve
 from scanbench.check.values import python_value
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.plcmodel.load import model_named
 from scanbench.plcmodel.model import Model
+from scanbench.program.program import Program
 from scanbench.runtime.command import Entry
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import EngineFactory, Loaded, Shelf

@@ -2,7 +2,7 @@
 
 import pytest
 
-from scanbench.check.layout import Layout
+from scanbench.program.layout import Layout
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.modes import SetMode

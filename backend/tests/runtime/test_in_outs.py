@@ -6,10 +6,10 @@ from functools import cache
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.program import Program
 from scanbench.check.symbols import UnknownPath
 from scanbench.debug.binding import Bindings
 from scanbench.debug.bound_to import Bound
+from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.forces import FORCED, Force, Release, forced_values
 from scanbench.runtime.modes import SetMode

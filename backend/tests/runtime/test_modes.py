@@ -4,9 +4,9 @@ from datetime import UTC, datetime
 
 import pytest
 
-from scanbench.check.layout import Layout
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef
+from scanbench.program.layout import Layout
 from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.forces import Force, Release

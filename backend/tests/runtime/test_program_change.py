@@ -5,7 +5,7 @@ from datetime import UTC, datetime
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.program import Program
+from scanbench.program.program import Program
 from scanbench.runtime.carry_over import changes
 from scanbench.runtime.command import Command, Entry, Refusal, Swapped
 from scanbench.runtime.forces import FORCED, Force, read_table

@@ -4,9 +4,9 @@ from datetime import UTC, datetime
 
 import pytest
 
-from scanbench.check.layout import Layout
 from scanbench.faults.inject import Generate
 from scanbench.faults.reference import ErrorRef
+from scanbench.program.layout import Layout
 from scanbench.runtime.command import Command, Entry, Refusal, RestartKind
 from scanbench.runtime.forces import FORCED, Force
 from scanbench.runtime.header import DEFAULT_EPOCH, Mode

@@ -8,7 +8,6 @@ from struct import Struct
 
 import msgpack  # type: ignore[import-untyped]
 
-from scanbench.check.layout import Layout
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.faults.arm import Arm
@@ -17,6 +16,7 @@ from scanbench.faults.inject import Generate
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.schedule import Schedule
 from scanbench.faults.shapes import Shape, Wanted
+from scanbench.program.layout import Layout
 from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import Force

@@ -14,13 +14,13 @@ from pathlib import Path
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.program import Program
 from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Reason
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reaction import Reaction
+from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.contents import Codec
 from scanbench.runtime.inside import HaltAt

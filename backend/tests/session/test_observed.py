@@ -1,7 +1,7 @@
 """Observed code in a host: of the statements that run, whatever was checked since."""
 
-from scanbench.check.program import Program
 from scanbench.check.sites import sites_of
+from scanbench.program.program import Program
 from scanbench.runtime.programs import Loaded
 from scanbench.session.host.build import Builder
 from scanbench.session.protocol import Sources

@@ -3,8 +3,8 @@
 from collections.abc import Mapping
 
 from scanbench.check.build import check_sources
-from scanbench.check.program import Program
 from scanbench.engines.interpreter.debugged import debug_engine
+from scanbench.program.program import Program
 from scanbench.taps.coverage import CoverageTap
 from scanbench.taps.covered import CoveredFile, CoveredSite
 from scanbench.taps.lcov import lcov

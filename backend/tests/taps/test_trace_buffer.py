@@ -9,7 +9,7 @@ from hypothesis import given, settings
 from hypothesis import strategies as st
 from numpy.typing import NDArray
 
-from scanbench.check.types import ELEMENTARY
+from scanbench.program.types import ELEMENTARY
 from scanbench.taps import trace_buffer
 from scanbench.taps.trace_buffer import BLOCK, Samples, TooMany, TraceBuffer, buffer_of, row_bytes, unpack_pages
 

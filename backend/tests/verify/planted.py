@@ -9,13 +9,13 @@ from contextlib import contextmanager, nullcontext
 from dataclasses import dataclass, field
 from unittest.mock import patch
 
-from scanbench.check.program import Assign, Place, Program, Stmt
-from scanbench.check.types import Elementary
 from scanbench.engines.native import emit_expressions, emit_operators, emit_statements
 from scanbench.engines.native.debugged import DebugBuilds
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.program.program import Assign, Place, Program, Stmt
+from scanbench.program.types import Elementary
 from scanbench.runtime.programs import Loaded
 
 Make = Callable[[int, Program], Loaded]

@@ -5,10 +5,10 @@ from pathlib import Path
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.program import Program
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.plcmodel.load import model_named
+from scanbench.program.program import Program
 from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.headless import run_headless
 from scanbench.runtime.programs import Loaded

@@ -6,7 +6,7 @@ from dataclasses import replace
 
 import pytest
 
-from scanbench.check.types import ELEMENTARY, StringType
+from scanbench.program.types import ELEMENTARY, StringType
 from scanbench.verify.mapping import BadMapping, ColumnMap, TraceMapping, fits, propose
 from scanbench.verify.trace_bind import Checked, check
 from scanbench.verify.trace_read import read_trace

@@ -6,11 +6,11 @@ from dataclasses import replace
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.program import Program
 from scanbench.check.symbols import resolve
 from scanbench.check.values import format_value
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.sample import MAX_SIGNALS
+from scanbench.program.program import Program
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write

@@ -5,10 +5,10 @@ from functools import cache
 
 from scanbench.check.build import check_sources
 from scanbench.check.condition import BadCondition, compile_signal
-from scanbench.check.program import Program
 from scanbench.check.symbols import members
-from scanbench.check.types import ArrayType, Elementary, Record
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.program.program import Program
+from scanbench.program.types import ArrayType, Elementary, Record
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource

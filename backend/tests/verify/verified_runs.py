@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from pathlib import Path
 
-from scanbench.check.program import Program
 from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.program.program import Program
 from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.command import Command
 from scanbench.runtime.detect import Detect

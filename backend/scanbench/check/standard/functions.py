@@ -6,7 +6,7 @@ where it is `variadic`), and what is known of their types. `check/standard/*.st`
 
 from dataclasses import dataclass
 
-from scanbench.check.types import (
+from scanbench.program.types import (
     DATE,
     DATE_AND_TIME,
     LDATE,

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from functools import cache
 from importlib.resources import files
 
-from scanbench.check.origin import LIBRARY_FOLDER
+from scanbench.program.origin import LIBRARY_FOLDER
 from scanbench.syntax import tree
 from scanbench.syntax.parse_st import parse_st
 from scanbench.syntax.source import Source

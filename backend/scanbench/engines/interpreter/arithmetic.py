@@ -1,12 +1,12 @@
-"""Operators on values, by the rules of `check/program.py`."""
+"""Operators on values, by the rules of `program/program.py`."""
 
 import math
 import operator
 import struct
 from collections.abc import Callable
 
-from scanbench.check.types import Elementary, Kind
-from scanbench.check.untyped import bounds
+from scanbench.program.types import Elementary, Kind
+from scanbench.program.untyped import bounds
 
 Number = int | float
 Operand = Callable[[int], Number]

@@ -3,12 +3,12 @@
 from collections.abc import Callable, Iterable, Mapping
 from dataclasses import replace
 
-from scanbench.check.program import Expr, Place, Pou, Program, ProgramInstance, Stmt
 from scanbench.engines.debug import NOTHING, READ, WRITE, Frame, Hook, Listen, frame_of
 from scanbench.engines.interpreter.memory import Value, putter
 from scanbench.engines.interpreter.observer import ALL, ObservedPlaces, ReferenceObserver
 from scanbench.engines.interpreter.places import BIT_SHIFT, BYTE_OFFSET, Places, Read, Write
 from scanbench.engines.observe import Seen
+from scanbench.program.program import Expr, Place, Pou, Program, ProgramInstance, Stmt
 
 Run = Callable[[int], int]
 

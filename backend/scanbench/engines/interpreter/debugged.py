@@ -1,11 +1,11 @@
 """The reference engine's debug flavour; see `engines.debug`."""
 
-from scanbench.check.program import Program, ProgramInstance
 from scanbench.engines.debug import DebugEngine, Frame, Hook, Listen
 from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.interpreter.debug_observer import DebugObserver, Halted
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.interpreter.expressions import Body
+from scanbench.program.program import Program, ProgramInstance
 
 
 class ReferenceDebugEngine(ReferenceEngine, DebugEngine):

@@ -6,9 +6,6 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from scanbench.check.condition import Condition
-from scanbench.check.layout import FORCE_AFTER_PROGRAM, FORCE_BEFORE, Layout
-from scanbench.check.program import Expr, Pou, Program, ProgramInstance, Task
-from scanbench.check.types import Kind, Record
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.interpreter.expressions import Body
 from scanbench.engines.interpreter.observer import ReferenceObserver
@@ -18,6 +15,9 @@ from scanbench.engines.interpreter.statements import Statements
 from scanbench.engines.interpreter.violations import recorder
 from scanbench.engines.sample import Sampling
 from scanbench.problems import Span
+from scanbench.program.layout import FORCE_AFTER_PROGRAM, FORCE_BEFORE, Layout
+from scanbench.program.program import Expr, Pou, Program, ProgramInstance, Task
+from scanbench.program.types import Kind, Record
 
 LOST_NS = 100_000_000
 

@@ -4,11 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar, cast
 
-from scanbench.check.bound import Spot
-from scanbench.check.layout import Layout
 from scanbench.check.local import Local, LocalAssignment, LocalAssignments, LocalPlace
-from scanbench.check.program import Expr, Place, Pou, Program, TrapSite
-from scanbench.check.types import Elementary, Kind, Record, StringType, Subrange, Type
 from scanbench.check.values import format_value
 from scanbench.engines.interpreter.arithmetic import Number
 from scanbench.engines.interpreter.expressions import Body
@@ -18,6 +14,10 @@ from scanbench.engines.interpreter.places import BIT_SHIFT, BYTE_OFFSET, Trapped
 from scanbench.engines.interpreter.statements import Statements
 from scanbench.engines.interpreter.violations import recorder
 from scanbench.problems import Span
+from scanbench.program.copies import Spot
+from scanbench.program.layout import Layout
+from scanbench.program.program import Expr, Place, Pou, Program, TrapSite
+from scanbench.program.types import Elementary, Kind, Record, StringType, Subrange, Type
 
 T = TypeVar("T")
 ROUNDS = 50_000

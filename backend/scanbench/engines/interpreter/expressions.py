@@ -4,9 +4,16 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Sequence
 from typing import Protocol, cast
 
-from scanbench.check.layout import Layout
-from scanbench.check.origin import is_system
-from scanbench.check.program import (
+from scanbench.engines.interpreter import arithmetic
+from scanbench.engines.interpreter.arithmetic import Operand
+from scanbench.engines.interpreter.intrinsics import intrinsic
+from scanbench.engines.interpreter.memory import Put, Value, decode, putter
+from scanbench.engines.interpreter.observer import ReferenceObserver
+from scanbench.engines.interpreter.places import Places, Read, Trapped, Write
+from scanbench.engines.interpreter.violations import Record
+from scanbench.program.layout import Layout
+from scanbench.program.origin import is_system
+from scanbench.program.program import (
     Base,
     Binary,
     CallFunction,
@@ -24,15 +31,8 @@ from scanbench.check.program import (
     Unary,
     Violates,
 )
-from scanbench.check.program import Sequence as SequenceNode
-from scanbench.check.types import Elementary, Kind, Section, StringType
-from scanbench.engines.interpreter import arithmetic
-from scanbench.engines.interpreter.arithmetic import Operand
-from scanbench.engines.interpreter.intrinsics import intrinsic
-from scanbench.engines.interpreter.memory import Put, Value, decode, putter
-from scanbench.engines.interpreter.observer import ReferenceObserver
-from scanbench.engines.interpreter.places import Places, Read, Trapped, Write
-from scanbench.engines.interpreter.violations import Record
+from scanbench.program.program import Sequence as SequenceNode
+from scanbench.program.types import Elementary, Kind, Section, StringType
 
 Body = Callable[[int], int]
 """Runs statements on an instance; the result says how they ended, see `statements`."""

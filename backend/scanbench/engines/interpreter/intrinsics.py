@@ -5,10 +5,10 @@ import re
 from collections.abc import Callable
 from typing import cast
 
-from scanbench.check.program import Intrinsic
-from scanbench.check.types import Elementary, Kind, StringType
 from scanbench.engines.interpreter.arithmetic import rounder, truncate, wrapper
 from scanbench.engines.interpreter.memory import CANONICAL_NAN, Value, packing
+from scanbench.program.program import Intrinsic
+from scanbench.program.types import Elementary, Kind, StringType
 
 Function = Callable[..., Value]
 LARGEST_CODE = 0xFF

@@ -7,7 +7,7 @@ for each character of theirs, so a surrogate counts as one), or bytes for a whol
 import struct
 from collections.abc import Callable
 
-from scanbench.check.types import Elementary, Kind, StringType, Type
+from scanbench.program.types import Elementary, Kind, StringType, Type
 
 Value = int | float | str | bytes
 Get = Callable[[int], Value]

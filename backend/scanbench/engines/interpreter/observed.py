@@ -1,9 +1,9 @@
 """Reference engines that are observed; see `engines.observe`."""
 
-from scanbench.check.program import Program
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.interpreter.observer import ReferenceObserver
 from scanbench.engines.observe import Observed
+from scanbench.program.program import Program
 
 
 def observed_engine(program: Program, memory: bytearray) -> Observed:

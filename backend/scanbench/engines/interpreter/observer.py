@@ -3,10 +3,10 @@
 from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 
-from scanbench.check.program import Expr, Place, Pou, Program, Stmt
 from scanbench.engines.interpreter.memory import Value, getter
 from scanbench.engines.interpreter.places import BIT_SHIFT, BYTE_OFFSET, Places, Read
 from scanbench.engines.observe import LIMIT, Observer, ReadAt, Seen
+from scanbench.program.program import Expr, Place, Pou, Program, Stmt
 
 ALL = 0xFF
 

@@ -2,10 +2,10 @@
 
 from collections.abc import Callable
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import Base, Expr, Index, Place
-from scanbench.check.types import Kind
 from scanbench.engines.interpreter.memory import Value, getter, putter
+from scanbench.program.layout import Layout
+from scanbench.program.program import Base, Expr, Index, Place
+from scanbench.program.types import Kind
 
 Read = Callable[[int], Value]
 """Takes the offset of the running instance."""

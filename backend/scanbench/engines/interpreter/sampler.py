@@ -2,10 +2,10 @@
 
 from collections.abc import Sequence
 
-from scanbench.check.layout import Layout
 from scanbench.engines.interpreter.memory import CANONICAL_NAN, packing
 from scanbench.engines.interpreter.places import Read, Trapped
 from scanbench.engines.sample import Sampling
+from scanbench.program.layout import Layout
 
 
 class Sampler:

@@ -6,8 +6,12 @@ A closure returns how it ended: GO_ON, EXIT, CONTINUE, RETURN, or JUMP plus the 
 from collections.abc import Callable, Sequence
 from dataclasses import replace
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import (
+from scanbench.engines.interpreter import arithmetic
+from scanbench.engines.interpreter.expressions import SLOT, Body, Expressions
+from scanbench.engines.interpreter.memory import putter
+from scanbench.engines.interpreter.places import Trapped
+from scanbench.program.layout import Layout
+from scanbench.program.program import (
     Assign,
     Blocks,
     CallBlock,
@@ -26,12 +30,8 @@ from scanbench.check.program import (
     Stmt,
     While,
 )
-from scanbench.check.types import DWORD, LWORD, Elementary
-from scanbench.check.untyped import bounds
-from scanbench.engines.interpreter import arithmetic
-from scanbench.engines.interpreter.expressions import SLOT, Body, Expressions
-from scanbench.engines.interpreter.memory import putter
-from scanbench.engines.interpreter.places import Trapped
+from scanbench.program.types import DWORD, LWORD, Elementary
+from scanbench.program.untyped import bounds
 
 BITS = {DWORD.size: DWORD, LWORD.size: LWORD}
 GO_ON, EXIT, CONTINUE, RETURN, JUMP = range(5)

@@ -3,7 +3,7 @@
 import struct
 from collections.abc import Callable
 
-from scanbench.check.layout import Layout
+from scanbench.program.layout import Layout
 
 Record = Callable[[int, int, int], None]
 """Takes the site, the offset of the instance that runs and the value."""

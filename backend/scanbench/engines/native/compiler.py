@@ -5,13 +5,13 @@ from collections.abc import Iterable
 from dataclasses import dataclass, field
 from time import perf_counter_ns
 
-from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.native import inlining, jit
 from scanbench.engines.native.emit_program import emit_program
 from scanbench.engines.native.flavour import RUN, Flavour
 from scanbench.engines.native.parts import Part, Parts
 from scanbench.garbage import without_collection
+from scanbench.program.program import Program
 
 QUICK, FAST = 0, 2
 """The levels of optimisation: built fast, and running fast."""

@@ -3,13 +3,13 @@
 from functools import lru_cache
 
 from scanbench.check.condition import Condition
-from scanbench.check.program import Pou, Program
-from scanbench.check.types import Kind, Record
 from scanbench.engines.native import emit_expressions, emit_statements, jit
 from scanbench.engines.native.compiler import FAST
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_function import FunctionText
 from scanbench.problems import Span
+from scanbench.program.program import Pou, Program
+from scanbench.program.types import Kind, Record
 
 KEPT = 32
 """Conditions whose code is kept: the same one comes again when optimised code of the program takes over."""

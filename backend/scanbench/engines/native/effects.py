@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable
 
-from scanbench.check.program import Place, Pou, Stmt
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_types import has_members
+from scanbench.program.program import Place, Pou, Stmt
 
 ANY = ""
 """Stands for every variable: written through a reference, or as a whole structure."""

@@ -5,14 +5,14 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from typing import TYPE_CHECKING, TypeAlias
 
-from scanbench.check.program import Base, Expr, Place, Pou, Stmt
-from scanbench.check.types import Elementary, Kind
 from scanbench.engines.native import inlining
 from scanbench.engines.native.effects import Effects, plain
 from scanbench.engines.native.emit_function import FunctionText, Value
 from scanbench.engines.native.emit_module import ModuleText
 from scanbench.engines.native.flavour import RUN, Flavour
 from scanbench.engines.native.registers import Signature, registers, signature
+from scanbench.program.program import Base, Expr, Place, Pou, Stmt
+from scanbench.program.types import Elementary, Kind
 
 if TYPE_CHECKING:
     from collections.abc import Iterator

@@ -1,7 +1,5 @@
 """Calls of functions and of function block instances."""
 
-from scanbench.check.program import CallBlock, CallFunction, Expr, Load, Place, Sequence
-from scanbench.check.types import Elementary, Kind, StringType
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body, Self
 from scanbench.engines.native.emit_function import Value
@@ -10,6 +8,8 @@ from scanbench.engines.native.emit_strings import Piece, as_one, settled
 from scanbench.engines.native.emit_types import elementary, stored
 from scanbench.engines.native.emit_values import Bytes, Held, put, read, settle
 from scanbench.engines.native.registers import Parameter, Passing
+from scanbench.program.program import CallBlock, CallFunction, Expr, Load, Place, Sequence
+from scanbench.program.types import Elementary, Kind, StringType
 
 Argument = Expr | Place | None
 

@@ -1,15 +1,15 @@
 """Subrange checks: a branch that is hardly ever taken, and a list in the image of what was found there."""
 
-from scanbench.check.bound import BYTE_OFFSET
-from scanbench.check.layout import Layout
-from scanbench.check.program import Base, Limit, Place, Violates
-from scanbench.check.types import ULINT, Elementary
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import UNLIKELY, Value
 from scanbench.engines.native.emit_operators import intrinsic
 from scanbench.engines.native.emit_places import address
 from scanbench.engines.native.emit_types import elementary, integer, value_type
 from scanbench.engines.native.ranges import within
+from scanbench.program.copies import BYTE_OFFSET
+from scanbench.program.layout import Layout
+from scanbench.program.program import Base, Limit, Place, Violates
+from scanbench.program.types import ULINT, Elementary
 
 LIST = "@violations"
 """The name of the number that says where in the image the list stands."""

@@ -7,13 +7,13 @@ debugged code is made quickly. They share `STATE` with the engine.
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from scanbench.check.program import Base, For, Place, Pou, Program, ProgramInstance, Stmt, While
-from scanbench.check.types import Kind
 from scanbench.engines.debug import READ, WRITE
 from scanbench.engines.native import emit_observed
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_memory import Address
 from scanbench.engines.native.emit_observed import Observing, site
+from scanbench.program.program import Base, For, Place, Pou, Program, ProgramInstance, Stmt, While
+from scanbench.program.types import Kind
 
 STATE = "@debugged"
 COUNT, WANTED, DEPTH, EVERY, SILENT, ARMED, SIZE = 0, 8, 16, 20, 21, 22, 24

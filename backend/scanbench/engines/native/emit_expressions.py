@@ -2,7 +2,15 @@
 
 from typing import assert_never
 
-from scanbench.check.program import (
+from scanbench.engines.native import emit_calls, emit_checks, emit_string_functions
+from scanbench.engines.native.emit_body import Body
+from scanbench.engines.native.emit_function import Value
+from scanbench.engines.native.emit_intrinsics import of_intrinsic
+from scanbench.engines.native.emit_operators import binary, compare, convert, unary
+from scanbench.engines.native.emit_places import load, reference
+from scanbench.engines.native.emit_strings import Piece, cut, of_place, ordered
+from scanbench.engines.native.emit_types import elementary, integer, is_real, real, string, wrap
+from scanbench.program.program import (
     Binary,
     CallFunction,
     Compare,
@@ -17,16 +25,8 @@ from scanbench.check.program import (
     Unary,
     Violates,
 )
-from scanbench.check.types import StringType
-from scanbench.check.untyped import bounds
-from scanbench.engines.native import emit_calls, emit_checks, emit_string_functions
-from scanbench.engines.native.emit_body import Body
-from scanbench.engines.native.emit_function import Value
-from scanbench.engines.native.emit_intrinsics import of_intrinsic
-from scanbench.engines.native.emit_operators import binary, compare, convert, unary
-from scanbench.engines.native.emit_places import load, reference
-from scanbench.engines.native.emit_strings import Piece, cut, of_place, ordered
-from scanbench.engines.native.emit_types import elementary, integer, is_real, real, string, wrap
+from scanbench.program.types import StringType
+from scanbench.program.untyped import bounds
 
 
 def scalar(body: Body, expr: Expr) -> Value:

@@ -2,15 +2,15 @@
 
 from collections.abc import Callable
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import Intrinsic
-from scanbench.check.types import BOOL, LINT, LREAL, TIME, Elementary
-from scanbench.check.untyped import bounds
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
 from scanbench.engines.native.emit_memory import canonical
 from scanbench.engines.native.emit_operators import convert, intrinsic, saturated
 from scanbench.engines.native.emit_types import elementary, is_real, value_type
+from scanbench.program.layout import Layout
+from scanbench.program.program import Intrinsic
+from scanbench.program.types import BOOL, LINT, LREAL, TIME, Elementary
+from scanbench.program.untyped import bounds
 
 LIBM = {
     "LN": "log", "LOG": "log10", "EXP": "exp", "SIN": "sin", "COS": "cos", "TAN": "tan", "ASIN": "asin",

@@ -7,8 +7,8 @@ It sleeps once for each scan: until the deadline, or until somebody knocks. On L
 import platform
 import sys
 
-from scanbench.check.layout import Layout
 from scanbench.engines.native.emit_body import Unit
+from scanbench.program.layout import Layout
 
 DONE, KNOCKED, TRAP, ASKED, CONDITION = 0, 1, 2, 3, 4
 """What `@run` returns."""

@@ -3,10 +3,6 @@
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import Base, Const, For, Place, Repeat, While
-from scanbench.check.types import Elementary
-from scanbench.check.untyped import bounds
 from scanbench.engines.native.effects import keeps, plain
 from scanbench.engines.native.emit_body import Body, counter_key
 from scanbench.engines.native.emit_checks import within_bounds
@@ -16,6 +12,10 @@ from scanbench.engines.native.emit_places import address, widened
 from scanbench.engines.native.emit_strings import pick
 from scanbench.engines.native.emit_types import elementary, value_type
 from scanbench.engines.native.ranges import within
+from scanbench.program.layout import Layout
+from scanbench.program.program import Base, Const, For, Place, Repeat, While
+from scanbench.program.types import Elementary
+from scanbench.program.untyped import bounds
 
 I64 = (-(1 << 63), (1 << 63) - 1)
 

@@ -2,11 +2,11 @@
 
 from dataclasses import dataclass
 
-from scanbench.check.types import Elementary, Kind
-from scanbench.check.untyped import bounds
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import UNLIKELY, Value
 from scanbench.engines.native.emit_types import NAN, is_real, stored, value_type
+from scanbench.program.types import Elementary, Kind
+from scanbench.program.untyped import bounds
 
 
 @dataclass(frozen=True, slots=True)

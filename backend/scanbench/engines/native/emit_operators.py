@@ -1,12 +1,12 @@
 """Operators on scalars: arithmetic, logic, comparison, conversion."""
 
-from scanbench.check.types import Elementary, Kind
-from scanbench.check.untyped import bounds
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
 from scanbench.engines.native.emit_places import widened
 from scanbench.engines.native.emit_types import integer, is_real, value_type
 from scanbench.engines.native.ranges import arithmetic, within
+from scanbench.program.types import Elementary, Kind
+from scanbench.program.untyped import bounds
 
 REAL_OPS = {"add": "fadd", "sub": "fsub", "mul": "fmul", "div": "fdiv"}
 REAL_COMPARE = {"eq": "oeq", "ne": "une", "lt": "olt", "le": "ole", "gt": "ogt", "ge": "oge"}

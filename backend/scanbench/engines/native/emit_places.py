@@ -1,13 +1,13 @@
 """Places: where they are in memory, and how a reference to them looks."""
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import Base, Expr, Index, Place
-from scanbench.check.types import Elementary, Kind
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
 from scanbench.engines.native.emit_memory import Address, load_at
 from scanbench.engines.native.emit_types import elementary, has_members, value_type
 from scanbench.engines.native.ranges import within
+from scanbench.program.layout import Layout
+from scanbench.program.program import Base, Expr, Index, Place
+from scanbench.program.types import Elementary, Kind
 
 I64_MAX = (1 << 63) - 1
 BIT_SHIFT = 32

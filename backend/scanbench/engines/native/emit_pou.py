@@ -1,7 +1,5 @@
 """One POU: a function of LLVM that returns 0 or the number of a trap."""
 
-from scanbench.check.program import Base, Place, Pou
-from scanbench.check.types import MAX_STRING, StringType
 from scanbench.engines.native import emit_expressions, emit_statements, inlining
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_function import FunctionText, Value
@@ -9,6 +7,8 @@ from scanbench.engines.native.emit_memory import canonical, move
 from scanbench.engines.native.emit_strings import Piece, assign
 from scanbench.engines.native.emit_types import elementary, is_real, stored
 from scanbench.engines.native.registers import Parameter, Passing
+from scanbench.program.program import Base, Place, Pou
+from scanbench.program.types import MAX_STRING, StringType
 
 IMAGE = "ptr nonnull noundef align 8 dereferenceable({size}) %img"
 

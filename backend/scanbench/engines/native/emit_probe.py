@@ -3,9 +3,6 @@
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 
-from scanbench.check.bodies import bodies
-from scanbench.check.layout import Layout
-from scanbench.check.program import Expr, If, Pou, Program, Stmt
 from scanbench.check.sites import Sites, sites_of
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body, Unit
@@ -13,6 +10,9 @@ from scanbench.engines.native.emit_function import UNLIKELY
 from scanbench.engines.native.flavour import Flavour
 from scanbench.engines.native.speculate import harmless
 from scanbench.engines.probe import BadProbe, Probe
+from scanbench.program.bodies import bodies
+from scanbench.program.layout import Layout
+from scanbench.program.program import Expr, If, Pou, Program, Stmt
 
 SLOTS = "@probes"
 """An i64 for each probe: the last scan that reached it, or `NEVER`."""

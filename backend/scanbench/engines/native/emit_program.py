@@ -8,13 +8,13 @@ POU changes, and its code can be kept.
 from collections import Counter
 from collections.abc import Iterable
 
-from scanbench.check.program import Pou, Program
 from scanbench.engines.native import emit_pou, emit_scan, inlining
 from scanbench.engines.native.effects import Effects
 from scanbench.engines.native.emit_body import Unit
 from scanbench.engines.native.emit_checks import LIST
 from scanbench.engines.native.flavour import RUN, Flavour
 from scanbench.engines.native.registers import Signature
+from scanbench.program.program import Pou, Program
 
 
 class Emitter:

@@ -1,14 +1,14 @@
 """The scan: the contract of `engines/engine.py` in IR. The loop that runs scans is in `emit_loop`."""
 
-from scanbench.check.layout import FORCE_AFTER_PROGRAM, FORCE_BEFORE, Layout
-from scanbench.check.program import Pou, Program, ProgramInstance, Stmt, Task
-from scanbench.check.types import BOOL, Kind, Record
 from scanbench.engines.native import emit_expressions, emit_loop, emit_statements
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_function import UNLIKELY, FunctionText, Value
 from scanbench.engines.native.emit_memory import store
 from scanbench.engines.native.emit_places import address, load
 from scanbench.problems import Span
+from scanbench.program.layout import FORCE_AFTER_PROGRAM, FORCE_BEFORE, Layout
+from scanbench.program.program import Pou, Program, ProgramInstance, Stmt, Task
+from scanbench.program.types import BOOL, Kind, Record
 
 SCRATCH = '@"t.scan"'
 """Memory of the temporaries of what a configuration connects."""

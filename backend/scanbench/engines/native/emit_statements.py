@@ -3,7 +3,15 @@
 from dataclasses import replace
 from typing import assert_never
 
-from scanbench.check.program import (
+from scanbench.engines.native import emit_calls, emit_loops, walk
+from scanbench.engines.native.emit_body import Body
+from scanbench.engines.native.emit_function import Value
+from scanbench.engines.native.emit_memory import canonical, load_at, move, put
+from scanbench.engines.native.emit_places import address
+from scanbench.engines.native.emit_types import elementary, integer, is_real, value_type
+from scanbench.engines.native.emit_values import put as put_value
+from scanbench.engines.native.speculate import to_selects
+from scanbench.program.program import (
     Assign,
     Blocks,
     CallBlock,
@@ -22,15 +30,7 @@ from scanbench.check.program import (
     Stmt,
     While,
 )
-from scanbench.check.types import Elementary, Kind
-from scanbench.engines.native import emit_calls, emit_loops, walk
-from scanbench.engines.native.emit_body import Body
-from scanbench.engines.native.emit_function import Value
-from scanbench.engines.native.emit_memory import canonical, load_at, move, put
-from scanbench.engines.native.emit_places import address
-from scanbench.engines.native.emit_types import elementary, integer, is_real, value_type
-from scanbench.engines.native.emit_values import put as put_value
-from scanbench.engines.native.speculate import to_selects
+from scanbench.program.types import Elementary, Kind
 
 WIDEST_RANGE = 64
 """Labels of a CASE that are listed one by one; wider ranges are compared."""

@@ -3,9 +3,6 @@
 from collections.abc import Callable
 from dataclasses import replace
 
-from scanbench.check.program import Intrinsic
-from scanbench.check.types import LINT, MAX_STRING, Elementary, StringType
-from scanbench.check.untyped import bounds
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
@@ -25,6 +22,9 @@ from scanbench.engines.native.emit_strings import (
     total,
 )
 from scanbench.engines.native.emit_types import elementary, stored, string
+from scanbench.program.program import Intrinsic
+from scanbench.program.types import LINT, MAX_STRING, Elementary, StringType
+from scanbench.program.untyped import bounds
 
 LONGEST = str(MAX_STRING)
 """No string is longer, so counts beyond it mean the same as it."""

@@ -2,14 +2,14 @@
 
 from dataclasses import dataclass, replace
 
-from scanbench.check.program import Expr, Place
-from scanbench.check.types import StringType
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body, Self
 from scanbench.engines.native.emit_memory import Address
 from scanbench.engines.native.emit_places import address
 from scanbench.engines.native.emit_types import STRING_HEAD, string
 from scanbench.engines.native.string_helpers import HELPERS
+from scanbench.program.program import Expr, Place
+from scanbench.program.types import StringType
 
 
 @dataclass(frozen=True, slots=True)

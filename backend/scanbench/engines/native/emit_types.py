@@ -3,7 +3,7 @@
 import math
 import struct
 
-from scanbench.check.types import BOOL, ArrayType, Elementary, Kind, OpenArray, Record, StringType, Type
+from scanbench.program.types import BOOL, ArrayType, Elementary, Kind, OpenArray, Record, StringType, Type
 
 NAN = {4: "0x7FF8000000000000", 8: "0x7FF8000000000000"}
 """The canonical NaN; LLVM writes a float constant as the double of the same value."""

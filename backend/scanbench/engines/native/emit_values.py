@@ -7,13 +7,13 @@ until they are stored; so they are settled, which is copied, where code of the u
 from dataclasses import dataclass
 from typing import TypeAlias
 
-from scanbench.check.program import Place
-from scanbench.check.types import Elementary, StringType, Type
 from scanbench.engines.native.emit_body import Body
 from scanbench.engines.native.emit_function import Value
 from scanbench.engines.native.emit_memory import Address, load_at, move, store
 from scanbench.engines.native.emit_places import address
 from scanbench.engines.native.emit_strings import Piece, assign, of_pointer, settled
+from scanbench.program.program import Place
+from scanbench.program.types import Elementary, StringType, Type
 
 
 @dataclass(frozen=True, slots=True)

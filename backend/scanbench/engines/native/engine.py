@@ -5,7 +5,6 @@ from collections.abc import Sequence
 from time import monotonic_ns
 
 from scanbench.check.condition import Condition
-from scanbench.check.program import Program
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.native import jit
 from scanbench.engines.native.compiler import FAST, Compiler
@@ -14,6 +13,7 @@ from scanbench.engines.native.emit_loop import ASKED, CONDITION, DONE, FUTEX, FU
 from scanbench.engines.native.observer import NativeObserver
 from scanbench.engines.native.sample_code import link_samplings
 from scanbench.engines.sample import Sampling
+from scanbench.program.program import Program
 
 _SLICE_NS = 20_000_000
 """Without a pace, Python gets a look about this often: else a signal (Ctrl-C) would wait for the last scan."""

@@ -3,7 +3,7 @@
 from contextlib import AbstractContextManager, nullcontext
 from typing import TYPE_CHECKING
 
-from scanbench.check.program import Expr, If, Place, Pou, ProgramInstance, Stmt
+from scanbench.program.program import Expr, If, Place, Pou, ProgramInstance, Stmt
 
 if TYPE_CHECKING:
     from scanbench.engines.native.emit_body import Body, Unit

@@ -3,7 +3,6 @@
 from collections.abc import Sequence
 from functools import cached_property
 
-from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.debug import DebugEngine
 from scanbench.engines.engine import Engine
@@ -15,6 +14,7 @@ from scanbench.engines.native.probed import ProbedBuilds
 from scanbench.engines.native.worker import optimised
 from scanbench.engines.observe import Observed
 from scanbench.engines.probe import MakeProbed
+from scanbench.program.program import Program
 
 _KEPT = 2
 """Programs whose observed code is kept."""

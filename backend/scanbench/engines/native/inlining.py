@@ -2,8 +2,8 @@
 
 from collections.abc import Iterable
 
-from scanbench.check.bodies import bodies
-from scanbench.check.program import Pou, Stmt
+from scanbench.program.bodies import bodies
+from scanbench.program.program import Pou, Stmt
 
 LARGE = 24
 """Statements from which on a body is compiled by itself: a call costs it nothing, and LLVM takes more than linear time

@@ -6,7 +6,6 @@ reference engine. Who waits for it waits seldom, so there are no parts and no se
 
 from collections.abc import Sequence
 
-from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.native import jit
 from scanbench.engines.native.compiler import QUICK
@@ -16,6 +15,7 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.observer import NativeObserver
 from scanbench.engines.observe import Observed
 from scanbench.garbage import without_collection
+from scanbench.program.program import Program
 
 
 class ObservedBuilds:

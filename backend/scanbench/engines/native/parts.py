@@ -2,7 +2,6 @@
 
 from dataclasses import dataclass, field
 
-from scanbench.check.program import Pou, Program, Stmt
 from scanbench.engines.native import inlining, jit
 from scanbench.engines.native.effects import Effects, touched
 from scanbench.engines.native.emit_body import SCRATCH_LIMIT, TooLarge
@@ -10,6 +9,7 @@ from scanbench.engines.native.emit_program import Emitter
 from scanbench.engines.native.flavour import RUN, Flavour
 from scanbench.engines.native.registers import Signature, registers, signature
 from scanbench.garbage import without_collection
+from scanbench.program.program import Pou, Program, Stmt
 
 SMALL = 120
 """Statements up to which a program is one module: compiling it whole takes less than compiling its parts."""

@@ -7,8 +7,6 @@ from where the run flavour keeps them.
 import ctypes
 from collections.abc import Callable, Iterable, Iterator, Sequence
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.native import emit_probe, jit
@@ -17,6 +15,8 @@ from scanbench.engines.native.emit_probe import Probing
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.parts import Part
 from scanbench.engines.probe import Probe, ProbedEngine
+from scanbench.program.layout import Layout
+from scanbench.program.program import Program
 
 Optimise = Callable[[Iterable[Part]], Iterator[tuple[Part, bytes]]]
 """Optimises modules, one after the other; may end early, as `worker.optimised` does."""

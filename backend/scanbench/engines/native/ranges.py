@@ -1,7 +1,7 @@
 """Intervals of integer operations: what needs no check and cannot wrap."""
 
-from scanbench.check.types import Elementary
-from scanbench.check.untyped import bounds
+from scanbench.program.types import Elementary
+from scanbench.program.untyped import bounds
 
 Range = tuple[int, int]
 

@@ -4,10 +4,10 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from enum import Enum
 
-from scanbench.check.program import Base, Expr, Place, Pou
-from scanbench.check.types import Elementary, Member, Section, StringType
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_types import stored
+from scanbench.program.program import Base, Expr, Place, Pou
+from scanbench.program.types import Elementary, Member, Section, StringType
 
 
 class Passing(Enum):

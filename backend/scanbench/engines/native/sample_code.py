@@ -4,15 +4,15 @@ from collections.abc import Sequence
 from functools import lru_cache
 
 from scanbench.check.condition import Signal
-from scanbench.check.layout import Layout
-from scanbench.check.program import Pou, Program
-from scanbench.check.types import Kind, Record
 from scanbench.engines.native import emit_expressions, emit_statements, jit
 from scanbench.engines.native.compiler import FAST
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_function import FunctionText
 from scanbench.engines.sample import CAPACITY, HEAD_WORDS, NEXT, RING, TAKEN, WORD, WRITTEN, Sampling
 from scanbench.problems import Span
+from scanbench.program.layout import Layout
+from scanbench.program.program import Pou, Program
+from scanbench.program.types import Kind, Record
 
 KEPT = 32
 """Modules whose code is kept: the same one comes again when other code of the program takes over."""

@@ -8,7 +8,12 @@ from collections.abc import Iterable
 from dataclasses import fields, is_dataclass
 from typing import assert_never
 
-from scanbench.check.program import (
+from scanbench.engines.native import walk
+from scanbench.engines.native.effects import keeps
+from scanbench.engines.native.emit_body import Body
+from scanbench.engines.native.emit_types import elementary, is_real
+from scanbench.engines.native.ranges import Range, arithmetic, within
+from scanbench.program.program import (
     Assign,
     Binary,
     CallFunction,
@@ -29,13 +34,8 @@ from scanbench.check.program import (
     Unary,
     Violates,
 )
-from scanbench.check.types import Elementary, StringType
-from scanbench.check.untyped import bounds
-from scanbench.engines.native import walk
-from scanbench.engines.native.effects import keeps
-from scanbench.engines.native.emit_body import Body
-from scanbench.engines.native.emit_types import elementary, is_real
-from scanbench.engines.native.ranges import Range, arithmetic, within
+from scanbench.program.types import Elementary, StringType
+from scanbench.program.untyped import bounds
 
 MOST_ASSIGNMENTS = 4
 MOST_NODES = 24

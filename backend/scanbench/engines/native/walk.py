@@ -7,8 +7,8 @@ from collections.abc import Iterable
 from enum import Enum
 from typing import assert_never
 
-from scanbench.check.bodies import bodies
-from scanbench.check.program import (
+from scanbench.program.bodies import bodies
+from scanbench.program.program import (
     Assign,
     Binary,
     Blocks,
@@ -42,7 +42,7 @@ from scanbench.check.program import (
     Violates,
     While,
 )
-from scanbench.check.types import Section
+from scanbench.program.types import Section
 
 
 class Use(Enum):

@@ -8,13 +8,13 @@ from pathlib import Path
 from typing import TYPE_CHECKING
 
 from scanbench.check.incremental import Checks
-from scanbench.check.program import Program
 from scanbench.engines.available import flavours, no_machine_code
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.engine import Engine
 from scanbench.plcmodel.load import NoSuchModel, load_all, model_directory, model_named
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem, Severity
+from scanbench.program.program import Program
 from scanbench.session.known import key_of, recall
 from scanbench.session.protocol import Sources
 

@@ -2,9 +2,9 @@
 
 from dataclasses import dataclass
 
-from scanbench.check.program import Program
 from scanbench.engines.debug import DebugEngine
 from scanbench.engines.probe import BadProbe, MakeProbed, Probe, ProbedEngine
+from scanbench.program.program import Program
 from scanbench.runtime.programs import Loaded
 
 

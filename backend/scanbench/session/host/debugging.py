@@ -5,7 +5,6 @@ from collections.abc import Callable
 
 from scanbench.check.condition import BadCondition
 from scanbench.check.local import Locals
-from scanbench.check.program import Program
 from scanbench.check.sites import Sites, sites_of
 from scanbench.check.symbols import UnknownPath
 from scanbench.debug.assign import Assign
@@ -17,6 +16,7 @@ from scanbench.debug.scene import NoFrame, Scene, at
 from scanbench.debug.scopes import scopes, variables
 from scanbench.debug.set_value import set_value
 from scanbench.engines.interpreter.evaluate import NoValue
+from scanbench.program.program import Program
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.resource import Resource

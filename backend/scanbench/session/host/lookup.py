@@ -2,9 +2,9 @@
 
 from scanbench.check.call_sites import formal_of
 from scanbench.check.instances import instances_of
-from scanbench.check.program import Program
 from scanbench.check.symbols import Symbol, UnknownPath, complete, members, resolve
-from scanbench.check.types import Elementary, Enumeration, Section, StringType, Subrange
+from scanbench.program.program import Program
+from scanbench.program.types import Elementary, Enumeration, Section, StringType, Subrange
 from scanbench.session.protocol import Found, Lookup, SymbolInfo, WatchItem
 
 COMPLETIONS = 50

@@ -11,10 +11,10 @@ from dataclasses import replace
 from pathlib import Path
 
 from scanbench.check.condition import Condition, compile_condition
-from scanbench.check.program import Program
 from scanbench.engines.engine import Reason
 from scanbench.faults.carried import why_not_carried
 from scanbench.faults.inject import ACTIVE, Active
+from scanbench.program.program import Program
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.header import Mode
 from scanbench.runtime.program_change import ProgramChange

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass
 
-from scanbench.check.program import Program
+from scanbench.program.program import Program
 from scanbench.session.protocol import Submit
 
 _KEPT = 2

@@ -3,8 +3,8 @@
 import threading
 from collections.abc import Callable, Mapping
 
-from scanbench.check.program import Program
 from scanbench.engines.engine import Engine
+from scanbench.program.program import Program
 from scanbench.runtime.programs import Loaded, NoProgram
 from scanbench.session.host.build import Builder, BuildFailed
 from scanbench.session.protocol import Sources, SourcesOf, WantSources

@@ -1,9 +1,9 @@
 """The state of a PLC in words, derived from its image and journal."""
 
-from scanbench.check.program import TrapKind
 from scanbench.debug.debugger import Debugger
 from scanbench.debug.halt import Halt as Stopped
 from scanbench.faults.inject import ACTIVE
+from scanbench.program.program import TrapKind
 from scanbench.runtime.command import Entry, Swapped
 from scanbench.runtime.forces import FORCED
 from scanbench.runtime.header import Halt, Mode

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import Protocol
 
-from scanbench.check.program import Program
 from scanbench.engines.engine import Engine
+from scanbench.program.program import Program
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.programs import Loaded
 from scanbench.session.protocol import Sources

@@ -9,13 +9,13 @@ from collections.abc import Callable
 from contextlib import nullcontext
 from dataclasses import dataclass
 
-from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.engine import Engine
 from scanbench.engines.native import jit
 from scanbench.engines.native.compiler import FAST, Build, Compiler
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.worker import WorkerDied, optimised
+from scanbench.program.program import Program
 from scanbench.session.host.swaps import Recode
 from scanbench.session.known import keep_code, recall_code
 

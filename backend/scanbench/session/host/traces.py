@@ -5,7 +5,7 @@ import threading
 from dataclasses import replace
 from queue import SimpleQueue
 
-from scanbench.check.program import Program
+from scanbench.program.program import Program
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.timeline import Timeline
 from scanbench.session import protocol

@@ -2,8 +2,12 @@
 
 from dataclasses import dataclass, replace
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import (
+from scanbench.engines.engine import Stop
+from scanbench.engines.interpreter.engine import ReferenceEngine
+from scanbench.engines.native.engine import NativeEngine
+from scanbench.problems import Span
+from scanbench.program.layout import Layout
+from scanbench.program.program import (
     Base,
     Const,
     Expr,
@@ -15,11 +19,7 @@ from scanbench.check.program import (
     TrapKind,
     TrapSite,
 )
-from scanbench.check.types import Kind, Reference, Type
-from scanbench.engines.engine import Stop
-from scanbench.engines.interpreter.engine import ReferenceEngine
-from scanbench.engines.native.engine import NativeEngine
-from scanbench.problems import Span
+from scanbench.program.types import Kind, Reference, Type
 from tests.caseformat import first_difference
 from tests.engines.native.plc import check
 

@@ -6,9 +6,9 @@ from hypothesis import assume, given, settings
 from hypothesis import strategies as st
 
 from scanbench.check.build import check_sources
-from scanbench.check.layout import Layout
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.program.layout import Layout
 from tests.caseformat import first_difference
 from tests.engines.native.plc import MODEL
 from tests.engines.native.program_text import program_text

@@ -5,7 +5,6 @@ from pathlib import Path
 import pytest
 
 from scanbench.check.incremental import Checks
-from scanbench.check.program import Program
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.engine import Reason
 from scanbench.engines.native import jit
@@ -13,6 +12,7 @@ from scanbench.engines.native.compiler import AT_ONCE, FAST, QUICK, Build, Compi
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.parts import Part
 from scanbench.engines.native.worker import optimised
+from scanbench.program.program import Program
 from tests.engines.native.plc import MODEL, check
 
 SOURCE = """\

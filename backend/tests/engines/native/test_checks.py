@@ -2,9 +2,9 @@
 
 import pytest
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import Assign, Binary, Const, Expr, For, Limit, Place, Sequence, Stmt, Violates
-from scanbench.check.types import BOOL, BYTE, DINT, INT, LINT, SINT, UDINT, ULINT, Elementary
+from scanbench.program.layout import Layout
+from scanbench.program.program import Assign, Binary, Const, Expr, For, Limit, Place, Sequence, Stmt, Violates
+from scanbench.program.types import BOOL, BYTE, DINT, INT, LINT, SINT, UDINT, ULINT, Elementary
 from tests.engines.native.hand_made import SPAN, HandMade, const, hand_made
 
 VARIABLES = "i, j : INT; d : DINT; u : ULINT; l : LINT; s : SINT; b : BYTE; f : BOOL; e : BOOL; c : UDINT;"
@@ -92,7 +92,7 @@ def test_violates_tells_and_records_only_with_a_site() -> None:
 
 @pytest.mark.parametrize("opt_level", [0, 2])
 def test_the_program_sees_the_error_in_the_same_scan(opt_level: int) -> None:
-    from scanbench.check.program import Base, Load
+    from scanbench.program.program import Base, Load
 
     hand = hand_made(VARIABLES)
     error = Place(BOOL, Base.IMAGE, Layout.SUBRANGE_ERROR, variable="#system")
@@ -115,8 +115,8 @@ def test_the_variable_of_a_loop_ends_within_its_bounds() -> None:
 
 def test_a_sequence_runs_before_its_value_and_leaves_what_was_read() -> None:
     hand = hand_made("s, t : STRING[20]; i, j : INT;")
-    from scanbench.check.program import Intrinsic
-    from scanbench.check.types import StringType
+    from scanbench.program.program import Intrinsic
+    from scanbench.program.types import StringType
 
     text = StringType(20)
     inner = Sequence(

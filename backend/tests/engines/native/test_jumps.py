@@ -2,8 +2,9 @@
 
 import pytest
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import (
+from scanbench.engines.engine import Reason
+from scanbench.program.layout import Layout
+from scanbench.program.program import (
     Assign,
     Binary,
     Blocks,
@@ -20,8 +21,7 @@ from scanbench.check.program import (
     TrapKind,
     While,
 )
-from scanbench.check.types import BOOL, INT
-from scanbench.engines.engine import Reason
+from scanbench.program.types import BOOL, INT
 from tests.engines.native.hand_made import SPAN, HandMade, const, hand_made, trap
 
 LOOP = trap(TrapKind.LOOP)

@@ -2,8 +2,8 @@
 
 import pytest
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import TrapKind
+from scanbench.program.layout import Layout
+from scanbench.program.program import TrapKind
 from tests.engines.native.plc import plc, ran
 
 TYPES = {"SINT": (-128, 127), "USINT": (0, 255), "INT": (-32768, 32767), "UINT": (0, 65535)}

@@ -3,8 +3,8 @@
 import threading
 import time
 
-from scanbench.check.layout import Layout
 from scanbench.engines.engine import Pace, Reason, Stop
+from scanbench.program.layout import Layout
 from tests.engines.native.plc import plc
 
 COUNT = "PROGRAM Main VAR n : DINT; END_VAR n := n + 1; END_PROGRAM"

@@ -7,11 +7,8 @@ from pathlib import Path
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.layout import Layout
 from scanbench.check.local import Local, Locals
-from scanbench.check.program import Pou, Program
 from scanbench.check.sites import Sites, sites_of
-from scanbench.check.types import Elementary, Kind
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.debug import DebugEngine, Listen
 from scanbench.engines.engine import Reason, Stop
@@ -25,6 +22,9 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.parts import Part, Parts
 from scanbench.engines.native.probed import ProbedBuilds
 from scanbench.engines.probe import BadProbe, Probe, ProbedEngine
+from scanbench.program.layout import Layout
+from scanbench.program.program import Pou, Program
+from scanbench.program.types import Elementary, Kind
 from tests.caseformat import MODELS, first_difference
 from tests.engines.test_observe import check
 from tests.programs import generate

@@ -2,8 +2,9 @@
 
 import pytest
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import (
+from scanbench.engines.engine import Reason, Stop
+from scanbench.program.layout import Layout
+from scanbench.program.program import (
     Assign,
     Base,
     Binary,
@@ -16,8 +17,7 @@ from scanbench.check.program import (
     RefOf,
     TrapKind,
 )
-from scanbench.check.types import BOOL, BYTE, DINT, INT, LINT, ULINT, WORD, ArrayType
-from scanbench.engines.engine import Reason, Stop
+from scanbench.program.types import BOOL, BYTE, DINT, INT, LINT, ULINT, WORD, ArrayType
 from tests.engines.native.hand_made import SPAN, HandMade, const, hand_made, reference_to, through, trap
 
 NULL = Stop(Reason.TRAP, trap(TrapKind.NULL))

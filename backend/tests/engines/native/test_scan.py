@@ -4,10 +4,10 @@ import gc
 
 import pytest
 
-from scanbench.check.layout import Layout
-from scanbench.check.program import TrapKind
 from scanbench.engines.engine import Reason, Stop
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.program.layout import Layout
+from scanbench.program.program import TrapKind
 from tests.engines.native.plc import check, plc
 
 COUNT = "PROGRAM Main VAR n : DINT; a AT %MB4 : BYTE; seen : BYTE; END_VAR n := n + 1; seen := a; a := 5; END_PROGRAM"

@@ -4,9 +4,9 @@ import re
 
 import pytest
 
-from scanbench.check.program import TrapKind
 from scanbench.engines.native import jit
 from scanbench.engines.native.emit_program import emit_program
+from scanbench.program.program import TrapKind
 from tests.engines.native.plc import check, plc, ran
 
 

@@ -4,7 +4,7 @@ from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from scanbench.check.types import BOOL, SLOT_BYTES, ArrayType, Record, Type, actual_of, has_copies
+from scanbench.program.types import BOOL, SLOT_BYTES, ArrayType, Record, Type, actual_of, has_copies
 
 BYTE_OFFSET, BIT_SHIFT, BITS = 0xFFFF_FFFF, 32, 7
 _DEEPEST = 256

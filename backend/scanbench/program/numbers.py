@@ -3,7 +3,7 @@
 import math
 import struct
 
-from scanbench.check.types import Elementary
+from scanbench.program.types import Elementary
 
 
 def round_real(value: float, type: Elementary) -> float:

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 from functools import cache
 
-from scanbench.check.program import Const, Expr
-from scanbench.check.types import (
+from scanbench.program.program import Const, Expr
+from scanbench.program.types import (
     DINT,
     ELEMENTARY,
     LINT,

@@ -38,11 +38,11 @@ from dataclasses import dataclass
 from enum import StrEnum
 from typing import TYPE_CHECKING
 
-from scanbench.check.types import Elementary, Kind, Member, Record, Reference, Section, StringType, Type
 from scanbench.problems import Span
+from scanbench.program.types import Elementary, Kind, Member, Record, Reference, Section, StringType, Type
 
 if TYPE_CHECKING:
-    from scanbench.check.layout import Layout
+    from scanbench.program.layout import Layout
 
 
 class TrapKind(StrEnum):

@@ -1,8 +1,8 @@
 """The variables that every program has by itself."""
 
-from scanbench.check.layout import Layout
-from scanbench.check.types import BOOL, UDINT, Kind, Member, Record, Section
 from scanbench.problems import Span
+from scanbench.program.layout import Layout
+from scanbench.program.types import BOOL, UDINT, Kind, Member, Record, Section
 
 _NOWHERE = Span("", 1, 1, 1, 1)
 SYSTEM = Record("$SYSTEM", Kind.STRUCT)

@@ -3,7 +3,7 @@
 from collections.abc import Iterable, Iterator
 from typing import assert_never
 
-from scanbench.check.program import (
+from scanbench.program.program import (
     Assign,
     Blocks,
     CallBlock,

@@ -13,9 +13,9 @@ everything else, and an in-out can refer to one (a REF_TO cannot: it may outlive
 from dataclasses import dataclass, field
 from typing import ClassVar
 
-from scanbench.check.bound import Copies
-from scanbench.check.types import Record
 from scanbench.plcmodel.model import Area, Model
+from scanbench.program.copies import Copies
+from scanbench.program.types import Record
 
 FORCE_BEFORE, FORCE_AFTER_PROGRAM = 6, 7
 """Bytes of a force's entry: what its byte was when the force was applied in phase 2, and in phase 4, of the last scan."""
