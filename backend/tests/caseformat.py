@@ -7,14 +7,14 @@ from pathlib import Path
 from typing import Literal
 
 from scanbench.check.build import check_sources
-from scanbench.check.symbols import Symbol, UnknownPath, at_offset, resolve
-from scanbench.check.values import format_value, parse_value
-from scanbench.check.violations import read_violations
 from scanbench.engines.engine import Engine, Reason, Stop
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
+from scanbench.symbols.symbols import Symbol, UnknownPath, at_offset, resolve
+from scanbench.symbols.values import format_value, parse_value
+from scanbench.symbols.violations import read_violations
 from scanbench.syntax.literals import date_and_time, duration
 
 HEAD = re.compile(

@@ -21,7 +21,6 @@ from scanbench.bench.building import LARGE
 from scanbench.bench.run import PROGRAMS, BenchError, checked_program
 from scanbench.check.build import check_sources
 from scanbench.check.local import Local, Locals
-from scanbench.check.sites import Sites
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.debug import DebugEngine, Listen
 from scanbench.engines.engine import Engine, Reason
@@ -35,6 +34,7 @@ from scanbench.plcmodel.load import model_named
 from scanbench.program.program import Pou, Program
 from scanbench.program.types import Elementary, Kind, Record
 from scanbench.session.samples import samples
+from scanbench.symbols.sites import Sites
 
 T = TypeVar("T")
 

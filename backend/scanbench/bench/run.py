@@ -18,12 +18,12 @@ from scanbench.bench.building import LARGE, measure_building
 from scanbench.bench.interpreter import statements_per_second
 from scanbench.bench.peers import peer_ratios
 from scanbench.check.build import check_sources
-from scanbench.check.symbols import resolve
 from scanbench.engines.engine import Engine, Reason
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.plcmodel.load import model_named
 from scanbench.program.program import Program
+from scanbench.symbols.symbols import resolve
 
 HERE = Path(__file__).parent
 PROGRAMS = ("noop", "bool", "arith", "array", "mavg", "state", "string", "string_unrolled", "big10k", "big10kflat")

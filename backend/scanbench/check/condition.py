@@ -11,7 +11,6 @@ from dataclasses import dataclass, replace
 from functools import cached_property
 from typing import TypeVar
 
-from scanbench.check.call_sites import Calls
 from scanbench.check.calls import CallChecker
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare import Declarations
@@ -20,7 +19,6 @@ from scanbench.check.passed_on import Unclear, behind_copies, passed_on
 from scanbench.check.places import Found
 from scanbench.check.scopes import Pous, Scope
 from scanbench.check.standard.functions import FUNCTIONS
-from scanbench.check.symbols import RAW_TYPES, UnknownPath, resolve
 from scanbench.plcmodel.model import Location
 from scanbench.problems import Problem, Span, perhaps
 from scanbench.program.program import Base, Const, Convert, Expr, Load, Place, Program, Stmt
@@ -41,6 +39,8 @@ from scanbench.program.types import (
     has_instance,
 )
 from scanbench.program.untyped import settle
+from scanbench.symbols.call_sites import Calls
+from scanbench.symbols.symbols import RAW_TYPES, UnknownPath, resolve
 from scanbench.syntax import tree
 from scanbench.syntax.cursor import Unexpected
 from scanbench.syntax.parse_st import StParser

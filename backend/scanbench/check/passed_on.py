@@ -9,10 +9,10 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 
 from scanbench.check import fold
-from scanbench.check.call_sites import Calls
 from scanbench.program.copies import BYTE_OFFSET, Copy
 from scanbench.program.program import Base, Const, Expr, Load, Place, Pou, Program
 from scanbench.program.types import BOOL, SLOT_BYTES, ULINT, Kind, Member, Record, Reference, Section, actual_of
+from scanbench.symbols.call_sites import Calls
 
 MOST = 16
 """Copies that one slot may refer to; each is a test whenever the expression is evaluated."""

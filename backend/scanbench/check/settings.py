@@ -6,10 +6,10 @@ from dataclasses import replace
 
 from scanbench.check.context import Rejected, Report
 from scanbench.check.declare import Declarations, own_memory
-from scanbench.check.symbols import Symbol, UnknownPath, resolve
 from scanbench.problems import Span, perhaps
 from scanbench.program.program import AccessPath, Program
 from scanbench.program.types import SLOT_BYTES, ArrayType, Member, Record, Section, Type
+from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.syntax import tree
 
 

@@ -12,7 +12,6 @@ from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare import Declarations
 from scanbench.check.driven import Driven, Taken
 from scanbench.check.scopes import Pous, Scope, place_of
-from scanbench.check.values import parse_value
 from scanbench.problems import Span
 from scanbench.program.layout import Layout
 from scanbench.program.program import (
@@ -48,6 +47,7 @@ from scanbench.program.types import (
     Subrange,
     Type,
 )
+from scanbench.symbols.values import parse_value
 from scanbench.syntax import tree
 from scanbench.syntax.cursor import Unexpected
 from scanbench.syntax.parse_st import StParser

@@ -5,7 +5,6 @@ from dataclasses import dataclass
 from typing import get_args
 
 from scanbench.check.condition import Condition, compile_condition
-from scanbench.check.symbols import Symbol, UnknownPath, resolve
 from scanbench.cli.inputs import usage, with_near
 from scanbench.cli.raising import read_raise
 from scanbench.faults.inject import Recover
@@ -16,6 +15,7 @@ from scanbench.runtime.forces import Force
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
+from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.syntax.literals import duration
 
 AT = re.compile(r"(.*)@(\d+)", re.DOTALL)

@@ -5,13 +5,13 @@ import json
 
 import typer
 
-from scanbench.check.symbols import Symbol, members
-from scanbench.check.values import format_value, python_value
-from scanbench.check.violations import read_violations
 from scanbench.program.program import TrapKind
 from scanbench.program.types import ArrayType, Record
 from scanbench.runtime.headless import HeadlessRun
 from scanbench.runtime.resource import Resource
+from scanbench.symbols.symbols import Symbol, members
+from scanbench.symbols.values import format_value, python_value
+from scanbench.symbols.violations import read_violations
 
 Json = bool | int | float | str | None | list["Json"] | dict[str, "Json"]
 Shown = list[tuple[str, Symbol]]

@@ -7,8 +7,6 @@ from dataclasses import dataclass
 from difflib import get_close_matches
 from pathlib import Path
 
-from scanbench.check.symbols import UnknownPath, resolve
-from scanbench.check.values import parse_value
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate, Recover
@@ -22,6 +20,8 @@ from scanbench.runtime.header import Mode
 from scanbench.runtime.headless import HeadlessRun, run_headless
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.write import Write
+from scanbench.symbols.symbols import UnknownPath, resolve
+from scanbench.symbols.values import parse_value
 
 AUTHOR = "command line"
 _RUN_KEYS, _FILE_KEYS = ("name", "scans", "do"), ("name", "run", "scan")

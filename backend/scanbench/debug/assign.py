@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 from scanbench.check.condition import BadCondition
 from scanbench.check.local import LocalAssignments, locals_of
-from scanbench.check.values import format_value
 from scanbench.debug.called import called
 from scanbench.engines.interpreter.evaluate import Evaluator, NoValue
 from scanbench.program.copies import Spot
@@ -14,6 +13,7 @@ from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import forced_table
 from scanbench.runtime.rights import Right, may
 from scanbench.runtime.target import everywhere
+from scanbench.symbols.values import format_value
 
 _NAMES = 10_000
 """Places whose names are kept, as they take long to find."""

@@ -1,6 +1,12 @@
 """What an in-out is bound to: who passes what to it, and which of them ran last."""
 
-from scanbench.check.call_sites import (
+from scanbench.debug.bound_to import Bound, BoundTo, Convention
+from scanbench.program.copies import Spot, referred
+from scanbench.program.program import Program, Task
+from scanbench.program.types import Elementary, StringType
+from scanbench.runtime.command import View
+from scanbench.runtime.target import not_called, passed_by, read_only_reason
+from scanbench.symbols.call_sites import (
     Calls,
     CallSite,
     Formal,
@@ -10,14 +16,8 @@ from scanbench.check.call_sites import (
     in_every_run,
     slot_value,
 )
-from scanbench.check.named import same_place, temporary_at, variable_at
-from scanbench.check.symbols import Symbol, resolve
-from scanbench.debug.bound_to import Bound, BoundTo, Convention
-from scanbench.program.copies import Spot, referred
-from scanbench.program.program import Program, Task
-from scanbench.program.types import Elementary, StringType
-from scanbench.runtime.command import View
-from scanbench.runtime.target import not_called, passed_by, read_only_reason
+from scanbench.symbols.named import same_place, temporary_at, variable_at
+from scanbench.symbols.symbols import Symbol, resolve
 
 UNKNOWN_INDEX = "what it passes cannot be told now: it is computed from values that are not there yet"
 

@@ -1,10 +1,10 @@
 """All breakpoints of one PLC, group by group, as they stand in the program that runs."""
 
-from scanbench.check.sites import sites_of
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.debug.placed import Placed, Placing
 from scanbench.debug.texts import Texts
 from scanbench.runtime.programs import Loaded
+from scanbench.symbols.sites import sites_of
 
 _KEPT = 3
 """Programs whose statements stay known."""

@@ -1,9 +1,9 @@
 """What people call a place of the image: the path of the variable that lives there, its address."""
 
-from scanbench.check.named import temporary_at, variable_at
-from scanbench.check.symbols import RAW_TYPES, at_offset
 from scanbench.program.program import Program
 from scanbench.program.types import BOOL, Type
+from scanbench.symbols.named import temporary_at, variable_at
+from scanbench.symbols.symbols import RAW_TYPES, at_offset
 
 
 def called(program: Program, offset: int, bit: int | None, type: Type) -> str:

@@ -1,12 +1,12 @@
 """The call stack: open calls as people name them."""
 
 from scanbench.check.local import this_of
-from scanbench.check.symbols import instance_at
 from scanbench.debug.scene import Scene
 from scanbench.debug.shown import FrameInfo
 from scanbench.engines.debug import Frame
 from scanbench.program.program import Program
 from scanbench.program.types import Record
+from scanbench.symbols.symbols import instance_at
 
 
 def stack(scene: Scene) -> tuple[FrameInfo, ...]:

@@ -4,9 +4,6 @@ from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 
-from scanbench.check.call_sites import formal_of
-from scanbench.check.sites import Sites
-from scanbench.check.symbols import Symbol, UnknownPath, resolve
 from scanbench.debug.assign import Assigning
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.hits import HitRule, parse_hits
@@ -15,6 +12,9 @@ from scanbench.problems import perhaps
 from scanbench.program.bodies import every
 from scanbench.program.program import Pou, Program, Return
 from scanbench.program.types import BOOL, Kind, Record
+from scanbench.symbols.call_sites import formal_of
+from scanbench.symbols.sites import Sites
+from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 
 
 @dataclass(eq=False, slots=True)

@@ -3,10 +3,10 @@
 from dataclasses import dataclass, field
 
 from scanbench.check.local import Locals, locals_of
-from scanbench.check.sites import Sites
 from scanbench.engines.debug import Frame
 from scanbench.engines.interpreter.evaluate import Evaluator
 from scanbench.program.program import Pou, Program
+from scanbench.symbols.sites import Sites
 
 
 @dataclass(frozen=True, slots=True)

@@ -5,7 +5,6 @@ from dataclasses import replace
 from itertools import islice
 
 from scanbench.check.condition import BadCondition
-from scanbench.check.symbols import Symbol, UnknownPath, behind, children, member_of, resolve, roots
 from scanbench.debug.frames import frame_record, instance_path
 from scanbench.debug.scene import NoFrame, Scene, at
 from scanbench.debug.shown import ScopeInfo, VariableInfo
@@ -13,6 +12,7 @@ from scanbench.debug.variables import Shown, info, tool_path, with_bounds
 from scanbench.engines.debug import Frame
 from scanbench.engines.interpreter.evaluate import NoValue
 from scanbench.program.types import Member, Record, Reference, Section, actual_of
+from scanbench.symbols.symbols import Symbol, UnknownPath, behind, children, member_of, resolve, roots
 
 MOST = 1000
 """Variables in one answer."""

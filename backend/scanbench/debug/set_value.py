@@ -4,7 +4,6 @@ from dataclasses import dataclass
 
 from scanbench.check.condition import BadCondition
 from scanbench.check.local import locals_of
-from scanbench.check.values import parse_value
 from scanbench.debug.assign import Assign, patch, pou_of, refused
 from scanbench.debug.scene import NoFrame, Scene, at
 from scanbench.debug.scopes import named
@@ -14,6 +13,7 @@ from scanbench.program.types import Subrange, Type
 from scanbench.runtime.command import Command, Plan, Refusal, View
 from scanbench.runtime.target import everywhere
 from scanbench.runtime.write import Write
+from scanbench.symbols.values import parse_value
 
 
 @dataclass(frozen=True, slots=True)

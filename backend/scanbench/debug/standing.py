@@ -1,10 +1,10 @@
 """Where a PLC is halted, for people: statement, instance and task."""
 
-from scanbench.check.symbols import instance_at
 from scanbench.debug.halt import Halt
 from scanbench.debug.listener import Found
 from scanbench.debug.placed import Placing
 from scanbench.runtime.resource import Resource
+from scanbench.symbols.symbols import instance_at
 
 
 def halt_of(resource: Resource, placing: Placing, found: Found, number: int, past: bool) -> Halt:

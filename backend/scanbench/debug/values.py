@@ -1,7 +1,7 @@
 """Bytes of the image as people read them."""
 
-from scanbench.check.values import format_value
 from scanbench.program.types import BOOL, Elementary, StringType, Type
+from scanbench.symbols.values import format_value
 
 
 def value_text(type: Type, data: bytes) -> str:

@@ -2,9 +2,6 @@
 
 from dataclasses import dataclass, replace
 
-from scanbench.check.named import variable_at
-from scanbench.check.symbols import Symbol, behind
-from scanbench.check.values import format_value
 from scanbench.debug.called import address_at, called
 from scanbench.debug.scene import Scene
 from scanbench.debug.shown import VariableInfo
@@ -19,6 +16,9 @@ from scanbench.program.types import (
     StringType,
     Type,
 )
+from scanbench.symbols.named import variable_at
+from scanbench.symbols.symbols import Symbol, behind
+from scanbench.symbols.values import format_value
 
 UNBOUND = "not connected"
 MANY = 10_000_000

@@ -4,8 +4,6 @@ from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 
 from scanbench.check.local import this_of
-from scanbench.check.sites import Sites
-from scanbench.check.symbols import Symbol, holding
 from scanbench.problems import Span
 from scanbench.program.origin import in_library
 from scanbench.program.program import (
@@ -30,6 +28,8 @@ from scanbench.program.program import (
     Violates,
 )
 from scanbench.program.types import BOOL, LWORD, ULINT, Elementary, Kind, Record, Reference, Section, Type, base_of
+from scanbench.symbols.sites import Sites
+from scanbench.symbols.symbols import Symbol, holding
 
 _ANYTHING = Reference("REF_TO", Kind.REF, 8)
 

@@ -17,11 +17,11 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field
 from typing import Protocol
 
-from scanbench.check.sites import Sites
 from scanbench.engines.engine import Engine
 from scanbench.engines.observe import Observer
 from scanbench.program.program import Pou
 from scanbench.program.types import Section
+from scanbench.symbols.sites import Sites
 
 READ, WRITE = 1, 2
 """Bits of `Listen.bytes`."""

@@ -11,10 +11,10 @@ from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 
-from scanbench.check.sites import Sites, sites_of
 from scanbench.engines.engine import Engine
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
+from scanbench.symbols.sites import Sites, sites_of
 
 LIMIT = 8192
 """Reads that are kept from one `take` to the next."""

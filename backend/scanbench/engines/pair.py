@@ -1,13 +1,13 @@
 """Both engines at once: every scan runs on each, and the images must agree byte for byte."""
 
 from scanbench.check.condition import Condition
-from scanbench.check.symbols import at_offset
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.sample import Sampling
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
+from scanbench.symbols.symbols import at_offset
 
 
 class Differs(Exception):

@@ -9,9 +9,9 @@ from abc import abstractmethod
 from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 
-from scanbench.check.sites import StatementSite
 from scanbench.engines.engine import Engine
 from scanbench.program.program import Expr, Program
+from scanbench.symbols.sites import StatementSite
 
 
 @dataclass(frozen=True, slots=True)

@@ -9,12 +9,12 @@ from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from scanbench.check.symbols import Symbol, resolve
 from scanbench.faults.flows import ANYWHERE, Flow, Flows, Ref, ref_of
 from scanbench.program.layout import Layout
 from scanbench.program.origin import in_library
 from scanbench.program.program import Base, Pou, Program
 from scanbench.program.types import ArrayType, Kind, Record, Type, has_instance
+from scanbench.symbols.symbols import Symbol, resolve
 
 _EDGES = ("R_TRIG", "F_TRIG")
 _STEPS = 100_000

@@ -8,13 +8,13 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from scanbench.check.holding import Held, Holders
-from scanbench.check.symbols import Symbol
-from scanbench.check.values import format_value
 from scanbench.faults.deciding import Deciding
 from scanbench.faults.error_memory import WORD, Words
 from scanbench.faults.reaction import Difference
 from scanbench.program.program import Program
+from scanbench.symbols.holding import Held, Holders
+from scanbench.symbols.symbols import Symbol
+from scanbench.symbols.values import format_value
 
 SHOWN = 200
 _NAMED = 5_000

@@ -2,10 +2,10 @@
 
 from difflib import get_close_matches
 
-from scanbench.check.sites import sites_of
 from scanbench.problems import perhaps
 from scanbench.program.program import Program
 from scanbench.runtime.command import Refusal
+from scanbench.symbols.sites import sites_of
 
 
 def find_line(program: Program, file: str, line: int) -> tuple[int, ...] | Refusal:

@@ -11,7 +11,6 @@ from typing import NamedTuple
 
 import numpy as np
 
-from scanbench.check.sites import StatementSite
 from scanbench.engines.observe import Observer, ReadAt
 from scanbench.faults.details import Chosen, choose
 from scanbench.faults.detect import Detection
@@ -31,6 +30,7 @@ from scanbench.runtime.header import Halt
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.trap import TrapInfo, Trapped
+from scanbench.symbols.sites import StatementSite
 
 TRACE_LIMIT = 128 << 20
 """Bytes that the run without the error may take: what it changed, scan by scan."""

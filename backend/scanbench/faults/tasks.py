@@ -2,11 +2,11 @@
 
 from collections.abc import Iterator
 
-from scanbench.check.values import format_time
 from scanbench.faults.error_memory import Watched
 from scanbench.faults.reaction import What
 from scanbench.problems import Span
 from scanbench.program.program import Base, Program, Task
+from scanbench.symbols.values import format_time
 
 
 class Turns:

@@ -9,7 +9,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field
 
 from scanbench.check.classes import TYPE_NUMBER
-from scanbench.check.symbols import UnknownPath, resolve, starting_at
 from scanbench.program.copies import BYTE_OFFSET
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
@@ -26,6 +25,7 @@ from scanbench.program.types import (
     Subrange,
     Type,
 )
+from scanbench.symbols.symbols import UnknownPath, resolve, starting_at
 
 _HEADER = (
     (Layout.CLOCK, 8), (Layout.SCAN, 8), (Layout.BUDGET_LIMIT, 8), (Layout.MODE, 2), (Layout.EPOCH, 8), (Layout.STARTED, 8),

@@ -3,8 +3,8 @@
 from dataclasses import dataclass
 from typing import ClassVar
 
-from scanbench.check.violations import cleared, read_violations
 from scanbench.runtime.command import Category, Command, Patch, Plan, Refusal, View
+from scanbench.symbols.violations import cleared, read_violations
 
 
 @dataclass(frozen=True, slots=True)

@@ -10,8 +10,6 @@ from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, replace
 from typing import ClassVar, TypeVar
 
-from scanbench.check.symbols import Symbol
-from scanbench.check.values import format_value
 from scanbench.program.layout import Layout
 from scanbench.program.types import Elementary
 from scanbench.runtime.command import Category, Command, Entry, Patch, Plan, Refusal, Restarted, Swapped, View
@@ -19,6 +17,8 @@ from scanbench.runtime.holds import held, holder
 from scanbench.runtime.journal import Fold
 from scanbench.runtime.rights import Right, may
 from scanbench.runtime.target import Meant, Naming, everywhere, find, meant, writable_target
+from scanbench.symbols.symbols import Symbol
+from scanbench.symbols.values import format_value
 
 _ENTRY = struct.Struct("<IBBBB")
 _COUNT = struct.Struct("<I")

@@ -6,15 +6,15 @@ execution was given, so that is what a command names in the journal.
 
 from dataclasses import dataclass, replace
 
-from scanbench.check.call_sites import Calls, CallSite, Formal, address, formal_of
-from scanbench.check.named import temporary_at, variable_at
-from scanbench.check.symbols import Symbol, UnknownPath, resolve
-from scanbench.check.values import parse_value
 from scanbench.program.copies import Copies, Copy, Image, Spot
 from scanbench.program.program import Pou
 from scanbench.program.types import Elementary, StringType, Subrange
 from scanbench.runtime.command import Command, Patch, Refusal, View
 from scanbench.runtime.rights import Right, may
+from scanbench.symbols.call_sites import Calls, CallSite, Formal, address, formal_of
+from scanbench.symbols.named import temporary_at, variable_at
+from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
+from scanbench.symbols.values import parse_value
 
 
 @dataclass(frozen=True, slots=True)

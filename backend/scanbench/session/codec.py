@@ -9,7 +9,6 @@ from dataclasses import fields
 
 import msgpack  # type: ignore[import-untyped]
 
-from scanbench.check.violations import Violation, Violations
 from scanbench.debug.assign import Assign
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.halt import Halt
@@ -36,6 +35,7 @@ from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped
 from scanbench.runtime.write import Write
 from scanbench.session import debug_protocol, events, job_protocol, protocol, trace_protocol, verify_protocol
+from scanbench.symbols.violations import Violation, Violations
 from scanbench.taps.covered import CoveredFile, CoveredSite
 from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
 from scanbench.verify.disturb import DISTURBED, Calm, Disturb, DisturbanceInfo

@@ -6,7 +6,6 @@ from datetime import datetime
 from typing import Literal, Protocol
 
 from scanbench.check.build import PouInfo
-from scanbench.check.violations import Violations
 from scanbench.debug.breakpoint import Verdict
 from scanbench.debug.halt import Halt
 from scanbench.faults.arm import ArmedInfo
@@ -20,6 +19,7 @@ from scanbench.session import debug_protocol
 from scanbench.session.protocol import Previewed, RunMark, WatchItem
 from scanbench.session.trace_protocol import TraceStatus
 from scanbench.store.records import AcceptedRow, CellRow, ProjectRow, SweepRow
+from scanbench.symbols.violations import Violations
 from scanbench.verify.disturb import DisturbanceInfo
 from scanbench.verify.findings import Divergence
 from scanbench.verify.verified import DEFAULT_LIMIT, Memory, Mismatch, Range

@@ -7,7 +7,6 @@ its command; `Standing` and `RunMarks` say what holds after all entries so far, 
 
 from dataclasses import dataclass
 
-from scanbench.check.violations import Violations
 from scanbench.debug.halt import Halt
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.inject import Active
@@ -18,6 +17,7 @@ from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import ForcedValue
 from scanbench.runtime.recording import RecordingInfo
 from scanbench.runtime.trap import TrapInfo
+from scanbench.symbols.violations import Violations
 from scanbench.verify.disturb import DisturbanceInfo
 
 # ---- parent to host ------------------------------------------------------------------------------------------------

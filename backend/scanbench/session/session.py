@@ -5,7 +5,6 @@ from collections.abc import Awaitable, Callable, Iterable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
-from scanbench.check.violations import Violations
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.history import ErrorRow, History, Swept
@@ -32,6 +31,7 @@ from scanbench.session.trace_protocol import TracesAre
 from scanbench.session.tracing import Tracing
 from scanbench.session.watches import Watches
 from scanbench.store.records import InstanceRow, Json, NotFound
+from scanbench.symbols.violations import Violations
 from scanbench.verify.disturb import DisturbanceInfo
 
 LOG_LINES = 500

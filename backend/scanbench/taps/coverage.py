@@ -4,9 +4,9 @@ from collections.abc import Mapping
 from difflib import SequenceMatcher
 from itertools import groupby
 
-from scanbench.check.sites import Sites
 from scanbench.engines.observe import Seen
 from scanbench.problems import Span
+from scanbench.symbols.sites import Sites
 from scanbench.taps.covered import CoveredFile, CoveredSite
 
 Key = tuple[str, str]

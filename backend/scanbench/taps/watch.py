@@ -11,8 +11,8 @@ from collections.abc import Iterable, Mapping
 import numpy as np
 from numpy.typing import NDArray
 
-from scanbench.check.symbols import Symbol
 from scanbench.program.types import Elementary, StringType
+from scanbench.symbols.symbols import Symbol
 
 VALUES = 1
 _HEAD = struct.Struct("<BBHIQq")

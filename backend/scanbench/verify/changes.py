@@ -6,15 +6,15 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scanbench.check.holding import Holders
-from scanbench.check.symbols import Symbol
-from scanbench.check.values import format_value, python_value
 from scanbench.faults.error_memory import code_bits, kept_bits, log_bits
 from scanbench.program.program import Program
 from scanbench.program.types import Elementary, Enumeration, StringType, Type
 from scanbench.runtime.carry_over import carry_over
 from scanbench.runtime.command import Entry
 from scanbench.runtime.header import Mode, fresh_image
+from scanbench.symbols.holding import Holders
+from scanbench.symbols.symbols import Symbol
+from scanbench.symbols.values import format_value, python_value
 from scanbench.verify.findings import MAX_CHANGES, Change, Changes
 from scanbench.verify.reading import NoReading, Reading
 

@@ -8,14 +8,14 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from scanbench.check.symbols import Symbol
-from scanbench.check.values import format_value
 from scanbench.program.layout import Layout
 from scanbench.program.types import Elementary, StringType
 from scanbench.runtime.command import Category, Command, Freed, Held, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import notes_of, read_table, table_patches
 from scanbench.runtime.holds import HELD, HeldByte, held, holder
 from scanbench.runtime.target import not_called
+from scanbench.symbols.symbols import Symbol
+from scanbench.symbols.values import format_value
 from scanbench.verify.disturb_wanted import bits_of, single_value
 
 

@@ -3,11 +3,11 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
-from scanbench.check.named import temporary_at
-from scanbench.check.symbols import UnknownPath, at_offset, resolve
 from scanbench.program.program import Program
 from scanbench.program.types import BOOL, ArrayType, Elementary, Record, StringType, Type
 from scanbench.runtime.command import Command
+from scanbench.symbols.named import temporary_at
+from scanbench.symbols.symbols import UnknownPath, at_offset, resolve
 from scanbench.verify.disturb import Disturbed
 from scanbench.verify.disturb_fire import Corrupt
 from scanbench.verify.disturb_wanted import chance

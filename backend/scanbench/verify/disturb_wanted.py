@@ -5,14 +5,14 @@ from dataclasses import dataclass
 from hashlib import blake2b
 from typing import Literal, get_args
 
-from scanbench.check.sites import sites_of
-from scanbench.check.symbols import Symbol
 from scanbench.faults.lines import find_line
 from scanbench.program.bodies import every
 from scanbench.program.program import Assign, CallBlock, Evaluate, For, Program, SetBytes
 from scanbench.program.types import BOOL, Elementary, StringType
 from scanbench.runtime.command import Refusal, View
 from scanbench.runtime.target import find
+from scanbench.symbols.sites import sites_of
+from scanbench.symbols.symbols import Symbol
 
 DisturbanceKind = Literal["flip", "late", "stuck", "result"]
 FOR_EVER = 1_000_000

@@ -3,12 +3,12 @@
 from dataclasses import dataclass, field, replace
 from difflib import get_close_matches
 
-from scanbench.check.values import parse_value
 from scanbench.engines.engine import Reason
 from scanbench.problems import perhaps
 from scanbench.program.types import StringType
 from scanbench.runtime.command import Patch
 from scanbench.runtime.trap import trap_info
+from scanbench.symbols.values import parse_value
 from scanbench.verify.both import Both, Ran
 from scanbench.verify.monitor import Inputs
 from scanbench.verify.naming import Leaf

@@ -6,10 +6,10 @@ from dataclasses import asdict, dataclass
 from typing import Literal, TypeVar, get_args
 
 from scanbench.check.condition import BadCondition, compile_signal
-from scanbench.check.sites import Sites, sites_of
-from scanbench.check.symbols import Symbol, UnknownPath, resolve
 from scanbench.debug.writers import writers
 from scanbench.program.program import Program
+from scanbench.symbols.sites import Sites, sites_of
+from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.verify.trace_axis import Unit, axis_of, plain_name
 from scanbench.verify.trace_table import Table
 

@@ -9,9 +9,6 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import NamedTuple
 
-from scanbench.check.named import located
-from scanbench.check.sites import Sites
-from scanbench.check.symbols import RAW_TYPES, Symbol, at_offset, instance_at, roots_at
 from scanbench.program.copies import Image, referred
 from scanbench.program.layout import Layout
 from scanbench.program.program import Pou, Program
@@ -27,6 +24,9 @@ from scanbench.program.types import (
     StringType,
     Type,
 )
+from scanbench.symbols.named import located
+from scanbench.symbols.sites import Sites
+from scanbench.symbols.symbols import RAW_TYPES, Symbol, at_offset, instance_at, roots_at
 from scanbench.verify.ranges import owner_of
 from scanbench.verify.verified import Column
 

@@ -3,11 +3,11 @@
 from collections.abc import Callable
 from dataclasses import dataclass
 
-from scanbench.check.instances import instances_of
-from scanbench.check.sites import Sites
-from scanbench.check.symbols import instance_at
 from scanbench.engines.debug import Frame
 from scanbench.program.program import Pou, Program
+from scanbench.symbols.instances import instances_of
+from scanbench.symbols.sites import Sites
+from scanbench.symbols.symbols import instance_at
 from scanbench.verify.ranges import owner_of
 from scanbench.verify.verified import Place
 

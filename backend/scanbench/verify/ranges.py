@@ -5,13 +5,13 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 
-from scanbench.check.instances import instances_of
 from scanbench.check.local import this_of
-from scanbench.check.sites import Sites
-from scanbench.check.symbols import UnknownPath, resolve
 from scanbench.problems import Span, perhaps
 from scanbench.program.program import Pou, Program
 from scanbench.program.types import Record
+from scanbench.symbols.instances import instances_of
+from scanbench.symbols.sites import Sites
+from scanbench.symbols.symbols import UnknownPath, resolve
 from scanbench.verify.verified import BadRange, Range
 
 _TEXT = re.compile(r"(?P<head>[^:@]*)(?::(?P<first>[^-@]*)(?:-(?P<last>[^@]*))?)?(?:@(?P<instance>.*))?")

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from scanbench.check.values import format_value
 from scanbench.engines.debug import Frame
+from scanbench.symbols.values import format_value
 from scanbench.verify.naming import Leaf, Namer, Names
 from scanbench.verify.places import Places
 from scanbench.verify.uses import Access

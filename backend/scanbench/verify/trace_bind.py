@@ -4,11 +4,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 from difflib import get_close_matches
 
-from scanbench.check.sites import sites_of
-from scanbench.check.symbols import Symbol, UnknownPath, resolve
 from scanbench.problems import perhaps
 from scanbench.program.program import Program
 from scanbench.program.types import Elementary, StringType
+from scanbench.symbols.sites import sites_of
+from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.verify.mapping import ColumnMap, Gaps, TraceMapping, bits_of, written
 from scanbench.verify.trace_axis import Scans, axis_of, plain_name, scans_of
 from scanbench.verify.trace_table import Problems, Table, TraceProblem

@@ -3,9 +3,9 @@
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import replace
 
-from scanbench.check.values import format_value
 from scanbench.engines.debug import Frame, Listen
 from scanbench.runtime.trap import trap_info
+from scanbench.symbols.values import format_value
 from scanbench.verify.naming import ANYWHERE, Leaf, Names
 from scanbench.verify.ranges import Resolved
 from scanbench.verify.rows import MAX_MISMATCHES, Reader, written_by

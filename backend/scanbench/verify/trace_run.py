@@ -3,10 +3,10 @@
 from collections.abc import Mapping, Sequence
 from difflib import get_close_matches
 
-from scanbench.check.values import parse_value
 from scanbench.problems import perhaps
 from scanbench.program.program import Program
 from scanbench.program.types import StringType
+from scanbench.symbols.values import parse_value
 from scanbench.verify.control import Unverifiable
 from scanbench.verify.edits import BadEdit, Edit
 from scanbench.verify.mapping import BadMapping, TraceMapping

@@ -7,8 +7,8 @@ from collections.abc import Sequence
 from dataclasses import dataclass
 from decimal import Decimal
 
-from scanbench.check.values import parse_value
 from scanbench.program.types import Elementary, Enumeration, Kind, StringType
+from scanbench.symbols.values import parse_value
 from scanbench.syntax.literals import UNITS_NS
 from scanbench.verify.trace_axis import Unit, number
 

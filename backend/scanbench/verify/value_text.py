@@ -5,8 +5,8 @@ import struct
 from functools import lru_cache
 from typing import Literal, get_args
 
-from scanbench.check.values import DATES, format_time, format_value
 from scanbench.program.types import Elementary, Enumeration, Kind, StringType, Type
+from scanbench.symbols.values import DATES, format_time, format_value
 from scanbench.verify.verified import Column, Mismatch
 
 Format = Literal["default", "decimal", "signed", "unsigned", "hex", "binary", "bcd", "float", "time", "ascii"]

@@ -2,8 +2,6 @@
 
 from dataclasses import dataclass
 
-from scanbench.check.symbols import Symbol, UnknownPath, resolve
-from scanbench.check.values import format_value
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.debug.breakpoints import Breakpoints
 from scanbench.debug.frames import frame_name, instance_path, task_of
@@ -19,6 +17,8 @@ from scanbench.runtime.command import Entry, Held, Patch, Refusal, Restarted, Sw
 from scanbench.runtime.forces import read_table
 from scanbench.runtime.restart import retained
 from scanbench.runtime.target import Meant, meant, not_called
+from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
+from scanbench.symbols.values import format_value
 from scanbench.verify.findings import Writer
 from scanbench.verify.plc_writes import last_change
 from scanbench.verify.reading import NoReading, Reading

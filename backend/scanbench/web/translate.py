@@ -1,7 +1,6 @@
 """The session's dataclasses -> wire shapes. Nothing is decided here."""
 
 from scanbench.check.build import PouInfo
-from scanbench.check.violations import Violation, Violations
 from scanbench.faults.history import ErrorRow
 from scanbench.plcmodel import model as plc
 from scanbench.problems import Problem
@@ -13,6 +12,7 @@ from scanbench.session.events import BuildOutcome, Change, CheckOutcome, LogEntr
 from scanbench.session.protocol import SymbolInfo, WatchItem
 from scanbench.session.session import Session
 from scanbench.store.records import FileInfo, FileRow, ProjectRow
+from scanbench.symbols.violations import Violation, Violations
 from scanbench.web import messages as wire
 from scanbench.web import messages_debug as debugger
 from scanbench.web import messages_errors as simulator

@@ -3,8 +3,8 @@
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.symbols import UnknownPath, complete, members, resolve
 from scanbench.program.program import Program
+from scanbench.symbols.symbols import UnknownPath, complete, members, resolve
 from tests.caseformat import MODELS
 
 MODEL = MODELS["GENERIC-IEC"]

@@ -1,7 +1,7 @@
 """Lists of global variables (.TcGVL): their variables are known with the list's name in front, and without it where one list has them."""
 
 from scanbench.check.build import Checked, check_sources
-from scanbench.check.symbols import resolve
+from scanbench.symbols.symbols import resolve
 from tests.caseformat import MODELS
 
 LIST = (

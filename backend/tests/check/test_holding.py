@@ -1,8 +1,8 @@
 """From bytes back to names."""
 
-from scanbench.check.holding import Holders
-from scanbench.check.symbols import resolve
 from scanbench.program.program import Program
+from scanbench.symbols.holding import Holders
+from scanbench.symbols.symbols import resolve
 from tests.runtime.bench import program
 
 SOURCE = """

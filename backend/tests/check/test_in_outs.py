@@ -7,11 +7,11 @@ import pytest
 
 from scanbench.check.build import Checked, check_sources
 from scanbench.check.incremental import Checks
-from scanbench.check.sites import Outcome, StatementSite, sites_of
-from scanbench.check.symbols import resolve
 from scanbench.engines.native.emit_program import emit_program
 from scanbench.program.program import Program
 from scanbench.program.types import Record
+from scanbench.symbols.sites import Outcome, StatementSite, sites_of
+from scanbench.symbols.symbols import resolve
 from tests.caseformat import MODELS, read_cases
 
 BY_REFERENCE = MODELS["GENERIC-IEC"]

@@ -1,8 +1,8 @@
 """The instances of a POU, by path."""
 
 from scanbench.check.build import check_sources
-from scanbench.check.instances import instances_of
 from scanbench.program.program import Program
+from scanbench.symbols.instances import instances_of
 from tests.caseformat import MODELS
 
 SOURCE = """

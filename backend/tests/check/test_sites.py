@@ -9,9 +9,9 @@ import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.check.incremental import Checks
-from scanbench.check.sites import sites_of
 from scanbench.plcmodel.model import Model
 from scanbench.program.program import Program
+from scanbench.symbols.sites import sites_of
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import read
 from tests.caseformat import MODELS, Case, read_cases

@@ -3,12 +3,12 @@
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.violations import read_violations
 from scanbench.engines.engine import Engine
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
+from scanbench.symbols.violations import read_violations
 from tests.caseformat import MODELS
 
 HEAD = "PROGRAM Main\nVAR x, x2 : INT (0..10); y, z : INT; s : INT (0..5); u : USINT; w : INT (0..255); END_VAR\n"

@@ -3,9 +3,9 @@
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.symbols import UnknownPath, at_offset, complete, members, resolve
-from scanbench.check.values import format_value, parse_value
 from scanbench.program.program import Program
+from scanbench.symbols.symbols import UnknownPath, at_offset, complete, members, resolve
+from scanbench.symbols.values import format_value, parse_value
 from tests.caseformat import MODELS
 
 SOURCE = """

@@ -5,13 +5,13 @@ from datetime import UTC, datetime, timedelta
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.symbols import resolve
 from scanbench.engines.engine import Reason
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.pair import PairEngine
 from scanbench.plcmodel.model import Model, Special
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
+from scanbench.symbols.symbols import resolve
 from tests.caseformat import MODELS
 
 EPOCH = datetime(2023, 12, 31, 23, 59, 59, 500_000, UTC)

@@ -2,8 +2,8 @@
 
 import pytest
 
-from scanbench.check.values import format_value, parse_value, python_value
 from scanbench.program.types import ELEMENTARY, NULL, Enumeration, Kind, Reference, StringType, Subrange, Type
+from scanbench.symbols.values import format_value, parse_value, python_value
 
 COLOR = Enumeration("Color", Kind.INT, 2, (("RED", 0), ("GREEN", 5)))
 TO_INT = Reference("REF_TO INT", Kind.REF, 8, ELEMENTARY["INT"])

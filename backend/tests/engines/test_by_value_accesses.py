@@ -6,11 +6,11 @@ from dataclasses import replace
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.symbols import resolve
 from scanbench.engines.debug import READ, WRITE, DebugEngine, Listen
 from scanbench.engines.interpreter.debugged import debug_engine
 from scanbench.engines.native.debugged import DebugBuilds
 from scanbench.program.program import Program
+from scanbench.symbols.symbols import resolve
 from tests.caseformat import MODELS
 
 SOURCE = """

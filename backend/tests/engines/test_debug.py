@@ -10,7 +10,6 @@ import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.check.condition import Condition, compile_condition
-from scanbench.check.symbols import resolve
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.debug import NOTHING, READ, WRITE, DebugEngine, Frame, Listen
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
@@ -20,6 +19,7 @@ from scanbench.engines.native.debugged import DebugBuilds
 from scanbench.engines.native.emit_program import emit_program
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
+from scanbench.symbols.symbols import resolve
 from tests.caseformat import MODELS, first_difference, read_cases, run_case
 from tests.engines.test_observe import check
 from tests.programs import generate

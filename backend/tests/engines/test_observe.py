@@ -7,7 +7,6 @@ from pathlib import Path
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.symbols import resolve
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.engine import Engine, Reason, Stop
 from scanbench.engines.interpreter.engine import ReferenceEngine
@@ -21,6 +20,7 @@ from scanbench.engines.native.observed import observed_engine as linked_engine
 from scanbench.engines.observe import LIMIT, MakeObserved, Observed, ReadAt, Seen, areas_end
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
+from scanbench.symbols.symbols import resolve
 from tests.caseformat import MODELS, first_difference, read_cases, run_case
 from tests.programs import generate
 from tests.programs.areas import areas

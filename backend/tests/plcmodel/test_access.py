@@ -10,13 +10,13 @@ from functools import cache
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.symbols import resolve
 from scanbench.faults.inject import Generate
 from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.model import Model
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
+from scanbench.symbols.symbols import resolve
 from tests.runtime.bench import model as named
 from tests.runtime.bench import plc
 

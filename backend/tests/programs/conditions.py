@@ -1,10 +1,10 @@
 """Random conditions on random programs: both engines must come back after the same scans."""
 
 from scanbench.check.condition import Condition, compile_condition
-from scanbench.check.symbols import members
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.program.program import Program
+from scanbench.symbols.symbols import members
 from tests.programs.compare import SCANS, checked, limited
 from tests.programs.expressions import expression
 from tests.programs.scope import TYPES, Draw, Scope

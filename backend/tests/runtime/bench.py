@@ -3,8 +3,6 @@
 from functools import cache
 
 from scanbench.check.build import check_sources
-from scanbench.check.symbols import resolve
-from scanbench.check.values import python_value
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.plcmodel.load import model_named
@@ -14,6 +12,8 @@ from scanbench.runtime.command import Entry
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
 from scanbench.runtime.resource import Resource
+from scanbench.symbols.symbols import resolve
+from scanbench.symbols.values import python_value
 
 ENGINES: tuple[EngineFactory, ...] = (ReferenceEngine, NativeEngine)
 

@@ -6,7 +6,6 @@ from functools import cache
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.symbols import UnknownPath
 from scanbench.debug.binding import Bindings
 from scanbench.debug.bound_to import Bound
 from scanbench.program.program import Program
@@ -16,6 +15,7 @@ from scanbench.runtime.modes import SetMode
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
+from scanbench.symbols.symbols import UnknownPath
 from tests.runtime.bench import ENGINES, change, model, value
 
 SOURCE = """

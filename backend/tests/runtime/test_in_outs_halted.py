@@ -5,7 +5,6 @@ from dataclasses import replace
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.symbols import resolve
 from scanbench.debug.assign import Assign
 from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Reason
@@ -15,6 +14,7 @@ from scanbench.runtime.inside import HaltAt
 from scanbench.runtime.programs import EngineFactory, Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
+from scanbench.symbols.symbols import resolve
 from tests.runtime.bench import ENGINES, model, value
 
 SOURCE = """

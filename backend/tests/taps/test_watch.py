@@ -5,10 +5,10 @@ from dataclasses import dataclass, field
 
 import pytest
 
-from scanbench.check.symbols import resolve
 from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
+from scanbench.symbols.symbols import resolve
 from scanbench.taps.watch import WatchPlan
 from tests.runtime.bench import ENGINES, plc
 

@@ -6,7 +6,6 @@ from functools import partial
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.symbols import resolve
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.runtime.command import Command, Entry, Refusal
@@ -22,6 +21,7 @@ from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
+from scanbench.symbols.symbols import resolve
 from scanbench.verify.disturb import DISTURBED, MOST_DISTURBANCES, Calm, Disturb, disturbances, is_disturbance, told
 from scanbench.verify.disturb_fire import Corrupt, Flip, Hold, Unfired, Unhold
 from scanbench.verify.disturb_schedule import DisturbanceSchedule

@@ -8,7 +8,6 @@ from random import Random
 
 import pytest
 
-from scanbench.check.symbols import at_offset, resolve
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.runtime.command import Command, Entry, Freed, Held, Patch
@@ -18,6 +17,7 @@ from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.recording import Recording
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
+from scanbench.symbols.symbols import at_offset, resolve
 from scanbench.verify.disturb import Disturb, told
 from scanbench.verify.disturb_fire import Corrupt, Flip
 from scanbench.verify.disturb_schedule import DisturbanceSchedule

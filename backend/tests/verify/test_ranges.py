@@ -2,8 +2,8 @@
 
 import pytest
 
-from scanbench.check.sites import sites_of
 from scanbench.program.program import Program
+from scanbench.symbols.sites import sites_of
 from scanbench.verify.ranges import Resolved, parse_range, resolve_range
 from scanbench.verify.verified import BadRange, Range
 from tests.runtime.bench import program

@@ -6,8 +6,6 @@ from dataclasses import replace
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.symbols import resolve
-from scanbench.check.values import format_value
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.sample import MAX_SIGNALS
 from scanbench.program.program import Program
@@ -15,6 +13,8 @@ from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
 from scanbench.session.samples import Sample, samples
+from scanbench.symbols.symbols import resolve
+from scanbench.symbols.values import format_value
 from scanbench.verify.control import Unverifiable
 from scanbench.verify.edits import BadEdit
 from scanbench.verify.mapping import BadMapping, Gaps, TraceMapping, propose

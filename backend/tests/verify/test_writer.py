@@ -4,7 +4,6 @@ from pathlib import Path
 
 import pytest
 
-from scanbench.check.symbols import resolve
 from scanbench.debug.writers import writers
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
@@ -18,6 +17,7 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.timeline import Timeline
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
+from scanbench.symbols.symbols import resolve
 from scanbench.verify.disturb import Disturb
 from scanbench.verify.disturb_schedule import DisturbanceSchedule
 from scanbench.verify.disturb_wanted import Disturbance

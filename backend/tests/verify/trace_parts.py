@@ -5,7 +5,6 @@ from functools import cache
 
 from scanbench.check.build import check_sources
 from scanbench.check.condition import BadCondition, compile_signal
-from scanbench.check.symbols import members
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.program.program import Program
 from scanbench.program.types import ArrayType, Elementary, Record
@@ -14,6 +13,7 @@ from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
 from scanbench.session.samples import samples
+from scanbench.symbols.symbols import members
 from scanbench.taps.trace import Trace, TraceDefinition
 from scanbench.taps.trace_csv import to_csv
 from scanbench.verify.mapping import ColumnMap, Gaps, Role, TraceMapping

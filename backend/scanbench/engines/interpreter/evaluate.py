@@ -5,7 +5,6 @@ from dataclasses import replace
 from typing import TypeVar, cast
 
 from scanbench.check.local import Local, LocalAssignment, LocalAssignments, LocalPlace
-from scanbench.check.values import format_value
 from scanbench.engines.interpreter.arithmetic import Number
 from scanbench.engines.interpreter.expressions import Body
 from scanbench.engines.interpreter.memory import Value, putter
@@ -18,6 +17,7 @@ from scanbench.program.copies import Spot
 from scanbench.program.layout import Layout
 from scanbench.program.program import Expr, Place, Pou, Program, TrapSite
 from scanbench.program.types import Elementary, Kind, Record, StringType, Subrange, Type
+from scanbench.symbols.values import format_value
 
 T = TypeVar("T")
 ROUNDS = 50_000

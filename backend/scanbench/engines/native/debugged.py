@@ -6,7 +6,6 @@ The program is one module, compiled quickly, as observed code is; what its state
 import ctypes
 from dataclasses import dataclass
 
-from scanbench.check.sites import Sites
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.debug import NOTHING, READ, WRITE, DebugEngine, Frame, Hook, Listen, frame_of
 from scanbench.engines.engine import Pace, Reason, Stop
@@ -19,6 +18,7 @@ from scanbench.engines.native.observer import NativeObserver
 from scanbench.engines.observe import Seen
 from scanbench.garbage import without_collection
 from scanbench.program.program import Program
+from scanbench.symbols.sites import Sites
 
 _STATEMENT = ctypes.CFUNCTYPE(ctypes.c_int32, ctypes.c_int32, ctypes.c_uint64, ctypes.c_int32)
 _ACCESS = ctypes.CFUNCTYPE(None, ctypes.c_int32, ctypes.c_uint64, ctypes.c_uint64, ctypes.c_uint64, ctypes.c_int32)

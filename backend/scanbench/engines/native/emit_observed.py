@@ -8,7 +8,6 @@ statements of its own, as the library's, it is put where that finds it.
 from collections.abc import Iterator
 from contextlib import contextmanager
 
-from scanbench.check.sites import Sites, sites_of
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_memory import Address
 from scanbench.engines.native.flavour import Flavour
@@ -17,6 +16,7 @@ from scanbench.program.layout import Layout
 from scanbench.program.origin import is_system
 from scanbench.program.program import Base, Place, Pou, Program, Stmt
 from scanbench.program.types import Kind
+from scanbench.symbols.sites import Sites, sites_of
 
 STATE = "@observed"
 """What the code and the engine share: pointers to the marks and to the map in use, to the log, u64 the site that calls the

@@ -3,7 +3,6 @@
 from collections.abc import Iterator, Sequence
 from contextlib import AbstractContextManager, nullcontext
 
-from scanbench.check.sites import Sites, sites_of
 from scanbench.engines.native import walk
 from scanbench.engines.native.emit_body import Body, Unit
 from scanbench.engines.native.emit_function import UNLIKELY
@@ -13,6 +12,7 @@ from scanbench.engines.probe import BadProbe, Probe
 from scanbench.program.bodies import bodies
 from scanbench.program.layout import Layout
 from scanbench.program.program import Expr, If, Pou, Program, Stmt
+from scanbench.symbols.sites import Sites, sites_of
 
 SLOTS = "@probes"
 """An i64 for each probe: the last scan that reached it, or `NEVER`."""

@@ -4,10 +4,10 @@ import ctypes
 import struct
 from collections.abc import Iterable
 
-from scanbench.check.sites import Sites
 from scanbench.engines.native import emit_observed, jit
 from scanbench.engines.observe import Observer, ReadAt, Seen, areas_end
 from scanbench.program.program import Program
+from scanbench.symbols.sites import Sites
 
 _HEAD = struct.Struct("<II")
 _ENTRY = struct.Struct("<III")

@@ -5,8 +5,6 @@ from collections.abc import Callable
 
 from scanbench.check.condition import BadCondition
 from scanbench.check.local import Locals
-from scanbench.check.sites import Sites, sites_of
-from scanbench.check.symbols import UnknownPath
 from scanbench.debug.assign import Assign
 from scanbench.debug.binding import Bindings
 from scanbench.debug.debugger import Debugger
@@ -26,6 +24,8 @@ from scanbench.session.host.covering import Covering
 from scanbench.session.host.debugcode import Debuggable
 from scanbench.session.host.link import Link
 from scanbench.session.host.saying import Saying
+from scanbench.symbols.sites import Sites, sites_of
+from scanbench.symbols.symbols import UnknownPath
 
 _COUNTED_NS = 200_000_000
 """How often it is told that hits were counted, or that more was reached."""

@@ -1,11 +1,11 @@
 """Symbols for people: what is below a path, what completes a text."""
 
-from scanbench.check.call_sites import formal_of
-from scanbench.check.instances import instances_of
-from scanbench.check.symbols import Symbol, UnknownPath, complete, members, resolve
 from scanbench.program.program import Program
 from scanbench.program.types import Elementary, Enumeration, Section, StringType, Subrange
 from scanbench.session.protocol import Found, Lookup, SymbolInfo, WatchItem
+from scanbench.symbols.call_sites import formal_of
+from scanbench.symbols.instances import instances_of
+from scanbench.symbols.symbols import Symbol, UnknownPath, complete, members, resolve
 
 COMPLETIONS = 50
 

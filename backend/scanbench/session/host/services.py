@@ -3,8 +3,6 @@
 from collections.abc import Callable, Mapping
 from dataclasses import replace
 
-from scanbench.check.symbols import Symbol
-from scanbench.check.violations import Violations, read_violations
 from scanbench.debug.debugger import Debugger
 from scanbench.faults.arm import ARMED, armed_faults
 from scanbench.faults.inject import ACTIVE
@@ -21,6 +19,8 @@ from scanbench.session.host.lookup import watch_item
 from scanbench.session.host.marks import marks_of
 from scanbench.session.host.status import host_state
 from scanbench.session.host.swaps import Optimising
+from scanbench.symbols.symbols import Symbol
+from scanbench.symbols.violations import Violations, read_violations
 from scanbench.taps.watch import WatchPlan
 from scanbench.verify.disturb import DISTURBED, disturbances
 

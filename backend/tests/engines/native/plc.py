@@ -3,13 +3,13 @@
 from dataclasses import dataclass
 
 from scanbench.check.build import check_sources
-from scanbench.check.symbols import resolve
-from scanbench.check.values import parse_value, python_value
 from scanbench.engines.engine import Reason
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program, TrapSite
+from scanbench.symbols.symbols import resolve
+from scanbench.symbols.values import parse_value, python_value
 from tests.caseformat import MODELS, first_difference
 
 MODEL = MODELS["GENERIC-IEC"]

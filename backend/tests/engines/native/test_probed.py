@@ -8,7 +8,6 @@ import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.check.local import Local, Locals
-from scanbench.check.sites import Sites, sites_of
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.debug import DebugEngine, Listen
 from scanbench.engines.engine import Reason, Stop
@@ -25,6 +24,7 @@ from scanbench.engines.probe import BadProbe, Probe, ProbedEngine
 from scanbench.program.layout import Layout
 from scanbench.program.program import Pou, Program
 from scanbench.program.types import Elementary, Kind
+from scanbench.symbols.sites import Sites, sites_of
 from tests.caseformat import MODELS, first_difference
 from tests.engines.test_observe import check
 from tests.programs import generate

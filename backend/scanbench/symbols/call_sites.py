@@ -7,8 +7,6 @@ image now. A call that reaches its instance through a reference counts where tha
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 
-from scanbench.check.instances import instances_of
-from scanbench.check.symbols import PART, Symbol, UnknownPath, holding, resolve
 from scanbench.problems import Span
 from scanbench.program.bodies import bodies, every
 from scanbench.program.copies import BIT_SHIFT, Image, referred
@@ -32,6 +30,8 @@ from scanbench.program.program import (
     Stmt,
 )
 from scanbench.program.types import Elementary, Kind, Member, Record, Section, actual_of, is_derived
+from scanbench.symbols.instances import instances_of
+from scanbench.symbols.symbols import PART, Symbol, UnknownPath, holding, resolve
 
 WHOLE = (Kind.INT, Kind.UINT, Kind.BITS)
 

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
-from scanbench.check.symbols import Symbol, members, roots
 from scanbench.program.program import Program
 from scanbench.program.types import ArrayType, Record, Type
+from scanbench.symbols.symbols import Symbol, members, roots
 
 
 def instances_of(program: Program, pou: str, limit: int = 1000) -> list[Symbol]:

@@ -4,12 +4,12 @@ from bisect import bisect_right
 from collections.abc import Generator, Iterable, Iterator
 from typing import NamedTuple
 
-from scanbench.check.symbols import RAW_TYPES, Symbol, around, roots
 from scanbench.plcmodel.areas import Area
 from scanbench.program.layout import Layout
 from scanbench.program.origin import in_library
 from scanbench.program.program import Program
 from scanbench.program.types import ELEMENTARY, Kind, Record, Section
+from scanbench.symbols.symbols import RAW_TYPES, Symbol, around, roots
 
 _SYSTEM = (
     Symbol("_SubrangeError", "_SubrangeError", ELEMENTARY["BOOL"], "VAR_GLOBAL", Layout.SUBRANGE_ERROR),

@@ -2,10 +2,10 @@
 
 from collections.abc import Iterator
 
-from scanbench.check.symbols import Symbol, UnknownPath, around, members, resolve, roots, roots_at
 from scanbench.program.copies import Spot
 from scanbench.program.program import Pou, Program
 from scanbench.program.types import BOOL, ArrayType, Elementary, Record, Type
+from scanbench.symbols.symbols import Symbol, UnknownPath, around, members, resolve, roots, roots_at
 
 
 def variable_at(program: Program, place: Spot, type: Type) -> Symbol | None:

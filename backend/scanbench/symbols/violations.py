@@ -3,10 +3,10 @@
 import struct
 from dataclasses import dataclass
 
-from scanbench.check.symbols import instance_at
 from scanbench.problems import Span
 from scanbench.program.layout import Layout
 from scanbench.program.program import CheckSite, Program
+from scanbench.symbols.symbols import instance_at
 
 _HEAD = struct.Struct("<II")
 _ENTRY = struct.Struct("<IIQQQQ8x")
