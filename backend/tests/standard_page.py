@@ -2,7 +2,7 @@
 
 from pathlib import Path
 
-from scanbench.check import conversions
+from scanbench.check.body import conversions
 from scanbench.check.standard.functions import FUNCTIONS, Chain, Operator, Row, Same, Shift, Special, StringFunction
 from scanbench.check.standard.library import library
 from scanbench.program.types import Kind

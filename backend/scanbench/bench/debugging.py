@@ -20,7 +20,7 @@ from typing import TypeVar
 from scanbench.bench.building import LARGE
 from scanbench.bench.run import PROGRAMS, BenchError, checked_program
 from scanbench.check.build import check_sources
-from scanbench.check.local import Local, Locals
+from scanbench.check.typed.local import Local, Locals
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.debug import DebugEngine, Listen
 from scanbench.engines.engine import Engine, Reason

@@ -13,7 +13,7 @@ from statistics import median
 from time import monotonic_ns, perf_counter_ns, thread_time_ns
 
 from scanbench.check.build import check_sources
-from scanbench.check.condition import Condition, compile_condition
+from scanbench.check.typed.condition import Condition, compile_condition
 from scanbench.engines.engine import Engine, Pace, Reason
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.plcmodel.load import model_named

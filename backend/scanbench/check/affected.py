@@ -8,7 +8,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields, is_dataclass, replace
 
-from scanbench.check.collect import globals_of
+from scanbench.check.declare.collect import globals_of
 from scanbench.problems import Span
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunk

@@ -3,13 +3,13 @@
 import math
 from dataclasses import dataclass, field, replace
 
-from scanbench.check.configuration import PlannedBlock, PlannedInstance, PlannedTask, Planner
-from scanbench.check.connections import Wiring, calls_instance
 from scanbench.check.context import Rejected, Report, did_you_mean
-from scanbench.check.declare import Declarations
-from scanbench.check.scopes import Pous
-from scanbench.check.settings import Settings
-from scanbench.check.start_references import bind_start_references
+from scanbench.check.declare.configuration import PlannedBlock, PlannedInstance, PlannedTask, Planner
+from scanbench.check.declare.connections import Wiring, calls_instance
+from scanbench.check.declare.declare import Declarations
+from scanbench.check.declare.scopes import Pous
+from scanbench.check.declare.settings import Settings
+from scanbench.check.declare.start_references import bind_start_references
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Span
 from scanbench.program.copies import copies_of

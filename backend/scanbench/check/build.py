@@ -11,23 +11,23 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 
 from scanbench.check.assemble import Around, assemble, place_areas, place_globals
-from scanbench.check.calls import CallChecker
-from scanbench.check.class_rules import check_classes, check_instances
-from scanbench.check.classes import Method, called_pou, collect, declare_methods
-from scanbench.check.collect import Collector, declare_globals, globals_of
+from scanbench.check.body.calls import CallChecker
+from scanbench.check.body.generic import is_generic
+from scanbench.check.body.notes import Looks
+from scanbench.check.body.statements import StatementChecker
 from scanbench.check.context import Rejected, Report, did_you_mean
-from scanbench.check.declare import Declarations
-from scanbench.check.driven import Driven, warn_of_contention
-from scanbench.check.generic import is_generic
-from scanbench.check.names import Space, qualified
-from scanbench.check.notes import Looks
+from scanbench.check.declare.class_rules import check_classes, check_instances
+from scanbench.check.declare.classes import Method, called_pou, collect, declare_methods
+from scanbench.check.declare.collect import Collector, declare_globals, globals_of
+from scanbench.check.declare.declare import Declarations
+from scanbench.check.declare.names import Space, qualified
+from scanbench.check.declare.scopes import Pous, Scope, place_of
 from scanbench.check.order import Order
-from scanbench.check.plant import Plant, plant_files
-from scanbench.check.scopes import Pous, Scope, place_of
-from scanbench.check.statements import StatementChecker
-from scanbench.check.stimulus import StimulusChecker
-from scanbench.check.system import System, system_of
-from scanbench.check.system_text import COMMON
+from scanbench.check.system.driven import Driven, warn_of_contention
+from scanbench.check.system.plant import Plant, plant_files
+from scanbench.check.system.stimulus import StimulusChecker
+from scanbench.check.system.system import System, system_of
+from scanbench.check.system.system_text import COMMON
 from scanbench.plcmodel.model import Model, Who
 from scanbench.plcmodel.user_errors import extended, is_user_errors
 from scanbench.problems import Problem, Severity, Span

@@ -11,6 +11,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass, field, fields
 
 from scanbench.check.affected import SIZES, Words, inner_changes, tainted, tells_enumerators
+from scanbench.check.body.notes import Looks
 from scanbench.check.build import (
     ENABLING,
     Checked,
@@ -21,8 +22,7 @@ from scanbench.check.build import (
     with_user_errors,
 )
 from scanbench.check.context import Report
-from scanbench.check.names import qualified
-from scanbench.check.notes import Looks
+from scanbench.check.declare.names import qualified
 from scanbench.garbage import without_collection
 from scanbench.plcmodel.model import Model
 from scanbench.program.program import Pou

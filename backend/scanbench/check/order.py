@@ -3,7 +3,7 @@
 from collections.abc import Iterable
 
 from scanbench.check.context import Report
-from scanbench.check.scopes import Pous
+from scanbench.check.declare.scopes import Pous
 from scanbench.program.program import Pou
 
 MAX_CALLS = 1_000_000

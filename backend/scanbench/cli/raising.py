@@ -12,7 +12,7 @@ battery-error + io-bus-error:rack=1 gap 3@10        one 3 scans behind the other
 import re
 from dataclasses import replace
 
-from scanbench.check.condition import BadCondition, compile_condition
+from scanbench.check.typed.condition import BadCondition, compile_condition
 from scanbench.cli.inputs import usage, with_near
 from scanbench.faults.arm import Arm
 from scanbench.faults.inject import Generate

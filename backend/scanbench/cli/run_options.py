@@ -4,7 +4,7 @@ import re
 from dataclasses import dataclass
 from typing import get_args
 
-from scanbench.check.condition import Condition, compile_condition
+from scanbench.check.typed.condition import Condition, compile_condition
 from scanbench.cli.inputs import usage, with_near
 from scanbench.cli.raising import read_raise
 from scanbench.faults.inject import Recover

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from scanbench.check.condition import BadCondition
-from scanbench.check.local import LocalAssignments, locals_of
+from scanbench.check.typed.condition import BadCondition
+from scanbench.check.typed.local import LocalAssignments, locals_of
 from scanbench.debug.called import called
 from scanbench.engines.interpreter.evaluate import Evaluator, NoValue
 from scanbench.program.copies import Spot

@@ -1,7 +1,7 @@
 """What an expression is worth in the scope of a frame, or of the whole program."""
 
-from scanbench.check.condition import BadCondition
-from scanbench.check.local import Local
+from scanbench.check.typed.condition import BadCondition
+from scanbench.check.typed.local import Local
 from scanbench.debug.scene import NoFrame, Scene, at
 from scanbench.debug.scopes import named
 from scanbench.debug.shown import VariableInfo

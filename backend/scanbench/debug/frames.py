@@ -1,6 +1,6 @@
 """The call stack: open calls as people name them."""
 
-from scanbench.check.local import this_of
+from scanbench.check.typed.local import this_of
 from scanbench.debug.scene import Scene
 from scanbench.debug.shown import FrameInfo
 from scanbench.engines.debug import Frame

@@ -3,8 +3,8 @@
 import re
 from dataclasses import dataclass
 
-from scanbench.check.condition import BadCondition
-from scanbench.check.local import Local, Locals
+from scanbench.check.typed.condition import BadCondition
+from scanbench.check.typed.local import Local, Locals
 from scanbench.engines.interpreter.evaluate import Evaluator, NoValue
 from scanbench.program.program import Pou
 

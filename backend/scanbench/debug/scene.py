@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, field
 
-from scanbench.check.local import Locals, locals_of
+from scanbench.check.typed.local import Locals, locals_of
 from scanbench.engines.debug import Frame
 from scanbench.engines.interpreter.evaluate import Evaluator
 from scanbench.program.program import Pou, Program

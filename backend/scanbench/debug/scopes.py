@@ -4,7 +4,7 @@ from collections.abc import Iterator, Sequence
 from dataclasses import replace
 from itertools import islice
 
-from scanbench.check.condition import BadCondition
+from scanbench.check.typed.condition import BadCondition
 from scanbench.debug.frames import frame_record, instance_path
 from scanbench.debug.scene import NoFrame, Scene, at
 from scanbench.debug.shown import ScopeInfo, VariableInfo

@@ -2,8 +2,8 @@
 
 from dataclasses import dataclass
 
-from scanbench.check.condition import BadCondition
-from scanbench.check.local import locals_of
+from scanbench.check.typed.condition import BadCondition
+from scanbench.check.typed.local import locals_of
 from scanbench.debug.assign import Assign, patch, pou_of, refused
 from scanbench.debug.scene import NoFrame, Scene, at
 from scanbench.debug.scopes import named

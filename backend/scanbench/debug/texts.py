@@ -2,7 +2,7 @@
 
 from collections.abc import Callable
 
-from scanbench.check.local import Bad, Local, locals_of
+from scanbench.check.typed.local import Bad, Local, locals_of
 from scanbench.debug.assign import Assigning
 from scanbench.debug.message import Message
 from scanbench.engines.interpreter.evaluate import Evaluator

@@ -3,7 +3,7 @@
 from collections.abc import Iterator
 from dataclasses import fields, is_dataclass
 
-from scanbench.check.local import this_of
+from scanbench.check.typed.local import this_of
 from scanbench.problems import Span
 from scanbench.program.origin import in_library
 from scanbench.program.program import (

@@ -19,7 +19,7 @@ from abc import ABC, abstractmethod
 from dataclasses import dataclass
 from enum import StrEnum
 
-from scanbench.check.condition import Condition
+from scanbench.check.typed.condition import Condition
 from scanbench.engines.sample import Sampling
 from scanbench.program.program import Program
 

@@ -1,6 +1,6 @@
 """Both engines at once: every scan runs on each, and the images must agree byte for byte."""
 
-from scanbench.check.condition import Condition
+from scanbench.check.typed.condition import Condition
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine

@@ -14,7 +14,7 @@ from collections.abc import Sequence
 import numpy as np
 from numpy.typing import NDArray
 
-from scanbench.check.condition import Signal
+from scanbench.check.typed.condition import Signal
 from scanbench.program.program import Program
 
 MAX_SIGNALS = 64

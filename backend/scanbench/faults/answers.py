@@ -5,7 +5,7 @@ A program asks in every scan, so what changes nothing is no news.
 
 from collections.abc import Callable, Mapping
 
-from scanbench.check.system_text import Form
+from scanbench.check.system.system_text import Form
 from scanbench.faults import device_errors
 from scanbench.faults.clear import clear, most_serious, nonfatal
 from scanbench.faults.details import Chosen, choose

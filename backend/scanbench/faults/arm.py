@@ -9,7 +9,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import ClassVar, Literal
 
-from scanbench.check.condition import BadCondition, compile_condition
+from scanbench.check.typed.condition import BadCondition, compile_condition
 from scanbench.faults.details import choose
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.lines import find_line

@@ -2,7 +2,7 @@
 
 from collections.abc import Iterator
 
-from scanbench.check.condition import Condition, compile_condition
+from scanbench.check.typed.condition import Condition, compile_condition
 from scanbench.engines.observe import MakeObserved, Observed
 from scanbench.faults.arm import ARMED, Disarm, Lane, Lanes, Missed, unmeant
 from scanbench.faults.inject import Generate, Recover

@@ -236,7 +236,7 @@ class Member:
     """Of an in-out by value: it holds a copy of what was passed, which goes back when its block has run. What was passed, the
     hidden in-out beside it refers to (`actual_name`)."""
     note: "Member | None" = None
-    """The hidden variable beside it that keeps what was written before a check limited it; see `check/notes.py`."""
+    """The hidden variable beside it that keeps what was written before a check limited it; see `check/body/notes.py`."""
     incomplete: str = ""
     """`%I*`: VAR_CONFIG gives each instance its address. The type is a REFERENCE TO what was declared."""
 

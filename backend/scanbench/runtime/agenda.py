@@ -6,7 +6,7 @@ The resource asks in the seam of a run, and journals what is entered; a replay r
 from dataclasses import dataclass
 from typing import Protocol
 
-from scanbench.check.condition import Condition
+from scanbench.check.typed.condition import Condition
 from scanbench.engines.observe import Observed
 from scanbench.runtime.command import Command, Refusal, View
 from scanbench.runtime.inside import Insider

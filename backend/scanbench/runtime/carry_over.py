@@ -8,7 +8,7 @@ the variable of the same path, or to nothing; in-out slots start unconnected, as
 from collections.abc import Iterator
 from dataclasses import dataclass, field
 
-from scanbench.check.classes import TYPE_NUMBER
+from scanbench.check.declare.classes import TYPE_NUMBER
 from scanbench.program.copies import BYTE_OFFSET
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program

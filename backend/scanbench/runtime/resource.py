@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from functools import partial
 from operator import is_
 
-from scanbench.check.condition import Condition
+from scanbench.check.typed.condition import Condition
 from scanbench.engines.debug import NOTHING as NOT_LISTENING
 from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Engine, Pace, Reason, Stop

@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
-from scanbench.check.classes import TYPE_NUMBER
+from scanbench.check.declare.classes import TYPE_NUMBER
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.program.types import ArrayType, Kind, Member, Record, Section, Type

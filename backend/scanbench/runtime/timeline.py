@@ -13,7 +13,7 @@ from operator import attrgetter
 from pathlib import Path
 from struct import error as struct_error
 
-from scanbench.check.condition import Condition, compile_condition
+from scanbench.check.typed.condition import Condition, compile_condition
 from scanbench.engines.debug import NOTHING as NOT_LISTENING
 from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Pace, Reason, Stop

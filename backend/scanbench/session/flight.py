@@ -9,7 +9,7 @@ from pathlib import Path
 
 import numpy as np
 
-from scanbench.check.condition import BadCondition, Signal, compile_signal
+from scanbench.check.typed.condition import BadCondition, Signal, compile_signal
 from scanbench.engines.engine import Engine
 from scanbench.engines.sample import HEAD_WORDS, Sampling
 from scanbench.program.program import Program

@@ -11,7 +11,7 @@ from typing import Literal
 import numpy as np
 from numpy.typing import NDArray
 
-from scanbench.check.condition import BadCondition, Signal, compile_signal, parsed
+from scanbench.check.typed.condition import BadCondition, Signal, compile_signal, parsed
 from scanbench.engines.sample import HEAD_WORDS, MAX_SIGNALS, Sampling
 from scanbench.program.program import Program
 from scanbench.program.types import BOOL, Elementary, Enumeration, Kind

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from dataclasses import asdict, dataclass
 from typing import Literal, TypeVar, get_args
 
-from scanbench.check.condition import BadCondition, compile_signal
+from scanbench.check.typed.condition import BadCondition, compile_signal
 from scanbench.debug.writers import writers
 from scanbench.program.program import Program
 from scanbench.symbols.sites import Sites, sites_of

@@ -2,7 +2,7 @@
 
 import numpy as np
 
-from scanbench.check.condition import BadCondition, compile_signal
+from scanbench.check.typed.condition import BadCondition, compile_signal
 from scanbench.debug.placed import bytes_of
 from scanbench.engines.engine import Reason
 from scanbench.engines.sample import HEAD_WORDS, Sampling

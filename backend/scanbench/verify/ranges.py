@@ -5,7 +5,7 @@ from collections.abc import Callable, Iterable
 from dataclasses import dataclass
 from difflib import get_close_matches
 
-from scanbench.check.local import this_of
+from scanbench.check.typed.local import this_of
 from scanbench.problems import Span, perhaps
 from scanbench.program.program import Pou, Program
 from scanbench.program.types import Record

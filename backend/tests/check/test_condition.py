@@ -3,7 +3,7 @@
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.condition import MAX_LENGTH, BadCondition, Condition, compile_condition
+from scanbench.check.typed.condition import MAX_LENGTH, BadCondition, Condition, compile_condition
 from scanbench.engines.engine import Reason
 from scanbench.engines.pair import PairEngine
 from scanbench.program.program import Program

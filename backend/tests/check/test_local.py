@@ -2,8 +2,8 @@
 
 import pytest
 
-from scanbench.check.condition import BadCondition
-from scanbench.check.local import Local, Locals, locals_of
+from scanbench.check.typed.condition import BadCondition
+from scanbench.check.typed.local import Local, Locals, locals_of
 from scanbench.engines.interpreter.debugged import debug_engine
 from scanbench.engines.interpreter.evaluate import Evaluator, NoValue
 from scanbench.program.program import Pou, Program

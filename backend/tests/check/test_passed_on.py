@@ -5,8 +5,8 @@ from dataclasses import replace
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.condition import BadCondition, Condition, Signal, compile_condition, compile_signal
-from scanbench.check.local import Local, Locals
+from scanbench.check.typed.condition import BadCondition, Condition, Signal, compile_condition, compile_signal
+from scanbench.check.typed.local import Local, Locals
 from scanbench.engines.engine import Reason
 from scanbench.engines.pair import PairEngine
 from scanbench.program.program import Program

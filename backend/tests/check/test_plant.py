@@ -6,7 +6,7 @@ import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.check.incremental import Checks
-from scanbench.check.plant import plant_files
+from scanbench.check.system.plant import plant_files
 from scanbench.engines.native.emit_program import emit_program
 from scanbench.symbols.symbols import UnknownPath, complete, members, resolve
 from scanbench.syntax.parse_file import is_program_file

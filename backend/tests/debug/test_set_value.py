@@ -2,7 +2,7 @@
 
 import pytest
 
-from scanbench.check.condition import BadCondition
+from scanbench.check.typed.condition import BadCondition
 from scanbench.debug.assign import Assign
 from scanbench.debug.evaluate import evaluate
 from scanbench.debug.scene import Scene

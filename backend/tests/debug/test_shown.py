@@ -2,7 +2,7 @@
 
 import pytest
 
-from scanbench.check.condition import BadCondition
+from scanbench.check.typed.condition import BadCondition
 from scanbench.debug.evaluate import evaluate
 from scanbench.debug.frames import stack
 from scanbench.debug.message import LONGEST, Message

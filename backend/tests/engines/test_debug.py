@@ -9,7 +9,7 @@ from zlib import crc32
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.condition import Condition, compile_condition
+from scanbench.check.typed.condition import Condition, compile_condition
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.debug import NOTHING, READ, WRITE, DebugEngine, Frame, Listen
 from scanbench.engines.engine import Engine, Pace, Reason, Stop

@@ -5,7 +5,7 @@ from collections.abc import Callable
 
 import pytest
 
-from scanbench.check.condition import BadCondition, Signal, compile_signal
+from scanbench.check.typed.condition import BadCondition, Signal, compile_signal
 from scanbench.engines.engine import Engine, Reason, Stop
 from scanbench.engines.interpreter.debugged import debug_engine
 from scanbench.engines.interpreter.engine import ReferenceEngine

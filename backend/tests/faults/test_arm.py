@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.condition import Condition, compile_condition
+from scanbench.check.typed.condition import Condition, compile_condition
 from scanbench.engines.engine import Reason
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.interpreter.observed import observed_engine

@@ -1,6 +1,6 @@
 """Random conditions on random programs: both engines must come back after the same scans."""
 
-from scanbench.check.condition import Condition, compile_condition
+from scanbench.check.typed.condition import Condition, compile_condition
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.program.program import Program

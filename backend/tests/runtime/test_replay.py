@@ -2,7 +2,7 @@
 
 import pytest
 
-from scanbench.check.condition import Condition, compile_condition
+from scanbench.check.typed.condition import Condition, compile_condition
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef

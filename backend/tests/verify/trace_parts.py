@@ -4,7 +4,7 @@ from collections.abc import Mapping, Sequence
 from functools import cache
 
 from scanbench.check.build import check_sources
-from scanbench.check.condition import BadCondition, compile_signal
+from scanbench.check.typed.condition import BadCondition, compile_signal
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.program.program import Program
 from scanbench.program.types import ArrayType, Elementary, Record

@@ -1,4 +1,4 @@
-"""The standard functions that ST cannot say: which arguments they take, and how `check/standard_calls.py` makes them.
+"""The standard functions that ST cannot say: which arguments they take, and how `check/body/standard_calls.py` makes them.
 
 Each row of `FUNCTIONS` is a signature: the names of the formal arguments (the last one again and again, counting on,
 where it is `variadic`), and what is known of their types. `check/standard/*.st` holds those that ST can say.

@@ -5,7 +5,7 @@ import time
 from collections.abc import Callable
 from dataclasses import replace
 
-from scanbench.check.condition import Condition
+from scanbench.check.typed.condition import Condition
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.interpreter.expressions import Body
 from scanbench.engines.interpreter.observer import ReferenceObserver

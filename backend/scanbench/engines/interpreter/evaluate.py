@@ -4,7 +4,7 @@ from collections.abc import Callable
 from dataclasses import replace
 from typing import TypeVar, cast
 
-from scanbench.check.local import Local, LocalAssignment, LocalAssignments, LocalPlace
+from scanbench.check.typed.local import Local, LocalAssignment, LocalAssignments, LocalPlace
 from scanbench.engines.interpreter.arithmetic import Number
 from scanbench.engines.interpreter.expressions import Body
 from scanbench.engines.interpreter.memory import Value, putter

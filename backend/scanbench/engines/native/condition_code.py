@@ -2,7 +2,7 @@
 
 from functools import lru_cache
 
-from scanbench.check.condition import Condition
+from scanbench.check.typed.condition import Condition
 from scanbench.engines.native import emit_expressions, emit_statements, jit
 from scanbench.engines.native.compiler import FAST
 from scanbench.engines.native.emit_body import Body, Unit

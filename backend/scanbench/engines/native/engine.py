@@ -4,7 +4,7 @@ import ctypes
 from collections.abc import Sequence
 from time import monotonic_ns
 
-from scanbench.check.condition import Condition
+from scanbench.check.typed.condition import Condition
 from scanbench.engines.engine import Engine, Pace, Reason, Stop
 from scanbench.engines.native import jit
 from scanbench.engines.native.compiler import FAST, Compiler

@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 from functools import lru_cache
 
-from scanbench.check.condition import Signal
+from scanbench.check.typed.condition import Signal
 from scanbench.engines.native import emit_expressions, emit_statements, jit
 from scanbench.engines.native.compiler import FAST
 from scanbench.engines.native.emit_body import Body, Unit

@@ -2,7 +2,7 @@
 
 from collections import deque
 
-from scanbench.check.condition import Condition
+from scanbench.check.typed.condition import Condition
 from scanbench.engines.engine import Pace
 from scanbench.runtime.clock import monotonic_ns
 

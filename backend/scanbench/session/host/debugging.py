@@ -3,8 +3,8 @@
 from collections import deque
 from collections.abc import Callable
 
-from scanbench.check.condition import BadCondition
-from scanbench.check.local import Locals
+from scanbench.check.typed.condition import BadCondition
+from scanbench.check.typed.local import Locals
 from scanbench.debug.assign import Assign
 from scanbench.debug.binding import Bindings
 from scanbench.debug.debugger import Debugger

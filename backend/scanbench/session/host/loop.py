@@ -10,7 +10,7 @@ from collections.abc import Mapping
 from dataclasses import replace
 from pathlib import Path
 
-from scanbench.check.condition import Condition, compile_condition
+from scanbench.check.typed.condition import Condition, compile_condition
 from scanbench.engines.engine import Reason
 from scanbench.faults.carried import why_not_carried
 from scanbench.faults.inject import ACTIVE, Active

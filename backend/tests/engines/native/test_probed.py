@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from scanbench.check.build import check_sources
-from scanbench.check.local import Local, Locals
+from scanbench.check.typed.local import Local, Locals
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.debug import DebugEngine, Listen
 from scanbench.engines.engine import Reason, Stop

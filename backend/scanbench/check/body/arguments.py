@@ -1,0 +1,273 @@
+"""Arguments of a call -> what stands for each formal."""
+
+from dataclasses import dataclass, field, replace
+
+from scanbench.check.body import fold
+from scanbench.check.body.standard_calls import StandardCallChecker
+from scanbench.check.context import Rejected, did_you_mean
+from scanbench.check.declare.scopes import decode
+from scanbench.check.system.system_text import STOP
+from scanbench.problems import Span
+from scanbench.program.origin import in_library, is_system
+from scanbench.program.program import (
+    Assign,
+    CallFunction,
+    Const,
+    Evaluate,
+    Expr,
+    Halt,
+    If,
+    Load,
+    Place,
+    Pou,
+    Sequence,
+    SetBytes,
+    Stmt,
+    TrapKind,
+)
+from scanbench.program.shown import shown
+from scanbench.program.types import (
+    BOOL,
+    INT,
+    ArrayType,
+    Elementary,
+    Kind,
+    Member,
+    OpenArray,
+    Record,
+    Section,
+    StringType,
+    Subrange,
+    Type,
+    initial_of,
+    is_derived,
+)
+from scanbench.syntax import tree
+
+VARIABLES = (tree.Name, tree.MemberOf, tree.IndexOf, tree.DirectAddress, tree.Dereference, tree.PartialAccess)
+
+
+@dataclass(slots=True)
+class Invocation:
+    """A call of a FUNCTION or method, and what has to run around it."""
+
+    call: CallFunction
+    before: list[Stmt] = field(default_factory=list)
+    after: list[Stmt] = field(default_factory=list)
+
+    def statements(self, span: Span, result: Place | None = None) -> list[Stmt]:
+        """All of it; the result goes to `result`, or is dropped."""
+        call: Stmt = Evaluate(self.call, span) if result is None else Assign(result, self.call, span)
+        return [*self.before, call, *self.after]
+
+
+@dataclass(slots=True)
+class Bindings:
+    """What a call gives to its callee, by upper-case formal name."""
+
+    inputs: dict[str, Expr] = field(default_factory=dict)
+    places: dict[str, Place] = field(default_factory=dict)
+    """In-outs, and outputs that are taken as they are."""
+    before: list[Stmt] = field(default_factory=list)
+    after: list[Stmt] = field(default_factory=list)
+
+
+def together(statements: list[Stmt], span: Span) -> Stmt:
+    """Several statements as one."""
+    if len(statements) == 1:
+        return statements[0]
+    return If(((Const(BOOL, 1), tuple(statements)),), (), span)
+
+
+class ArgumentChecker(StandardCallChecker):
+    """Binds arguments to formals, by position or by name."""
+
+    def given(self, node: tree.Call, formals: list[Member], owner: Record, callee: str) -> dict[str, tree.Argument]:
+        """Arguments by upper-case formal name; positional ones go to inputs and in-outs in order. `owner` has the formals."""
+        formals = [each for each in formals if not each.hidden]
+        given: dict[str, tree.Argument] = {}
+        named = False
+        positions = [member for member in formals if member.section in (Section.INPUT, Section.IN_OUT)]
+        for index, argument in enumerate(node.arguments):
+            if argument.name is None:
+                if named:
+                    raise self.report.reject("T004", "Arguments by position come before those by name.", argument.span)
+                if index >= len(positions):
+                    if owner.open or any(name == owner.name.upper() for name, _ in self.declarations.broken):
+                        raise Rejected
+                    raise self.report.reject(
+                        "T004", f"`{callee}` takes {_count(len(positions))}, not {len(node.arguments)}.", argument.span
+                    )
+                given[positions[index].name.upper()] = argument
+                continue
+            named = True
+            member = self._formal(argument, argument.name, formals, owner, callee)
+            if member.name.upper() in given:
+                raise self.report.reject("T004", f"`{argument.name}` is given twice.", argument.span)
+            given[member.name.upper()] = argument
+        return given
+
+    def _formal(self, argument: tree.Argument, name: str, formals: list[Member], owner: Record, callee: str) -> Member:
+        member = next((each for each in formals if each.name.upper() == name.upper()), None)
+        if member is None and (owner.open or self.is_broken(owner, name)):
+            raise Rejected
+        if member is None:
+            hint = did_you_mean(name, [each.name for each in formals])
+            raise self.report.reject("T004", f"`{callee}` has no argument `{name}`.{hint}", argument.span)
+        if argument.output != (member.section is Section.OUTPUT):
+            arrow = "=>" if member.section is Section.OUTPUT else ":="
+            raise self.report.reject(
+                "T004", f"`{member.name}` is {member.section.value}: write `{member.name} {arrow} ...`.", argument.span
+            )
+        return member
+
+    # ---- functions and methods --------------------------------------------------------------------------
+
+    def invoke(self, node: tree.Call, callee: Pou, name: str, this: Place | None, eno: Place | None) -> Invocation:
+        """The call of a FUNCTION or method. `eno` receives its ENO, where it has one."""
+        members = [callee.frame.members[key] for key in callee.parameters]
+        given = self.given(node, members, callee.frame, name)
+        bound = Bindings()
+        for member in members:
+            if not member.hidden:
+                self._bind(member, given.get(member.name.upper()), bound, node.span, name)
+        if eno is not None and "ENO" in callee.parameters:
+            bound.places["ENO"] = eno
+        if this is not None:
+            bound.places["THIS"] = this
+        for member in members:
+            if member.hidden and "$" in member.name and member.name.upper() not in bound.inputs:
+                bound.inputs[member.name.upper()] = self.open_bound(member, bound.places)
+        args = tuple(bound.inputs.get(key, bound.places.get(key)) for key in callee.parameters)
+        self.pous.use(self.pou, callee)
+        return Invocation(CallFunction(callee, callee.result, args), bound.before, bound.after)
+
+    def as_value(self, made: Invocation, span: Span) -> Expr:
+        """The call as an expression."""
+        if made.call.type is None and made.call.pou.frame.open:
+            raise Rejected  # the type of its result was refused
+        if made.call.type is None:
+            raise self.report.reject("T010", f"`{made.call.pou.name}` has no result; call it as a statement.", span)
+        if not made.before and not made.after:
+            return made.call
+        if not made.after:
+            return Sequence(tuple(made.before), made.call)
+        result = self.temporary(made.call.type, span)
+        return Sequence(tuple(made.statements(span, result)), Load(result))
+
+    def _bind(self, member: Member, argument: tree.Argument | None, bound: Bindings, span: Span, callee: str) -> None:
+        key = member.name.upper()
+        value = argument.value if argument else None
+        if member.section is Section.IN_OUT:
+            bound.places[key] = self.in_out(member, value, span, bound.before)
+        elif member.section is Section.INPUT:
+            needed = is_system(member.span) and not any(member.initial)  # what may be left out has a default
+            if value is None and needed:
+                raise self.report.reject("T004", f"`{callee}` needs a number: `{callee}({member.name} := 1)`.", span)
+            given = self._input(member, value, span)
+            if member.note is not None and isinstance(member.type, Subrange):
+                given, bound.inputs[member.note.name.upper()] = self.with_note(given, member.type, span)
+            bound.inputs[key] = given
+        elif key == STOP and in_library(member.span):
+            stop = bound.places[key] = self.temporary(BOOL, span)
+            trap = self.trap(TrapKind.FATAL, span, f"{callee} stops the PLC")
+            bound.after.append(If(((Load(stop), (Halt(trap, span),)),), (), span))
+        elif argument is not None and value is not None:
+            target, variable = self.declared_target(value)
+            if not argument.negated and _takes(target.type, member.type):
+                bound.places[key] = target
+                return
+            taken = self.temporary(member.type, value.span)
+            bound.places[key] = taken
+            whole = _generic(member, Load(taken), target.type)
+            stored = self.keeping(
+                self._output(whole, target.type, argument), self.noting(target, variable), argument.span
+            )
+            bound.after.append(Assign(target, stored, argument.span))
+
+    def _output(self, value: Expr, target: Type, argument: tree.Argument) -> Expr:
+        """What is stored for `name => target` or `NOT name => target`."""
+        if argument.negated:
+            if not isinstance(value.type, Elementary) or value.type != BOOL:
+                raise self.report.reject("T002", f"Only a BOOL can be negated, not {value.type}.", argument.span)
+            value = fold.unary("not", BOOL, value)
+        assert argument.value is not None
+        return self.coerce(value, target, argument.span, f"`{shown(argument.value)}`")
+
+    def _input(self, member: Member, value: tree.Expression | None, span: Span) -> Expr:
+        if value is not None:
+            return self.as_type(value, member.type, f"`{member.name}`")
+        data = member.initial or initial_of(member.type)
+        default = decode(member.type, data)
+        if default is not None:
+            return default
+        place = self.temporary(member.type, span)
+        return Sequence((SetBytes(place, data, span),), Load(place))
+
+    # ---- in-outs ----------------------------------------------------------------------------------------
+
+    def in_out(self, member: Member, value: tree.Expression | None, span: Span, before: list[Stmt]) -> Place:
+        """What an in-out is bound to: a variable, or for a constant one a value that `before` puts somewhere."""
+        if value is None:
+            what = "input" if member.constant and isinstance(member.type, OpenArray) else "in-out"
+            raise self.report.reject("T005", f"The {what} `{member.name}` must be connected at every call.", span)
+        if member.constant:
+            return self._constant_in_out(member, value, before)
+        if not isinstance(value, VARIABLES):
+            raise self.report.reject("T005", f"`{member.name}` is an in-out and needs a variable.", value.span)
+        return self._bindable(member, self.target(value), value)
+
+    def _constant_in_out(self, member: Member, value: tree.Expression, before: list[Stmt]) -> Place:
+        if isinstance(value, VARIABLES) and self.is_variable(value):
+            place, _ = self.place(value)
+            if place.type == member.type or not isinstance(member.type, Elementary | StringType):
+                return self._bindable(member, place, value)
+        if isinstance(member.type, OpenArray):
+            raise self.report.reject("T005", f"`{member.name}` is ARRAY[*] and needs a variable.", value.span)
+        expr = self.as_type(value, member.type, f"`{member.name}`")
+        place = self.temporary(member.type, value.span)
+        before.append(Assign(place, expr, value.span))
+        return place
+
+    def is_variable(self, node: tree.Expression) -> bool:
+        """Whether this names something that has a place."""
+        return True
+
+    def _bindable(self, member: Member, place: Place, value: tree.Expression) -> Place:
+        formal, actual = member.type, place.type
+        if actual == formal:
+            return place
+        if isinstance(formal, Record) and isinstance(actual, Record) and is_derived(actual, formal):
+            return replace(place, type=formal)
+        if isinstance(formal, OpenArray) and isinstance(actual, ArrayType | OpenArray):
+            count = actual.dimensions if isinstance(actual, OpenArray) else len(actual.bounds)
+            if count == formal.dimensions and actual.element == formal.element:
+                return place
+        raise self.report.reject(
+            "T005", f"The in-out `{member.name}` is {formal}; {actual} cannot be bound to it.", value.span
+        )
+
+    def open_bound(self, member: Member, places: dict[str, Place]) -> Expr:
+        """One bound of what an ARRAY[*] is bound to: for the hidden member `name$low1` and its like."""
+        name, which = member.name.upper().rsplit("$", 1)
+        low, number = which.startswith("LOW"), int(which.lstrip("LOWHIG"))
+        return self.array_bounds(places[name])[number - 1][0 if low else 1]
+
+
+def _generic(output: Member, value: Expr, target: Type) -> Expr:
+    """An integer output of a standard function (SPLIT_DATE) is of ANY_INT: it becomes what it is stored in."""
+    whole = isinstance(target, Elementary) and target.kind in (Kind.INT, Kind.UINT)
+    if whole and isinstance(target, Elementary) and output.type == INT and in_library(output.span):
+        return fold.convert(target, value)
+    return value
+
+
+def _takes(target: Type, output: Type) -> bool:
+    """Whether an output can be stored there as it is."""
+    return target == output or (
+        isinstance(target, StringType) and isinstance(output, StringType) and target.width == output.width
+    )
+
+
+def _count(number: int) -> str:
+    return "1 argument" if number == 1 else f"{number} arguments"

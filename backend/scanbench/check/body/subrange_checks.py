@@ -1,0 +1,203 @@
+"""Subrange checks that the checker embeds by itself: where a subrange variable is read, and where one is assigned.
+
+A value outside of its subrange is brought back to the nearer bound and recorded (`Limit`), so that the program goes on
+with what it may count on. What can be proven needless is listed, but not run; `needless.py` finds more of it.
+"""
+
+from abc import abstractmethod
+from collections.abc import Iterator
+from contextlib import contextmanager
+from dataclasses import replace
+
+from scanbench.check.body.checker import PouChecker
+from scanbench.check.body.harmless import again, again_at, limited
+from scanbench.check.body.notes import note_of
+from scanbench.problems import Span
+from scanbench.program.program import (
+    Assign,
+    Binary,
+    CallFunction,
+    CheckSite,
+    Compare,
+    Const,
+    Convert,
+    Expr,
+    Intrinsic,
+    Limit,
+    Load,
+    Place,
+    Sequence,
+    Violates,
+)
+from scanbench.program.shown import shown
+from scanbench.program.types import BOOL, Elementary, Kind, Member, Subrange, base_of
+from scanbench.program.untyped import bounds
+from scanbench.syntax import tree
+
+WHOLE = (Kind.INT, Kind.UINT, Kind.BITS)
+
+
+class SubrangeChecker(PouChecker):
+    explicit: tuple[tree.Expression, ...] = ()
+    """Arguments of calls with EN or ENO that are being checked."""
+
+    def read(self, place: Place, span: Span, variable: str) -> Expr:
+        """The value of a variable; that of a subrange variable is checked, and has the base type."""
+        if not isinstance(place.type, Subrange):
+            return Load(place)
+        return self._limit(Load(place), place.type, span, variable)
+
+    def plain(self, expr: Expr, span: Span, variable: str = "the value") -> Expr:
+        """Checks a subrange value that comes from elsewhere than `read`."""
+        if not isinstance(expr.type, Subrange):
+            return expr
+        match expr:
+            case Load(place):
+                return self.read(place, span, variable)
+            case CallFunction(type=Elementary() as type):
+                return replace(expr, type=base_of(type))  # checked where the function assigned it
+            case Sequence(body, value):
+                return Sequence(body, self.plain(value, span, variable))
+        raise AssertionError(expr)
+
+    def into(self, expr: Expr, type: Subrange, span: Span, variable: str) -> Expr:
+        """A value of the base type, checked on its way into a subrange variable."""
+        if isinstance(expr, Const):
+            value = expr.value
+            if isinstance(value, int) and not type.low <= value <= type.high:
+                raise self.report.reject("S004", f"{value} is outside of {_named(type)}.", span)
+        return self._limit(expr, type, span, variable)
+
+    def _limit(self, expr: Expr, type: Subrange, span: Span, variable: str) -> Expr:
+        if self.pou is None:
+            return expr  # among declarations everything is constant
+        base = base_of(type)
+        site = CheckSite(span, self.scope.pou, variable, type.low, type.high, _proof(expr, type))
+        number = self.report.check(site)
+        return expr if site.needless else Limit(base, expr, type.low, type.high, number)
+
+    # ---- explicit mode ----------------------------------------------------------------------------------
+
+    def explicit_check(self, node: tree.Call, name: str) -> Expr:
+        """`EN_CHECK(ENO)` records the place when ENO is FALSE; `SUBRANGE_ERROR(v)` only looks. Both are TRUE then."""
+        if len(node.arguments) != 1 or node.arguments[0].value is None or node.arguments[0].output:
+            formal = "ENO" if name == "EN_CHECK" else "IN"
+            raise self.report.reject("T004", f"`{name}` takes one argument, {formal}.", node.span)
+        value = node.arguments[0].value
+        if name == "EN_CHECK":
+            eno = self.coerce(self.expr(value, BOOL), BOOL, value.span, "`ENO`")
+            number = self.report.check(CheckSite(node.span, self.scope.pou, "EN_CHECK", 1, 1))
+            return Violates(BOOL, eno, 1, 1, number)
+        place, member = self.place(value)
+        if not isinstance(place.type, Subrange):
+            raise self.report.reject(
+                "T002",
+                f"`SUBRANGE_ERROR` needs a variable with a subrange; `{shown(value)}` is {place.type}.",
+                node.span,
+            )
+        return Violates(BOOL, self.as_written(place, member), place.type.low, place.type.high, 0)
+
+    @contextmanager
+    def explicitly(self, node: tree.Call) -> Iterator[None]:
+        """The variables that this call takes, which has EN or ENO, are read as they were written meanwhile."""
+        before = self.explicit
+        self.explicit = (
+            *before,
+            *(each.value for each in node.arguments if each.value is not None and not each.output),
+        )
+        try:
+            yield
+        finally:
+            self.explicit = before
+
+    def as_written(self, place: Place, member: Member | None) -> Expr:
+        """The value of a subrange variable before any check limits it, as one of the base type."""
+        type = place.type
+        assert isinstance(type, Subrange)
+        base = base_of(type)
+        there, note = Load(replace(place, type=base)), self.note(place, member)
+        if note is None:
+            return there
+        kept = Load(note)
+        valid = Compare("eq", BOOL, limited(base, kept, type.low, type.high), there)
+        once_more = again(there)
+        assert once_more is not None
+        return Intrinsic("SEL", base, (valid, once_more, kept))
+
+    def note(self, place: Place, member: Member | None) -> Place | None:
+        """Where the variable's value is kept as it was written."""
+        same = None if member is None or member.note is None else again_at(place)
+        if same is None or member is None:
+            return None
+        found = self.scope.find(member.name)
+        own = found is not None and found[0] is member and self.scope.this is None
+        return note_of(same, member, found[1] if own and found is not None else None)
+
+    def noting(self, place: Place, member: Member | None) -> Place | None:
+        """The note that an assignment to the variable writes."""
+        return self.note(place, member)
+
+    def with_note(self, value: Expr, type: Subrange, span: Span) -> tuple[Expr, Expr]:
+        """An argument that is a subrange value, and the same as it was before it was limited."""
+        same = again(value.value if isinstance(value, Limit) else value)
+        if same is not None:
+            return value, same
+        kept = self.temporary(base_of(type), span)
+        return self.keeping(value, kept, span), Load(kept)
+
+    def keeping(self, value: Expr, note: Place | None, span: Span) -> Expr:
+        """A value on its way into a subrange variable; the note takes it as it is before it is limited."""
+        if note is None:
+            return value
+        if isinstance(value, Limit):
+            return Sequence((Assign(note, value.value, span),), replace(value, value=Load(note)))
+        return Sequence((Assign(note, value, span),), value if isinstance(value, Const) else Load(note))
+
+    @abstractmethod
+    def place(self, node: tree.Expression) -> tuple[Place, Member | None]:
+        """The variable itself; see `PlaceChecker`."""
+
+
+def _proof(expr: Expr, type: Subrange) -> str:
+    """Why the value cannot be outside, or ''."""
+    low, high = value_range(expr)
+    if not (type.low <= low and high <= type.high):
+        return ""
+    match expr:
+        case Const():
+            return "the constant is in range"
+        case Limit():
+            return f"the value is brought to {low}..{high} already"
+    return f"the value is {low}..{high} at most"
+
+
+def value_range(expr: Expr) -> tuple[int, int]:
+    """Bounds that an integer expression cannot leave."""
+    type = expr.type
+    assert isinstance(type, Elementary)
+    whole = bounds(type)
+    match expr:
+        case Const(value=int(value)):
+            return value, value
+        case Limit(low=low, high=high):
+            return low, high
+        case Convert(operand=operand) if isinstance(operand.type, Elementary) and operand.type.kind in WHOLE:
+            inner = value_range(operand)
+            return inner if whole[0] <= inner[0] and inner[1] <= whole[1] else whole
+        case Binary("mod", right=Const(value=int(value))) if type.kind in WHOLE and value != 0:
+            most = abs(value) - 1
+            return (-most if type.signed else 0), most
+        case Binary("and", right=Const(value=int(value))) if type.kind is Kind.BITS:
+            return 0, value
+        case Sequence(value=value):
+            return value_range(value)
+        case Intrinsic("MIN" | "MAX" as name, args=(first, second)) if type.kind in WHOLE:
+            a, b = value_range(first), value_range(second)
+            choose = min if name == "MIN" else max
+            return choose(a[0], b[0]), choose(a[1], b[1])
+    return whole
+
+
+def _named(type: Subrange) -> str:
+    bounds_text = f"{type.low}..{type.high}"
+    return bounds_text if bounds_text in type.name else f"{type.name} ({bounds_text})"

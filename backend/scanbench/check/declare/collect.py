@@ -1,0 +1,167 @@
+"""The first pass over the trees: which name is declared where, and what a namespace puts in front of it."""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, field, fields, is_dataclass, replace
+
+from scanbench.check.context import Report
+from scanbench.check.declare.declare import Declarations
+from scanbench.check.declare.names import LIBRARY, Space, qualified
+from scanbench.check.declare.scopes import Pous
+from scanbench.check.standard.library import library
+from scanbench.problems import Span
+from scanbench.program.types import ELEMENTARY, Record, Section
+from scanbench.syntax import tree
+
+ENABLE = (("EN", "VAR_INPUT"), ("ENO", "VAR_OUTPUT"))
+
+
+@dataclass(slots=True)
+class Collector:
+    """Registers what the files declare; the library steps back where the user declares the same name."""
+
+    report: Report
+    declarations: Declarations
+    system: tree.File
+    """What the model adds to the library."""
+    enabling: frozenset[str]
+    """Files in whose text EN or ENO occurs."""
+    functions: dict[str, tree.PouDeclaration] = field(default_factory=dict)
+    user: list[tree.PouDeclaration] = field(default_factory=list)
+    """POUs of the user in order of declaration, functions and blocks."""
+    library: dict[str, tree.PouDeclaration] = field(default_factory=dict)
+    """POUs of the standard library, those that the user hides in the namespace `LIBRARY`."""
+    tells: set[str] = field(default_factory=set)
+    """Keys of blocks whose body names ENO without declaring it: it is TRUE whenever they start."""
+    _seen: dict[str, Span] = field(default_factory=dict)
+
+    def collect(self, parsed: list[tree.File]) -> None:
+        """All names of types and POUs."""
+        internal = self.declarations.names.internal
+        for file in parsed:
+            internal |= {space.upper(): space.upper().rpartition(".")[0] for space in file.internal}
+            for declaration in file.types:
+                key = self._first(declaration.namespace, declaration.name, declaration.span)
+                if key is not None:
+                    self.declarations.type_trees[key] = declaration
+                    if declaration.access == "INTERNAL" and declaration.namespace:
+                        internal[key] = declaration.namespace.upper()
+            for pou in file.pous:
+                key = self._first(pou.namespace, pou.name, pou.span)
+                if key is None:
+                    continue
+                if pou.access == "INTERNAL" and pou.namespace:
+                    internal[key] = pou.namespace.upper()
+                made = self.with_enable(key, pou) if file.name in self.enabling else pou
+                self._register(key, made)
+                self.user.append(made)
+        pous = [pou for file in (*library(), self.system) for pou in file.pous]
+        hidden = {pou.name.upper() for pou in pous} & self._seen.keys()
+        for pou in pous:
+            key = pou.name.upper()
+            if hidden:  # the library itself goes on using its own
+                pou = replace(pou, namespace=LIBRARY if key in hidden else "", using=(LIBRARY,))
+                key = qualified(pou.namespace, pou.name).upper()
+            self.library[key] = pou
+            self._register(key, pou)
+
+    def _register(self, key: str, pou: tree.PouDeclaration) -> None:
+        table = self.functions if pou.kind == "function" else self.declarations.block_trees
+        table[key] = pou
+
+    def _first(self, namespace: str, name: str, span: Span) -> str | None:
+        """The key, when the name is free."""
+        key = qualified(namespace, name).upper()
+        if key in ELEMENTARY:
+            self.report.error("D001", f"`{name}` is a standard type; choose another name.", span)
+            return None
+        first = self._seen.setdefault(key, span)
+        if first is not span:
+            self.report.error("D001", f"`{name}` is declared already in {first}; rename one.", span)
+        return key if first is span else None
+
+    # ---- EN and ENO -------------------------------------------------------------------------------------
+
+    def with_enable(self, key: str, pou: tree.PouDeclaration) -> tree.PouDeclaration:
+        """A body that names EN or ENO has them as input and output, declared or not."""
+        methods = tuple(self.with_enable("", method) for method in pou.methods)
+        if methods != pou.methods:
+            pou = replace(pou, methods=methods)
+        if pou.kind not in ("function", "function_block", "method"):
+            return pou
+        declared = {variable.name.upper() for section in pou.sections for variable in section.variables}
+        named = set(_names(pou.body))
+        for name, keyword in ENABLE:
+            if name in named and name not in declared:
+                true = tree.Literal("bool", 1, None, pou.span)
+                variable = tree.Variable(name, tree.NamedType("BOOL", pou.span), true, None, pou.span)
+                section = tree.VariableSection(keyword, (), (variable,), pou.span)
+                pou = replace(pou, sections=(*pou.sections, section))
+                if name == "ENO" and key:
+                    self.tells.add(key)
+        return pou
+
+
+def _names(node: object) -> Iterator[str]:
+    """Every plain name in a body, in upper case."""
+    if isinstance(node, tree.Name):
+        yield node.name.upper()
+    elif isinstance(node, tuple):
+        for each in node:
+            yield from _names(each)
+    elif is_dataclass(node) and not isinstance(node, Span | tree.Literal):
+        for each in fields(node):
+            yield from _names(getattr(node, each.name))
+
+
+# ---- global variables ---------------------------------------------------------------------------------------------
+
+
+def global_sections(parsed: list[tree.File]) -> list[tree.VariableSection]:
+    """Every VAR_GLOBAL, of files, configurations and resources."""
+    sections = [section for file in parsed for section in file.globals]
+    return sections + [each for file in parsed for conf in file.configurations for each in globals_of(conf)]
+
+
+def globals_of(configuration: tree.Configuration) -> tuple[tree.VariableSection, ...]:
+    """VAR_GLOBAL of a configuration and of its resources."""
+    return (*configuration.globals, *(each for resource in configuration.resources for each in resource.globals))
+
+
+def declare_globals(parsed: list[tree.File], variables: Record, declarations: Declarations, pous: Pous) -> None:
+    """Constants first, as they may stand in the bounds of the others."""
+    sections = global_sections(parsed)
+    kept = _Lists(declarations, pous)
+    for constant in (True, False):
+        for section in sections:
+            if ("CONSTANT" in section.qualifiers) != constant:
+                continue
+            with declarations.names.within(Space(section.namespace)):
+                for variable in section.variables:
+                    kept.declare(variables, section, variable, constant)
+
+
+@dataclass(slots=True)
+class _Lists:
+    """Variables of lists are known as `LIST.x`, and as `x` where one list only has it."""
+
+    declarations: Declarations
+    pous: Pous
+    lists: dict[str, str] = field(default_factory=dict)
+    """The list that a variable came from, by the name it is kept under."""
+
+    def declare(
+        self, variables: Record, section: tree.VariableSection, variable: tree.Variable, constant: bool
+    ) -> None:
+        """Adds a global variable under its full name."""
+        name = qualified(section.namespace, variable.name)
+        key, own = name.upper(), f"{section.list_name}.{variable.name}"
+        if section.list_name and key in variables.members and self.lists.get(key, "") not in ("", section.list_name):
+            self.pous.ambiguous.setdefault(key, [f"{self.lists[key]}.{variable.name}"]).append(own)
+            name = own
+        member = self.declarations.declare(variables, replace(variable, name=name), Section.GLOBAL, constant)
+        if member is None:
+            return
+        member.retain = bool({"RETAIN", "PERSISTENT"} & set(section.qualifiers))
+        self.lists.setdefault(name.upper(), section.list_name)
+        if section.list_name:
+            self.pous.aliases[own.upper()] = name

@@ -1,0 +1,132 @@
+"""What a name means inside a POU."""
+
+import struct
+from dataclasses import dataclass, field
+from typing import TYPE_CHECKING
+
+from scanbench.check.declare.classes import Classes
+from scanbench.check.declare.names import Space
+from scanbench.plcmodel.model import Who
+from scanbench.program.own_variables import SYSTEM
+from scanbench.program.program import Base, Const, Place, Pou
+from scanbench.program.types import (
+    SLOT_BYTES,
+    ULINT,
+    Elementary,
+    Kind,
+    Member,
+    Record,
+    StringType,
+    Subrange,
+    Type,
+    base_of,
+)
+from scanbench.syntax import tree
+
+if TYPE_CHECKING:
+    from scanbench.check.body.generic import Instance
+
+
+@dataclass(slots=True)
+class Scope:
+    """Names visible in one POU, the nearest first: temporaries, instance variables, externals, globals."""
+
+    pou: str
+    globals: Record
+    instance: Record | None = None
+    frame: Record | None = None
+    externals: dict[str, Member] = field(default_factory=dict)
+    constants: tuple[Record, ...] = ()
+    """Records under declaration, for constant expressions."""
+    this: Place | None = None
+    """Slot of THIS, in a method: the variables of the instance stand behind it."""
+    space: Space = field(default_factory=Space)
+    """The namespaces whose global variables are visible."""
+    system: tuple[Record, ...] = ()
+    """Variables that every program has: the nearest of all to be hidden."""
+    who: Who = "program"
+    """With whose rights it writes to areas of the model."""
+
+    def find(self, name: str) -> tuple[Member, Base, Record] | None:
+        """The member, what its offset counts from, and who owns it."""
+        key = name.upper()
+        for owner in self.constants:
+            if key in owner.members:
+                return owner.members[key], Base.SELF, owner
+        if self.frame is not None and key in self.frame.members:
+            return self.frame.members[key], Base.FRAME, self.frame
+        if self.instance is not None and key in self.instance.members:
+            return self.instance.members[key], Base.SELF, self.instance
+        if key in self.externals:
+            return self.externals[key], Base.IMAGE, self.globals
+        for full in self.space.candidates(key):
+            if full in self.globals.members:
+                return self.globals.members[full], Base.IMAGE, self.globals
+        if not self.constants:
+            for owner in (SYSTEM, *self.system):
+                if key in owner.members:
+                    return owner.members[key], Base.IMAGE, owner
+        return None
+
+    def names(self) -> list[str]:
+        """Everything that `find` would find, for near matches."""
+        owners = [owner for owner in (self.frame, self.instance, self.globals, *self.system) if owner is not None]
+        return [member.name for owner in owners for member in owner.members.values() if not member.hidden]
+
+
+def place_of(member: Member, base: Base, owner: Record, null_trap: int) -> Place:
+    """Where a variable lives; an in-out lives where its slot refers to."""
+    if member.located:
+        return Place(member.type, Base.IMAGE, member.offset, bit=member.bit, variable="@")
+    if owner.name == SYSTEM.name:
+        return Place(member.type, base, member.offset)  # an engine writes it beside the program
+    prefix = "frame " if base is Base.FRAME else ""
+    variable = f"{prefix}{member.home or owner.name}.{member.name}".upper()
+    if member.bound:
+        slot = Place(ULINT, base, member.offset, variable=variable)
+        assert ULINT.size == SLOT_BYTES
+        return Place(member.type, base, 0, slot=slot, null_trap=null_trap)
+    return Place(member.type, base, member.offset, bit=member.bit, variable=variable)
+
+
+def decode(type: Type, data: bytes) -> Const | None:
+    """A constant from its bytes in the image; None for arrays and structures."""
+    if isinstance(type, StringType):
+        length = int.from_bytes(data[:2], "little")
+        return Const(type, data[2 : 2 + length * type.width])
+    if not isinstance(type, Elementary):
+        return None
+    if type.kind is Kind.REAL:
+        return Const(type, struct.unpack("<f" if type.size == 4 else "<d", data)[0])
+    plain = base_of(type) if isinstance(type, Subrange) else type
+    return Const(plain, int.from_bytes(data, "little", signed=type.signed))
+
+
+@dataclass(slots=True)
+class Pous:
+    """The POUs that can be called, by upper-case name, and who calls whom."""
+
+    blocks: dict[str, Pou] = field(default_factory=dict)
+    functions: dict[str, Pou] = field(default_factory=dict)
+    classes: Classes = field(default_factory=Classes)
+    generic: dict[str, tree.PouDeclaration] = field(default_factory=dict)
+    """FUNCTIONs with parameters of ANY_NUM and its like."""
+    instances: dict[str, "Instance"] = field(default_factory=dict)
+    """Those that are called, for each combination of types."""
+    dispatchers: dict[str, Pou] = field(default_factory=dict)
+    """Generated POUs that go on to the method or body of an instance's class, by name."""
+    ambiguous: dict[str, list[str]] = field(default_factory=dict)
+    """Global variables that several lists have, with the full names to choose from."""
+    broken: set[str] = field(default_factory=set)
+    """Functions whose declaration is wrong: reported once, not at every call."""
+    this_traps: dict[str, int] = field(default_factory=dict)
+    """Trap site of an unbound THIS, by method."""
+    aliases: dict[str, str] = field(default_factory=dict)
+    """`LIST.X` to the name that the global variable of a list is kept under."""
+    uses: dict[Pou, dict[Pou, int]] = field(default_factory=dict)
+    """Who calls whom, from how many places."""
+
+    def use(self, caller: Pou | None, callee: Pou) -> None:
+        if caller is not None:
+            called = self.uses.setdefault(caller, {})
+            called[callee] = called.get(callee, 0) + 1

@@ -1,0 +1,68 @@
+"""Start values of references: `p : REF_TO INT := REF(x)`. Known when every instance has its place in the image."""
+
+from collections.abc import Iterable, Iterator
+
+from scanbench.check.context import Rejected
+from scanbench.check.declare.declare import Declarations
+from scanbench.problems import Span
+from scanbench.program.program import Base, Place, ProgramInstance, RefOf
+from scanbench.program.types import SLOT_BYTES, ArrayType, Record, Reference
+
+
+def bind_start_references(
+    declarations: Declarations, variables: Record, instances: Iterable[ProgramInstance], image: bytearray
+) -> None:
+    """Writes the references that declarations ask for into every instance."""
+    if not declarations.start_references:
+        return
+    bases: dict[str, list[int]] = {}
+    for record, base in _records(variables, 0):
+        bases.setdefault(record.name.upper(), []).append(base)
+    for instance in instances:
+        for record, base in _records(instance.pou.instance, instance.offset):
+            bases.setdefault(record.name.upper(), []).append(base)
+    for owner, member, node in declarations.start_references:
+        assert isinstance(member.type, Reference)
+        try:
+            place = _lasting(declarations, declarations.reference_of(owner, node, member.type), node.span)
+        except Rejected:
+            continue
+        for base in bases.get(owner.name.upper(), []):
+            offset = place.offset + (base if place.base is Base.SELF else 0)
+            reference = offset | (place.bit or 0) << 32
+            at = base + member.offset
+            image[at : at + SLOT_BYTES] = reference.to_bytes(SLOT_BYTES, "little")
+
+
+def _lasting(declarations: Declarations, expr: object, span: Span) -> Place:
+    """The place, when it is found without running anything."""
+    if isinstance(expr, RefOf):
+        place = expr.place
+        if place.slot is None and place.reference is None and not place.indices:
+            return place
+    raise declarations.report.reject(
+        "D004",
+        "A reference starts with NULL or REF(variable) of a variable that is found without running anything.",
+        span,
+    )
+
+
+def _records(record: Record, base: int) -> Iterator[tuple[Record, int]]:
+    """The record itself, what it extends, and all that is inside of it."""
+    ancestor: Record | None = record
+    while ancestor is not None:
+        yield ancestor, base
+        ancestor = ancestor.base
+    for member in record.members.values():
+        if member.located or member.bound or member.storage == 0 or member.storage != member.type.size:
+            continue
+        inner, offset = member.type, base + member.offset
+        if isinstance(inner, Record):
+            yield from _records(inner, offset)
+        elif isinstance(inner, ArrayType):
+            element = inner.element
+            while isinstance(element, ArrayType):
+                element = element.element
+            if isinstance(element, Record):
+                for index in range(inner.size // element.size if element.size else 0):
+                    yield from _records(element, offset + index * element.size)

@@ -1,0 +1,323 @@
+"""Texts that people type about a statement of a program, in the scope of its POU: values, conditions, assignments, places.
+
+Names mean what they mean in the POU's statements (its variables, temporaries, in-outs, THIS, globals), and what they mean
+in a condition besides: instance paths and addresses. FUNCTIONs of the program can be called; function blocks and methods
+cannot. Nothing embeds a check here: whoever stores a value looks at its type.
+"""
+
+from collections.abc import Iterator
+from dataclasses import dataclass, replace
+
+from scanbench.check.body.assignments import AssignmentChecker
+from scanbench.check.body.objects import dotted, named_itself
+from scanbench.check.context import Rejected, Report, did_you_mean
+from scanbench.check.declare.names import Space
+from scanbench.check.declare.scopes import Scope, place_of
+from scanbench.check.standard.functions import FUNCTIONS
+from scanbench.check.typed.condition import (
+    NOWHERE,
+    BadCondition,
+    ProgramChecker,
+    Visible,
+    bad_condition,
+    joined,
+    near_names,
+    parsed,
+    unreadable,
+)
+from scanbench.problems import Span
+from scanbench.program.origin import in_library, is_system
+from scanbench.program.program import Assign, Base, Expr, If, Load, Place, Pou, Program, TrapKind, TrapSite
+from scanbench.program.shown import shown
+from scanbench.program.types import BOOL, Member, Record, Subrange, Type
+from scanbench.program.untyped import settle
+from scanbench.syntax import tree
+from scanbench.syntax.cursor import Unexpected
+from scanbench.syntax.parse_st import StParser
+from scanbench.syntax.source import Source
+
+Bad = BadCondition
+
+
+@dataclass(frozen=True, slots=True)
+class Local:
+    """A value, of any type, in the scope of `pou` (None: of the whole program)."""
+
+    text: str
+    pou: Pou | None
+    expr: Expr
+    traps: tuple[TrapSite, ...]
+    """What may go wrong; numbered behind those of the program."""
+    calls: bool
+    """Runs code of the program, which leaves its traces in frames: so only on a copy of an image."""
+
+    @property
+    def type(self) -> Type:
+        """Of the value."""
+        type = self.expr.type
+        assert type is not None
+        return type
+
+
+@dataclass(frozen=True, slots=True)
+class LocalPlace:
+    """A variable or a part of one, in the scope of `pou`."""
+
+    text: str
+    pou: Pou | None
+    place: Place
+    member: Member | None
+    """The declared variable that it is, or is inside of, as far as that is known."""
+    traps: tuple[TrapSite, ...]
+    calls: bool
+
+
+@dataclass(frozen=True, slots=True)
+class LocalAssignment:
+    """One `target := value`; with a condition (S=, R=) only where that holds."""
+
+    target: Place
+    member: Member | None
+    value: Expr
+    condition: Expr | None
+    shown: str
+    """The target as typed."""
+
+
+@dataclass(frozen=True, slots=True)
+class LocalAssignments:
+    """What an execution point does, one after the other."""
+
+    text: str
+    pou: Pou | None
+    assignments: tuple[LocalAssignment, ...]
+    traps: tuple[TrapSite, ...]
+    calls: bool
+
+
+class Locals:
+    """Understands texts about one program; made once for many of them. The program must not be checked on meanwhile."""
+
+    def __init__(self, program: Program) -> None:
+        self.program = program
+        self._visible = Visible(program)
+        self._functions = {
+            each.name.upper(): each
+            for each in program.pous
+            if each.kind == "function" and this_of(each) is None and not _ours(each)
+        }
+        self._scopes: dict[Pou, Scope] = {}
+
+    def value(self, pou: Pou | None, text: str) -> Local | Bad:
+        """A value of any type."""
+        return self._value(pou, text, None)
+
+    def condition(self, pou: Pou | None, text: str) -> Local | Bad:
+        """A BOOL."""
+        return self._value(pou, text, BOOL)
+
+    def place(self, pou: Pou | None, text: str) -> LocalPlace | Bad:
+        """A variable, an element, a member, a part: what a value can be stored in, if nothing else speaks against it."""
+        node = self._parsed(text, "variable")
+        if isinstance(node, Bad):
+            return node
+        checker = self._checker(pou)
+        try:
+            place, member = checker.place(node)
+        except Rejected:
+            return self._why(checker, text)
+        return LocalPlace(text, pou, place, member, tuple(checker.report.traps), checker.calls_made)
+
+    def assignments(self, pou: Pou | None, text: str) -> LocalAssignments | Bad:
+        """`a := a + 1; b := TRUE;`, the last `;` may be left out."""
+        nodes = self._parsed_statements(text)
+        if isinstance(nodes, Bad):
+            return nodes
+        checker = self._checker(pou)
+        try:
+            made = tuple(each for node in nodes for each in checker.assignments(node))
+        except Rejected:
+            return self._why(checker, text)
+        return LocalAssignments(text, pou, made, tuple(checker.report.traps), checker.calls_made)
+
+    def _value(self, pou: Pou | None, text: str, wanted: Type | None) -> Local | Bad:
+        node = self._parsed(text, "condition" if wanted == BOOL else "expression")
+        if isinstance(node, Bad):
+            return node
+        checker = self._checker(pou)
+        try:
+            expr = checker.condition(node) if wanted == BOOL else checker.any_value(node)
+        except Rejected:
+            return self._why(checker, text)
+        return Local(text, pou, expr, tuple(checker.report.traps), checker.calls_made)
+
+    # ---- parsing ----------------------------------------------------------------------------------------
+
+    def _parsed(self, text: str, what: str) -> tree.Expression | Bad:
+        return unreadable(text, what) or parsed(joined(self.program, text), what)
+
+    def _parsed_statements(self, text: str) -> tuple[tree.Assignment, ...] | Bad:
+        bad = unreadable(text, "assignment")
+        if bad is not None:
+            return bad
+        text = joined(self.program, text).rstrip()
+        parser = StParser(Source(NOWHERE.file, text if text.endswith(";") else f"{text};"))
+        try:
+            found = parser.statements()
+            if not parser.ended() and not parser.problems:
+                raise parser.fail("an assignment expected, `a := 1;`")
+        except Unexpected:
+            return bad_condition(parser.problems[0])
+        if parser.problems:
+            return bad_condition(parser.problems[0])
+        made = []
+        for each in found:
+            if not isinstance(each, tree.Assignment) or each.operator in ("REF=", "?="):
+                span = each.span
+                return Bad("Only assignments can stand here: `a := a + 1; b := TRUE;`.", (), span.column)
+            made.append(each)
+        return tuple(made)
+
+    def _why(self, checker: "_LocalChecker", text: str) -> Bad:
+        problem = checker.report.problems[0]
+        if problem.code != "T001":
+            return bad_condition(problem)
+        local = tuple(each for each in dict.fromkeys(checker.scope.names()) if f"`{each}`" in problem.message)
+        return bad_condition(problem, local or near_names(self.program, text, problem))
+
+    # ---- scopes -----------------------------------------------------------------------------------------
+
+    def _checker(self, pou: Pou | None) -> "_LocalChecker":
+        scope = self._visible.scope if pou is None else self._scopes.get(pou)
+        if scope is None:
+            assert pou is not None
+            scope = self._scopes[pou] = self._scope(pou)
+        return _LocalChecker(self._visible, scope, self._functions)
+
+    def _scope(self, pou: Pou) -> Scope:
+        space = Space(pou.name.rpartition(".")[0])
+        scope = replace(self._visible.scope, pou=pou.name, frame=pou.frame, space=space)
+        if pou.kind != "function":
+            return replace(scope, instance=pou.instance)
+        this = this_of(pou)
+        if this is None:
+            return scope
+        assert isinstance(this.type, Record)
+        return replace(scope, instance=this.type, this=place_of(this, Base.FRAME, pou.frame, 0).slot)
+
+
+_MADE: list[Locals] = []
+_KEPT = 2
+
+
+def locals_of(program: Program) -> Locals:
+    """The same, again and again, as long as few other programs are asked about."""
+    found = next((each for each in _MADE if each.program is program), None)
+    if found is None:
+        found = Locals(program)
+        _MADE.append(found)
+        del _MADE[:-_KEPT]
+    return found
+
+
+def this_of(pou: Pou) -> Member | None:
+    """What refers to the instance of a method."""
+    this = pou.frame.members.get("THIS") if pou.kind == "function" else None
+    return this if this is not None and this.hidden else None
+
+
+def _ours(pou: Pou) -> bool:
+    return is_system(pou.span) or in_library(pou.span) or pou.name.startswith("__")
+
+
+class _LocalChecker(ProgramChecker, AssignmentChecker):
+    """The checker of one text."""
+
+    def __init__(self, visible: Visible, scope: Scope, functions: dict[str, Pou]) -> None:
+        super().__init__(visible, Report(), scope)
+        self.pous.functions = functions
+        self.declarations.names.space = scope.space
+        self.calls_made = False
+        self._counters = []
+
+    def any_value(self, node: tree.Expression) -> Expr:
+        """A whole expression."""
+        if named_itself(node, "THIS"):
+            return Load(self.self_place("THIS", node.span))
+        expr = settle(self.plain(self.expr(node, None), node.span))
+        if expr.type is None:
+            raise self.report.reject("T010", "This has no value.", node.span)
+        return expr
+
+    def assignments(self, node: tree.Assignment) -> Iterator[LocalAssignment]:
+        """What one assignment does."""
+        _, member = self.place(node.target)
+        made, condition = self.assign(node), None
+        if isinstance(made, If):  # S= and R=
+            condition, (made,) = made.branches[0]
+        assert isinstance(made, Assign), made
+        yield LocalAssignment(made.target, member, made.value, condition, shown(node.target))
+
+    # ---- names ------------------------------------------------------------------------------------------
+
+    def self_place(self, name: str, span: Span) -> Place:
+        record = self.scope.instance
+        if record is None:
+            raise self.report.reject("T010", f"{name} is the instance that runs; there is none here.", span)
+        if name.upper() == "SUPER":
+            if record.base is None:
+                raise self.report.reject("T010", f"`{record.name}` extends nothing, so it has no SUPER.", span)
+            record = record.base
+        return self.own(Place(record, Base.SELF, 0))
+
+    def _this_trap(self) -> int:
+        return self.trap(TrapKind.NULL, NOWHERE, "THIS refers to no instance")
+
+    def unknown(self, name: str, span: Span) -> Rejected:
+        hint = did_you_mean(name, self.scope.names())
+        if not hint:
+            return super().unknown(name, span)
+        return self.report.reject("T001", f"There is no `{name}` here.{hint}", span)
+
+    def unclear(self, inner: Place, member: Member, reason: str, span: Span) -> Place:
+        """As the statements of the POU see it."""
+        return inner
+
+    def assignable(self, place: Place, member: Member | None, span: Span) -> None:
+        """Anything but constants: what a tool may write, whoever stores the value looks at."""
+        if member is not None and member.constant:
+            raise self.report.reject("T003", f"`{member.name}` is a CONSTANT and cannot be assigned.", span)
+
+    def _limit(self, expr: Expr, type: Subrange, span: Span, variable: str) -> Expr:
+        return expr
+
+    def noting(self, place: Place, member: Member | None) -> Place | None:
+        return None  # only what the program itself writes is noted
+
+    def with_note(self, value: Expr, type: Subrange, span: Span) -> tuple[Expr, Expr]:
+        return value, value
+
+    # ---- calls ------------------------------------------------------------------------------------------
+
+    def call(self, node: tree.Call, wanted: Type | None = None) -> Expr:
+        name = dotted(node.callee) or "this"
+        callee = self._function(name)
+        if callee is not None:
+            if any((each.name or "").upper() in ("EN", "ENO") for each in node.arguments):
+                raise self.report.reject("X001", "EN and ENO cannot stand here.", node.span)
+            self.calls_made = True
+            return self.as_value(self.invoke(node, callee, callee.name, None, None), node.span)
+        value = self.standard(node, name.upper(), wanted) if "." not in name else None
+        if value is not None:
+            return value
+        hint = did_you_mean(name, [*FUNCTIONS, *(each.name for each in self.pous.functions.values())])
+        raise self.report.reject(
+            "X001", f"`{name}` is no FUNCTION that can be called here.{hint} Function blocks and methods are not run for an "
+            "expression: name their variables instead.", node.span,
+        )  # fmt: skip
+
+    def _function(self, name: str) -> Pou | None:
+        if self._hides(name):
+            return None
+        candidates = self.scope.space.candidates(name.upper())
+        return next((self.pous.functions[each] for each in candidates if each in self.pous.functions), None)
