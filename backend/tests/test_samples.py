@@ -4,7 +4,7 @@ import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.engines.pair import PairEngine
-from scanbench.runtime.headless import HeadlessRun, run_headless
+from scanbench.recording.headless import HeadlessRun, run_headless
 from scanbench.session.samples import Sample, samples
 from tests.caseformat import MODELS
 

@@ -19,9 +19,9 @@ from scanbench.check.build import check_sources
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.plcmodel.load import model_named
 from scanbench.program.program import Program
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
-from scanbench.runtime.timeline import Timeline
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 

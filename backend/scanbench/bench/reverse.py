@@ -20,9 +20,9 @@ from scanbench.engines.native.probed import ProbedBuilds
 from scanbench.plcmodel.load import model_named
 from scanbench.problems import Span
 from scanbench.program.program import Program
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Entry
 from scanbench.runtime.programs import Loaded
-from scanbench.runtime.timeline import Timeline
 from scanbench.session.codec import ENTRIES
 
 SCANS = 1_000_000

@@ -26,10 +26,10 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.probed import ProbedBuilds
 from scanbench.plcmodel.load import model_named
 from scanbench.program.program import Program
-from scanbench.runtime.contents import KeptProgram
-from scanbench.runtime.headless import run_headless
+from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.headless import run_headless
+from scanbench.recording.recording import Recording
 from scanbench.runtime.programs import Loaded, Shelf
-from scanbench.runtime.recording import Recording
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES, pack_body

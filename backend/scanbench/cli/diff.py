@@ -9,9 +9,9 @@ import typer
 
 from scanbench.cli.inputs import DAMAGED, find_model_named, tell_damage, unreadable, unusable, with_near
 from scanbench.program.program import Program
-from scanbench.runtime.contents import KeptProgram
+from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.format import RunFileError
 from scanbench.runtime.programs import NoProgram
-from scanbench.runtime.runfile import RunFileError
 from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import sources_in
 from scanbench.session.starting import checked_program

@@ -47,11 +47,11 @@ from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import extended
 from scanbench.program.program import Program
+from scanbench.recording.recording import Recording
 from scanbench.runtime.clock import iso, wall_time
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram
-from scanbench.runtime.recording import Recording
 from scanbench.session.codec import ENTRIES
 from scanbench.session.from_disk import DEFAULT_MODEL
 from scanbench.session.protocol import Sources

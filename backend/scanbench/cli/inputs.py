@@ -10,8 +10,8 @@ import typer
 from scanbench.plcmodel.load import NoModels, NoSuchModel, load_all, model_directory, model_named
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem
-from scanbench.runtime.recording import Recording
-from scanbench.runtime.runfile import Damaged
+from scanbench.recording.format import Damaged
+from scanbench.recording.recording import Recording
 from scanbench.session.from_disk import DEFAULT_MODEL, program_files, project_model, read_text
 from scanbench.session.refused import Refused
 

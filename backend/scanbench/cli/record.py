@@ -6,7 +6,7 @@ from pathlib import Path
 
 from scanbench.cli.inputs import usage
 from scanbench.program.program import Program
-from scanbench.runtime.recording import DEFAULT_LIMIT, Recording
+from scanbench.recording.recording import DEFAULT_LIMIT, Recording
 from scanbench.session.codec import ENTRIES, pack_body
 from scanbench.session.protocol import Sources
 

@@ -12,11 +12,11 @@ from scanbench.cli.inputs import DAMAGED, find_model_named, unreadable, unusable
 from scanbench.cli.interrupt import INTERRUPTED
 from scanbench.cli.run import ENGINES, EngineChoice
 from scanbench.engines.pair import Differs
-from scanbench.runtime.contents import KeptProgram
+from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.format import RunFileError
+from scanbench.recording.replay import Diverged
+from scanbench.recording.replay_file import Replayed, replay_file
 from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
-from scanbench.runtime.replay import Diverged
-from scanbench.runtime.replay_file import Replayed, replay_file
-from scanbench.runtime.runfile import RunFileError
 from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import sources_in
 

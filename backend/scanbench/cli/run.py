@@ -25,8 +25,8 @@ from scanbench.faults.detect import Detection
 from scanbench.faults.schedule import Schedule
 from scanbench.plcmodel.model import Model
 from scanbench.program.program import Program
+from scanbench.recording.headless import run_headless
 from scanbench.runtime.command import Command
-from scanbench.runtime.headless import run_headless
 from scanbench.runtime.joined import Joined
 from scanbench.verify.disturb_schedule import DisturbanceSchedule
 

@@ -7,7 +7,7 @@ import typer
 
 from scanbench.program.program import TrapKind
 from scanbench.program.types import ArrayType, Record
-from scanbench.runtime.headless import HeadlessRun
+from scanbench.recording.headless import HeadlessRun
 from scanbench.runtime.resource import Resource
 from scanbench.symbols.symbols import Symbol, members
 from scanbench.symbols.values import format_value, python_value

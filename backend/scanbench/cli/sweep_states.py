@@ -14,10 +14,10 @@ from scanbench.faults.react import Point
 from scanbench.faults.reference import parse_reference
 from scanbench.problems import perhaps
 from scanbench.program.program import Program
+from scanbench.recording.headless import HeadlessRun, run_headless
 from scanbench.runtime.command import Command, Refusal
 from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.header import Mode
-from scanbench.runtime.headless import HeadlessRun, run_headless
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.write import Write
 from scanbench.symbols.symbols import UnknownPath, resolve

@@ -18,11 +18,11 @@ from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.faults.detect import Detection
 from scanbench.faults.schedule import Schedule
 from scanbench.program.program import Program
-from scanbench.runtime.contents import KeptProgram
-from scanbench.runtime.headless import HeadlessRun, run_headless
+from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.format import RunFileError, is_run_file
+from scanbench.recording.headless import HeadlessRun, run_headless
+from scanbench.recording.recording import Recording
 from scanbench.runtime.programs import NoProgram
-from scanbench.runtime.recording import Recording
-from scanbench.runtime.runfile import RunFileError, is_run_file
 from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import RUN_SUFFIX, sources_in, sources_of
 from scanbench.session.starting import checked_program, model_of

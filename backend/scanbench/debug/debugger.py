@@ -17,11 +17,11 @@ from scanbench.engines.debug import NOTHING, Frame, Listen
 from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.probe import MakeProbed, Probe, ProbedEngine
 from scanbench.problems import Span
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Entry, Plan, Refusal
 from scanbench.runtime.inside import HaltAt
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
-from scanbench.runtime.timeline import Timeline
 
 STEPS = ("continue", "in", "over", "out", "statement", "scan", "to", "pause", "entry")
 

@@ -8,8 +8,8 @@ from scanbench.debug.listener import Found, Listener, Position
 from scanbench.debug.reverse import Raised, search
 from scanbench.engines.engine import Reason
 from scanbench.engines.probe import MakeProbed
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Refusal
-from scanbench.runtime.timeline import Timeline
 
 _EMPTY = 10_000
 """Scans in which no statement runs that a step back passes over, at most."""

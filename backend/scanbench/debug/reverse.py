@@ -13,9 +13,9 @@ from scanbench.debug.probing import notes_of
 from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Reason
 from scanbench.engines.probe import BadProbe, MakeProbed, ProbedEngine
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.programs import Loaded
-from scanbench.runtime.timeline import Timeline
 
 Raised = Callable[[Entry], tuple[str, ...]]
 """The errors that an entry of the journal raises."""

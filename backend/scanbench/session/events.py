@@ -12,8 +12,8 @@ from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.history import ErrorRow
 from scanbench.problems import Problem, Severity
 from scanbench.program.program import CheckSite
+from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.forces import ForcedValue
-from scanbench.runtime.recording import RecordingInfo
 from scanbench.runtime.trap import TrapInfo
 from scanbench.session import debug_protocol
 from scanbench.session.protocol import Previewed, RunMark, WatchItem

@@ -14,14 +14,14 @@ from scanbench.engines.engine import Engine
 from scanbench.engines.sample import HEAD_WORDS, Sampling
 from scanbench.program.program import Program
 from scanbench.program.types import BOOL, Elementary
+from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.format import RunFileError
+from scanbench.recording.recording import Recording
+from scanbench.recording.replay import Diverged, replay
+from scanbench.recording.timeline import NOT_AS_RECORDED, KeptPrograms, open_at
 from scanbench.runtime.command import Entry, Swapped
-from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.programs import Loaded, NoProgram
-from scanbench.runtime.recording import Recording
-from scanbench.runtime.replay import Diverged, replay
 from scanbench.runtime.resource import Resource
-from scanbench.runtime.runfile import RunFileError
-from scanbench.runtime.timeline import NOT_AS_RECORDED, KeptPrograms, open_at
 from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import sources_in
 from scanbench.session.starting import NoStart, ProgramOf

@@ -3,8 +3,8 @@
 from collections.abc import Sequence
 
 from scanbench.debug.halt import Halt
+from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.command import Entry
-from scanbench.runtime.recording import RecordingInfo
 from scanbench.session.events import TimelineChanged
 from scanbench.session.host.marks import LIMIT, LONGEST, marks_of
 from scanbench.session.protocol import RunMark, RunMarks

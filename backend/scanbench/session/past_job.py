@@ -6,10 +6,10 @@ from pathlib import Path
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.schedule import Schedule
+from scanbench.recording.format import RunFileError
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.joined import Joined
 from scanbench.runtime.programs import NoProgram
-from scanbench.runtime.runfile import RunFileError
 from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import sources_in
 from scanbench.session.starting import NoStart, ProgramOf

@@ -5,12 +5,12 @@ from dataclasses import replace
 from pathlib import Path
 
 from scanbench.plcmodel.model import Model
+from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.fingerprints import model_fingerprint
+from scanbench.recording.format import RunFileError
+from scanbench.recording.recording import DEFAULT_LIMIT, Recording
 from scanbench.runtime.clock import fresh_token
 from scanbench.runtime.command import Swapped
-from scanbench.runtime.contents import KeptProgram
-from scanbench.runtime.fingerprints import model_fingerprint
-from scanbench.runtime.recording import DEFAULT_LIMIT, Recording
-from scanbench.runtime.runfile import RunFileError
 from scanbench.session.codec import ENTRIES, BadMessage, unpack
 from scanbench.session.protocol import Sources
 

@@ -17,19 +17,19 @@ from scanbench.plcmodel.model import Model
 from scanbench.problems import Severity
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
+from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.format import RunFileError
+from scanbench.recording.recording import Recording
+from scanbench.recording.replay import Diverged, replay
+from scanbench.recording.thinning import Checkpoint
+from scanbench.recording.timeline import NOT_AS_RECORDED, KeptPrograms, open_at
 from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Entry, Refusal
-from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.header import Halt, Mode
 from scanbench.runtime.inside import front
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import NoProgram
-from scanbench.runtime.recording import Recording
-from scanbench.runtime.replay import Diverged, replay
 from scanbench.runtime.resource import Resource
-from scanbench.runtime.runfile import RunFileError
-from scanbench.runtime.thinning import Checkpoint
-from scanbench.runtime.timeline import NOT_AS_RECORDED, KeptPrograms, open_at
 from scanbench.session.codec import ENTRIES
 from scanbench.session.host.build import BuildFailed, find_model
 from scanbench.session.protocol import Sources

@@ -5,10 +5,10 @@ from pathlib import Path
 
 from scanbench.engines.cache import BlobCache
 from scanbench.program.program import Program
+from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.format import RunFileError
 from scanbench.runtime.clock import monotonic_ns
-from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.programs import NoProgram
-from scanbench.runtime.runfile import RunFileError
 from scanbench.session.codec import ENTRIES, pack_body
 from scanbench.session.runs import sources_in
 from scanbench.session.starting import NoStart, ProgramOf

@@ -12,8 +12,8 @@ from pathlib import Path
 from scanbench import __version__
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
+from scanbench.recording.format import RunFileError
 from scanbench.runtime.clock import monotonic_ns
-from scanbench.runtime.runfile import RunFileError
 from scanbench.session.builds import Checker
 from scanbench.session.instance import Remembered
 from scanbench.session.keeper import Keeper, breakpoint_of, line_of, row_of

@@ -8,16 +8,16 @@ from pathlib import Path
 from scanbench.engines.engine import Reason, Stop
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
+from scanbench.recording.blocks import Codec, KeptProgram
+from scanbench.recording.format import RunFileError
+from scanbench.recording.recording import Recording, Replaced
+from scanbench.recording.replay import replay
+from scanbench.recording.thinning import Checkpoint
+from scanbench.recording.timeline import NOT_AS_RECORDED, KeptPrograms, open_at
 from scanbench.runtime.command import Entry
-from scanbench.runtime.contents import Codec, KeptProgram
 from scanbench.runtime.header import Halt
 from scanbench.runtime.inside import Diverged
 from scanbench.runtime.programs import Loaded, NoProgram, Programs
-from scanbench.runtime.recording import Recording, Replaced
-from scanbench.runtime.replay import replay
-from scanbench.runtime.runfile import RunFileError
-from scanbench.runtime.thinning import Checkpoint
-from scanbench.runtime.timeline import NOT_AS_RECORDED, KeptPrograms, open_at
 from scanbench.runtime.trap import Trapped
 from scanbench.verify.engines import Make
 from scanbench.verify.sides import Begin, Shelf, Side

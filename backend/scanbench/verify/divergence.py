@@ -11,11 +11,11 @@ from dataclasses import dataclass, replace
 from operator import attrgetter
 from typing import Literal
 
+from scanbench.recording.replay import replay
+from scanbench.recording.timeline import NOT_AS_RECORDED
 from scanbench.runtime.command import Entry
 from scanbench.runtime.inside import Diverged
-from scanbench.runtime.replay import replay
 from scanbench.runtime.resource import Resource
-from scanbench.runtime.timeline import NOT_AS_RECORDED
 from scanbench.runtime.trap import Trapped
 from scanbench.verify.changes import Comparer, Moment, entered, moment_of, same_model
 from scanbench.verify.findings import Change, Changes, Divergence

@@ -7,9 +7,9 @@ from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.probe import MakeProbed
 from scanbench.program.program import Program
-from scanbench.runtime.contents import KeptProgram
+from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.timeline import ProgramsOf
 from scanbench.runtime.programs import Loaded, NoProgram
-from scanbench.runtime.timeline import ProgramsOf
 from scanbench.verify.engines import Make
 
 ProgramOf = Callable[[KeptProgram], Program]

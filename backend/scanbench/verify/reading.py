@@ -1,6 +1,6 @@
 """A run file that is looked at, over and over: opened once, followed as it grows, never written.
 
-Questions about the past go to its `timeline`, which stands at the last scan that is over; see `runtime/timeline.py`.
+Questions about the past go to its `timeline`, which stands at the last scan that is over; see `recording/timeline.py`.
 """
 
 from bisect import bisect_right
@@ -10,17 +10,17 @@ from pathlib import Path
 from types import TracebackType
 from typing import Self
 
+from scanbench.recording.blocks import Codec, KeptProgram
+from scanbench.recording.format import RunFileError
+from scanbench.recording.recording import Recording, Replaced
+from scanbench.recording.replay import replay
+from scanbench.recording.smaller import Standing
+from scanbench.recording.thinning import Checkpoint
+from scanbench.recording.timeline import NOT_AS_RECORDED, KeptPrograms, ProgramsOf, Timeline, open_at
 from scanbench.runtime.command import Entry, Refusal, Swapped
-from scanbench.runtime.contents import Codec, KeptProgram
 from scanbench.runtime.inside import Diverged
 from scanbench.runtime.programs import NoProgram, Programs
-from scanbench.runtime.recording import Recording, Replaced
-from scanbench.runtime.replay import replay
 from scanbench.runtime.resource import Resource
-from scanbench.runtime.runfile import RunFileError
-from scanbench.runtime.smaller import Standing
-from scanbench.runtime.thinning import Checkpoint
-from scanbench.runtime.timeline import NOT_AS_RECORDED, KeptPrograms, ProgramsOf, Timeline, open_at
 
 TextsOf = Callable[[KeptProgram], Mapping[str, str]]
 """The source files of a program, by name."""

@@ -12,12 +12,12 @@ from pathlib import Path
 
 from scanbench.faults.arm import Disarm
 from scanbench.faults.detect import Detection
+from scanbench.recording.blocks import Codec
+from scanbench.recording.format import RunFileError
+from scanbench.recording.recording import DEFAULT_LIMIT
+from scanbench.recording.timeline import ProgramsOf, Timeline
 from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.command import Command, Numbered, Refusal
-from scanbench.runtime.contents import Codec
-from scanbench.runtime.recording import DEFAULT_LIMIT
-from scanbench.runtime.runfile import RunFileError
-from scanbench.runtime.timeline import ProgramsOf, Timeline
 from scanbench.verify.disturb import Calm
 from scanbench.verify.findings import RerunChange
 from scanbench.verify.reading import NoReading, Reading

@@ -7,12 +7,12 @@ from types import TracebackType
 from typing import Self, TypeVar
 
 from scanbench.program.program import Program
+from scanbench.recording.blocks import Codec, KeptProgram
+from scanbench.recording.format import RunFileError
+from scanbench.recording.timeline import NOT_AS_RECORDED
 from scanbench.runtime.command import Swapped
-from scanbench.runtime.contents import Codec, KeptProgram
 from scanbench.runtime.inside import Diverged
 from scanbench.runtime.programs import NoProgram
-from scanbench.runtime.runfile import RunFileError
-from scanbench.runtime.timeline import NOT_AS_RECORDED
 from scanbench.verify.both import Both, View
 from scanbench.verify.control import Control, Source, TextsOf, Unverifiable
 from scanbench.verify.edits import BadEdit, Edits

@@ -5,7 +5,7 @@ from pathlib import Path
 from scanbench.check.build import check_sources
 from scanbench.check.incremental import Checks
 from scanbench.plcmodel.load import load_all, model_directory
-from scanbench.runtime.fingerprints import program_digest
+from scanbench.recording.fingerprints import program_digest
 
 GOOD = (Path(__file__).parents[1] / "plcmodel" / "broken_user_errors" / "GOOD.xml").read_text("utf-8")
 MAIN = "PROGRAM Main\nVAR n : INT; END_VAR\nn := n + 1;\nEND_PROGRAM\n"

@@ -10,10 +10,11 @@ from typer.testing import CliRunner, Result
 from scanbench.cli.commands import app
 from scanbench.faults.inject import ACTIVE
 from scanbench.plcmodel.load import load_all, model_directory
-from scanbench.runtime import checkpoints, runfile
+from scanbench.recording import checkpoints
+from scanbench.recording import format as runfile
+from scanbench.recording.recording import Recording
 from scanbench.runtime.forces import FORCED
 from scanbench.runtime.journal import Journal
-from scanbench.runtime.recording import Recording
 from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import sources_of
 

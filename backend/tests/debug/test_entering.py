@@ -7,7 +7,7 @@ import pytest
 
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.debug.debugger import MOST_ASSIGNED
-from scanbench.runtime.replay_file import replay_file
+from scanbench.recording.replay_file import replay_file
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES

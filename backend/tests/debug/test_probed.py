@@ -5,7 +5,7 @@ from pathlib import Path
 import pytest
 
 from scanbench.debug.breakpoint import Breakpoint
-from scanbench.runtime import checkpoints
+from scanbench.recording import checkpoints
 from tests.debug.test_walks import BUILDS
 from tests.debug.walking import STATIONS, Counted, Walker
 from tests.runtime.bench import value

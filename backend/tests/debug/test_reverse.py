@@ -7,7 +7,7 @@ import pytest
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.faults.inject import Generate
 from scanbench.faults.reference import ErrorRef
-from scanbench.runtime import checkpoints
+from scanbench.recording import checkpoints
 from scanbench.runtime.write import Write
 from tests.debug.test_walks import BUILDS
 from tests.debug.walking import STATIONS, Counted, Walker

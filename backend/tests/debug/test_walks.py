@@ -10,8 +10,8 @@ from hypothesis import strategies as st
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.engines.interpreter.debugged import debug_engine
 from scanbench.engines.native.debugged import DebugBuilds
+from scanbench.recording.replay_file import replay_file
 from scanbench.runtime.forces import Force, Release
-from scanbench.runtime.replay_file import replay_file
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES

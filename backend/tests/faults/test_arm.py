@@ -20,13 +20,13 @@ from scanbench.faults.inject import ACTIVE, Generate, Recover
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.schedule import Schedule
 from scanbench.faults.shapes import Shape, Start, Wanted, lasts
+from scanbench.recording.headless import HeadlessRun, run_headless
+from scanbench.recording.journal_roots import heritage
+from scanbench.recording.replay import replay
 from scanbench.runtime.command import Command, Entry, Refusal
-from scanbench.runtime.headless import HeadlessRun, run_headless
-from scanbench.runtime.heritage import heritage
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
-from scanbench.runtime.replay import replay
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write

@@ -5,11 +5,11 @@ import pytest
 from scanbench.faults.clear import WILL_NOT_CLEAR, ClearErrorLog, ClearErrors
 from scanbench.faults.inject import ACTIVE, Generate, Recover
 from scanbench.faults.reference import ErrorRef, parse_reference
+from scanbench.recording.replay import replay
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.header import Mode
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.programs import EngineFactory
-from scanbench.runtime.replay import replay
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
 from scanbench.session import codec, protocol

@@ -7,11 +7,11 @@ from scanbench.faults.history import History
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef
 from scanbench.program.layout import Layout
+from scanbench.recording.replay import replay
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.header import Halt, Mode
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.programs import EngineFactory, Loaded
-from scanbench.runtime.replay import replay
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.trap import Trapped

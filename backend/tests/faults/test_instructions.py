@@ -9,11 +9,11 @@ from scanbench.faults.history import ErrorRow, History
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.load import load_all, model_directory
+from scanbench.recording.replay import replay
 from scanbench.runtime.detect import Asked
 from scanbench.runtime.header import Halt, Mode
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.programs import EngineFactory
-from scanbench.runtime.replay import replay
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.trap import Trapped

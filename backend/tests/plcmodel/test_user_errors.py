@@ -24,7 +24,7 @@ from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import device_of, document_of, extended, model_for, with_user_errors
 from scanbench.plcmodel.write_catalogue import write_catalogue
 from scanbench.problems import TABLE
-from scanbench.runtime.fingerprints import model_fingerprint
+from scanbench.recording.fingerprints import model_fingerprint
 
 BROKEN = Path(__file__).parent / "broken_user_errors"
 GOOD = (BROKEN / "GOOD.xml").read_text("utf-8")

@@ -14,6 +14,7 @@ from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.schedule import Schedule
 from scanbench.faults.shapes import Shape, Start, Wanted
+from scanbench.recording.replay import replay
 from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import Force, Release
@@ -21,7 +22,6 @@ from scanbench.runtime.journal import Journal
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
-from scanbench.runtime.replay import replay
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock

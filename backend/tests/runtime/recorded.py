@@ -6,13 +6,13 @@ from pathlib import Path
 
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.recording import DEFAULT_LIMIT
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Refusal
-from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import EngineFactory, Loaded, NoProgram
-from scanbench.runtime.recording import DEFAULT_LIMIT
 from scanbench.runtime.resource import Resource
-from scanbench.runtime.timeline import Timeline
 from scanbench.session.codec import ENTRIES
 from tests.runtime.bench import program
 

@@ -14,11 +14,11 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.faults.arm import ARMED
 from scanbench.faults.detect import Detection
 from scanbench.faults.schedule import Schedule
+from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Refusal
-from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import EngineFactory, Loaded
-from scanbench.runtime.timeline import Timeline
 from scanbench.session.codec import ENTRIES
 from tests.runtime.bench import program
 from tests.runtime.random_runs import ARMS, COMMANDS, SOURCE, Step

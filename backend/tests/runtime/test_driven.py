@@ -5,10 +5,10 @@ from pathlib import Path
 
 import pytest
 
-from scanbench.runtime import checkpoints
-from scanbench.runtime import recording as recordings
-from scanbench.runtime.recording import Recording
-from scanbench.runtime.runfile import RunFile
+from scanbench.recording import checkpoints
+from scanbench.recording import recording as recordings
+from scanbench.recording.format import RunFile
+from scanbench.recording.recording import Recording
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from tests.runtime.recorded import advance, begun, resumed, tidy
@@ -82,7 +82,7 @@ def test_a_smaller_file_never_ends_in_front_of_its_last_entry(tmp_path: Path, mo
         seen.append(Path(source).read_bytes())
         os.rename(source, target)
 
-    monkeypatch.setattr("scanbench.runtime.recording.os.replace", replaced)
+    monkeypatch.setattr("scanbench.recording.recording.os.replace", replaced)
     for number in range(300):
         timeline.note()
         advance(timeline, 3)

@@ -11,13 +11,13 @@ from pathlib import Path
 import pytest
 import zstandard
 
-from scanbench.runtime import contents
+from scanbench.recording import blocks as contents
+from scanbench.recording.blocks import About, KeptProgram, keyframe
+from scanbench.recording.format import LARGEST, Kind, RunFile, RunFileError
+from scanbench.recording.recording import Recording
+from scanbench.recording.replay_file import replay_file
 from scanbench.runtime.command import Entry, Patch, Plan, Swapped
-from scanbench.runtime.contents import About, KeptProgram, keyframe
 from scanbench.runtime.program_change import ProgramChange
-from scanbench.runtime.recording import Recording
-from scanbench.runtime.replay_file import replay_file
-from scanbench.runtime.runfile import LARGEST, Kind, RunFile, RunFileError
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from tests.runtime.bench import program
@@ -175,7 +175,7 @@ def test_a_plan_that_leads_outside_is_refused(patch: Patch, tmp_path: Path) -> N
 
 def test_looking_for_blocks_behind_damage_has_an_end(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """A file full of beginnings of blocks that all reach to its end."""
-    monkeypatch.setattr("scanbench.runtime.runfile._SEARCH", 1 << 24)
+    monkeypatch.setattr("scanbench.recording.format._SEARCH", 1 << 24)
     path = write(tmp_path / "run", [*FIRST, STATE])
     size = 1 << 20
     heads = (struct.pack("<4sBBHIQI", b"\xf5RB\n", 3, 0, 0, size - at - 24, 7, 0) for at in range(0, size - 24, 24))
@@ -189,7 +189,7 @@ def test_looking_for_blocks_behind_damage_has_an_end(tmp_path: Path, monkeypatch
         checked += len(data)
         return crc32(data, value)
 
-    monkeypatch.setattr("scanbench.runtime.runfile.zlib.crc32", counting)
+    monkeypatch.setattr("scanbench.recording.format.zlib.crc32", counting)
     with Recording.open(path, ENTRIES, read_only=True) as recording:
         assert "is damaged at byte" in recording.damage
     assert checked < 20 << 20

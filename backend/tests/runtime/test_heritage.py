@@ -9,15 +9,15 @@ import pytest
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import ACTIVE, Generate, Recover
 from scanbench.faults.reference import ErrorRef
-from scanbench.runtime import checkpoints
+from scanbench.recording import checkpoints
+from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.journal_roots import heritage
+from scanbench.recording.recording import Recording
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Effect, Entry, Plan, Restarted, Swapped
-from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.forces import FORCED, Force, Release
-from scanbench.runtime.heritage import heritage
 from scanbench.runtime.journal import Fold, Journal
 from scanbench.runtime.programs import Programs
-from scanbench.runtime.recording import Recording
-from scanbench.runtime.timeline import Timeline
 from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES

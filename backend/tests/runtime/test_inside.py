@@ -9,14 +9,14 @@ from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Reason
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.recording.replay_file import replay_file
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.forces import FORCED, Force
 from scanbench.runtime.inside import Diverged, HaltAt
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.programs import EngineFactory
-from scanbench.runtime.replay_file import replay_file
 from scanbench.runtime.restart import Restart
-from scanbench.runtime.timeline import Timeline
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from tests.runtime.bench import ENGINES, value

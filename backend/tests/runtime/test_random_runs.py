@@ -13,9 +13,9 @@ from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate
+from scanbench.recording.replay import replay
 from scanbench.runtime.command import Entry
 from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
-from scanbench.runtime.replay import replay
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.trap import Trapped
 from scanbench.runtime.write import Write

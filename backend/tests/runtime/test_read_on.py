@@ -6,11 +6,11 @@ from pathlib import Path
 
 import pytest
 
-from scanbench.runtime import checkpoints
-from scanbench.runtime import recording as recordings
+from scanbench.recording import checkpoints
+from scanbench.recording import recording as recordings
+from scanbench.recording.format import RunFileError
+from scanbench.recording.recording import Recording, Replaced
 from scanbench.runtime.command import Entry
-from scanbench.runtime.recording import Recording, Replaced
-from scanbench.runtime.runfile import RunFileError
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from tests.runtime.recorded import SECOND, advance, begun, to_program

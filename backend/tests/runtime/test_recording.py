@@ -13,15 +13,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scanbench.runtime import checkpoints
-from scanbench.runtime import recording as recordings
+from scanbench.recording import checkpoints
+from scanbench.recording import recording as recordings
+from scanbench.recording.format import Kind, RunFile, RunFileError
+from scanbench.recording.recording import Recording
+from scanbench.recording.replay import Diverged
+from scanbench.recording.replay_file import replay_file
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.forces import FORCED, Force
-from scanbench.runtime.recording import Recording
-from scanbench.runtime.replay import Diverged
-from scanbench.runtime.replay_file import replay_file
-from scanbench.runtime.runfile import Kind, RunFile, RunFileError
-from scanbench.runtime.timeline import Timeline
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from tests.runtime.bench import value
@@ -147,7 +147,7 @@ def test_what_is_no_run_file_is_refused_and_left_alone(tmp_path: Path) -> None:
 def test_another_model_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     path = tmp_path / "run"
     begun(path).close()
-    monkeypatch.setattr("scanbench.runtime.timeline.model_fingerprint", lambda model: "another")
+    monkeypatch.setattr("scanbench.recording.timeline.model_fingerprint", lambda model: "another")
     with pytest.raises(RunFileError, match="another description of the model CJ1M-CPU63"):
         resumed(path)
 
@@ -157,7 +157,7 @@ def test_another_model_is_refused(tmp_path: Path, monkeypatch: pytest.MonkeyPatc
 FULL = """
 import resource, sys
 from pathlib import Path
-from scanbench.runtime import checkpoints
+from scanbench.recording import checkpoints
 from scanbench.runtime.command import Refusal, Entry
 from scanbench.runtime.write import Write
 from tests.runtime.recorded import advance, begun, resumed
@@ -207,16 +207,16 @@ def test_what_the_plc_found_itself_is_written_when_there_is_room(
     timeline = begun(path)
     advance(timeline, 5)
     timeline.submit(Write("Ada", "Main.d", "0"))
-    write: Callable[[int, bytes, int], None] = __import__("scanbench.runtime.runfile", fromlist=["_write"])._write
+    write: Callable[[int, bytes, int], None] = __import__("scanbench.recording.format", fromlist=["_write"])._write
 
     def full(fd: int, data: bytes, offset: int) -> None:
         raise OSError(28, "No space left on device")
 
-    monkeypatch.setattr("scanbench.runtime.runfile._write", full)
+    monkeypatch.setattr("scanbench.recording.format._write", full)
     advance(timeline, 1)
     assert timeline.resource.trap is not None
     assert timeline.recording.trouble
-    monkeypatch.setattr("scanbench.runtime.runfile._write", write)
+    monkeypatch.setattr("scanbench.recording.format._write", write)
     assert not isinstance(timeline.submit(Write("Ada", "Main.d", "1")), Refusal)
     state = timeline.resource.state
     timeline.close()
@@ -333,7 +333,7 @@ def test_a_replay_that_goes_otherwise_says_where(tmp_path: Path) -> None:
 REPLAY = """
 import sys
 from pathlib import Path
-from scanbench.runtime.replay_file import replay_file
+from scanbench.recording.replay_file import replay_file
 from scanbench.session.codec import ENTRIES
 from tests.runtime.recorded import of_file_native
 print(replay_file(Path(sys.argv[1]), of_file_native, ENTRIES).hash)

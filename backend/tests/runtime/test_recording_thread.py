@@ -8,11 +8,12 @@ from pathlib import Path
 
 import pytest
 
-from scanbench.runtime import checkpoints, runfile, smaller
+from scanbench.recording import checkpoints, smaller
+from scanbench.recording import format as runfile
+from scanbench.recording.blocks import Codec
+from scanbench.recording.timeline import Timeline
+from scanbench.recording.worker import Errands
 from scanbench.runtime.command import Entry, Refusal
-from scanbench.runtime.contents import Codec
-from scanbench.runtime.errands import Errands
-from scanbench.runtime.timeline import Timeline
 from scanbench.runtime.write import Write
 from tests.runtime.recorded import advance, begun, resumed, tidy
 
@@ -154,7 +155,7 @@ def test_what_is_made_when_a_recording_ends_is_taken_away(tmp_path: Path, monkey
         made.append(smaller.make_smaller(seen, limit, codec))
         return made[-1]
 
-    monkeypatch.setattr("scanbench.runtime.recording.make_smaller", make)
+    monkeypatch.setattr("scanbench.recording.recording.make_smaller", make)
     gate.set()
     timeline.close()
     assert made[0] is not None

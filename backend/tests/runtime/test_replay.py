@@ -6,13 +6,13 @@ from scanbench.check.typed.condition import Condition, compile_condition
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef
+from scanbench.recording.headless import HeadlessRun, run_headless
+from scanbench.recording.replay import Diverged, replay
 from scanbench.runtime.command import Command
 from scanbench.runtime.forces import Force, Release
-from scanbench.runtime.headless import HeadlessRun, run_headless
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.programs import EngineFactory, Loaded
-from scanbench.runtime.replay import Diverged, replay
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
 from tests.runtime.bench import ENGINES, program, value

@@ -2,12 +2,12 @@
 
 import pytest
 
+from scanbench.recording.replay import replay
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.forces import Force
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
-from scanbench.runtime.replay import replay
 from scanbench.runtime.write import Write
 from tests.runtime.bench import ENGINES, change, plc, program, value
 

@@ -14,18 +14,18 @@ from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Recover
-from scanbench.runtime import checkpoints, recording
+from scanbench.recording import checkpoints, recording
+from scanbench.recording.replay import Diverged
+from scanbench.recording.replay_file import replay_file
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.forces import FORCED, Force, Release
 from scanbench.runtime.inside import Inside
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.programs import Loaded
-from scanbench.runtime.replay import Diverged
-from scanbench.runtime.replay_file import replay_file
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
-from scanbench.runtime.timeline import Timeline
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from tests.runtime.bench import value

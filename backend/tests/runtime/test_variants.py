@@ -6,11 +6,11 @@ import pytest
 
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.faults.detect import Detection
-from scanbench.runtime.replay import Diverged
-from scanbench.runtime.replay_file import replay_file
+from scanbench.recording.format import RunFileError
+from scanbench.recording.replay import Diverged
+from scanbench.recording.replay_file import replay_file
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.resource import Resource
-from scanbench.runtime.runfile import RunFileError
-from scanbench.runtime.timeline import Timeline
 from scanbench.session.codec import ENTRIES
 from tests.runtime.recorded import spare
 from tests.runtime.variants import agenda, records, variants, write
@@ -26,7 +26,7 @@ class TooMuch(BaseException):
 def test_no_number_in_a_run_file_is_believed(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     """Every variant is opened as a PLC does it, and run on for some scans; every tenth one is replayed too."""
     whole = records(tmp_path)
-    monkeypatch.setattr("scanbench.runtime.replay.BETWEEN", 1_000)
+    monkeypatch.setattr("scanbench.recording.replay.BETWEEN", 1_000)
     run, reenter = Resource._run, Resource.reenter
     left = 0
 

@@ -17,12 +17,12 @@ from scanbench.faults.reference import ErrorRef
 from scanbench.faults.schedule import Schedule
 from scanbench.faults.shapes import Shape, Wanted
 from scanbench.program.layout import Layout
+from scanbench.recording.format import Kind, RunFile
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import Force
 from scanbench.runtime.joined import Joined
-from scanbench.runtime.runfile import Kind, RunFile
-from scanbench.runtime.timeline import Timeline
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from scanbench.verify.disturb import Disturb

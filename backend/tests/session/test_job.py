@@ -21,14 +21,14 @@ from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reaction import Reaction
 from scanbench.program.program import Program
+from scanbench.recording.blocks import Codec
+from scanbench.recording.recording import Recording
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Entry
-from scanbench.runtime.contents import Codec
 from scanbench.runtime.inside import HaltAt
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import Loaded, NoProgram, Shelf
-from scanbench.runtime.recording import Recording
-from scanbench.runtime.timeline import Timeline
 from scanbench.runtime.write import Write
 from scanbench.session import job as job_process
 from scanbench.session import starting

@@ -10,7 +10,7 @@ from typing import cast
 import numpy as np
 import pytest
 
-from scanbench.runtime.timeline import Timeline
+from scanbench.recording.timeline import Timeline
 from scanbench.session.host.link import Link
 from scanbench.session.host.traces import Traces
 from scanbench.session.refused import Refused

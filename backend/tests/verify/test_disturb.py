@@ -8,15 +8,15 @@ import pytest
 from scanbench.check.build import check_sources
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.recording.headless import HeadlessRun, run_headless
+from scanbench.recording.journal_roots import heritage
+from scanbench.recording.replay import replay
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.forces import Force, Release, read_table
-from scanbench.runtime.headless import HeadlessRun, run_headless
-from scanbench.runtime.heritage import heritage
 from scanbench.runtime.holds import HELD, held
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
-from scanbench.runtime.replay import replay
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write

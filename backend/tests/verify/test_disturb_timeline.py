@@ -11,12 +11,12 @@ from scanbench.engines.engine import Reason
 from scanbench.engines.interpreter.observed import observed_engine
 from scanbench.faults.detect import Detection
 from scanbench.faults.schedule import Schedule
-from scanbench.runtime.contents import KeptProgram
+from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.replay_file import replay_file
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.inside import HaltAt
 from scanbench.runtime.joined import Joined
 from scanbench.runtime.programs import EngineFactory, Loaded
-from scanbench.runtime.replay_file import replay_file
-from scanbench.runtime.timeline import Timeline
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from scanbench.verify.disturb import DISTURBED, Disturb

@@ -7,10 +7,10 @@ import pytest
 
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.set_clock import SetClock
-from scanbench.runtime.timeline import Timeline
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from scanbench.verify import divergence

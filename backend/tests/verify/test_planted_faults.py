@@ -9,10 +9,10 @@ from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.plcmodel.load import model_named
 from scanbench.program.program import Program
-from scanbench.runtime.contents import KeptProgram
-from scanbench.runtime.headless import run_headless
+from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.headless import run_headless
+from scanbench.recording.recording import Recording
 from scanbench.runtime.programs import Loaded
-from scanbench.runtime.recording import Recording
 from scanbench.runtime.resource import Resource
 from scanbench.session.codec import ENTRIES, pack_body
 from scanbench.session.protocol import Sources

@@ -10,11 +10,11 @@ import pytest
 
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.recording.headless import HeadlessRun, run_headless
+from scanbench.recording.recording import Recording
 from scanbench.runtime.command import Command, Entry, Freed, Held, Patch
 from scanbench.runtime.header import Mode, fresh_image
-from scanbench.runtime.headless import HeadlessRun, run_headless
 from scanbench.runtime.programs import EngineFactory
-from scanbench.runtime.recording import Recording
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from scanbench.symbols.symbols import at_offset, resolve

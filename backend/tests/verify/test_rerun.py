@@ -12,8 +12,8 @@ from scanbench.faults.inject import ACTIVE, Generate, Recover
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.schedule import Schedule
 from scanbench.faults.shapes import Shape, Start, Wanted
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Entry, Refusal
-from scanbench.runtime.timeline import Timeline
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from scanbench.verify.divergence import find_divergence

@@ -10,13 +10,13 @@ from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.recording.headless import run_headless
+from scanbench.recording.recording import Recording
 from scanbench.runtime.command import Entry
-from scanbench.runtime.headless import run_headless
 from scanbench.runtime.inside import HaltAt
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import Loaded, Shelf
-from scanbench.runtime.recording import Recording
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write

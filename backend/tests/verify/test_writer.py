@@ -8,13 +8,13 @@ from scanbench.debug.writers import writers
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.probed import ProbedBuilds
-from scanbench.runtime import checkpoints
+from scanbench.recording import checkpoints
+from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Refusal
-from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.forces import Force
 from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.restart import Restart
-from scanbench.runtime.timeline import Timeline
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from scanbench.symbols.symbols import resolve

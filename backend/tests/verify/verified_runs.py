@@ -5,13 +5,13 @@ from pathlib import Path
 
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.program.program import Program
+from scanbench.recording.fingerprints import program_digest
+from scanbench.recording.headless import HeadlessRun, run_headless
+from scanbench.recording.recording import Recording
 from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.command import Command
 from scanbench.runtime.detect import Detect
-from scanbench.runtime.fingerprints import program_digest
-from scanbench.runtime.headless import HeadlessRun, run_headless
 from scanbench.runtime.programs import EngineFactory, Programs
-from scanbench.runtime.recording import Recording
 from scanbench.session.codec import ENTRIES
 from scanbench.verify.engines import Make, reference
 from scanbench.verify.ranges import parse_range

@@ -4,7 +4,7 @@ from collections.abc import Callable
 
 from scanbench.debug.debugger import Debugger
 from scanbench.engines.observe import Seen
-from scanbench.runtime.timeline import Timeline
+from scanbench.recording.timeline import Timeline
 from scanbench.session.debug_protocol import Coverage
 from scanbench.session.protocol import Sources
 from scanbench.taps.coverage import CoverageTap

@@ -15,10 +15,10 @@ from scanbench.debug.scopes import scopes, variables
 from scanbench.debug.set_value import set_value
 from scanbench.engines.interpreter.evaluate import NoValue
 from scanbench.program.program import Program
+from scanbench.recording.timeline import PAST, Timeline
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.resource import Resource
-from scanbench.runtime.timeline import PAST, Timeline
 from scanbench.session import debug_protocol, protocol
 from scanbench.session.host.covering import Covering
 from scanbench.session.host.debugcode import Debuggable

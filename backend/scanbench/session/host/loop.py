@@ -15,12 +15,12 @@ from scanbench.engines.engine import Reason
 from scanbench.faults.carried import why_not_carried
 from scanbench.faults.inject import ACTIVE, Active
 from scanbench.program.program import Program
+from scanbench.recording.timeline import PAST, Timeline
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.header import Mode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.resource import Resource, not_kept
 from scanbench.runtime.rights import Right, may
-from scanbench.runtime.timeline import PAST, Timeline
 from scanbench.session import debug_protocol, protocol
 from scanbench.session.codec import BadMessage, pack_body, unpack
 from scanbench.session.debug_protocol import DebugRequest

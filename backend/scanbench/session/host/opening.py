@@ -6,15 +6,15 @@ from pathlib import Path
 
 from scanbench.faults.detect import Detection
 from scanbench.faults.schedule import Schedule
+from scanbench.recording.blocks import KeptProgram
+from scanbench.recording.format import RunFileError
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Refusal
-from scanbench.runtime.contents import KeptProgram
 from scanbench.runtime.joined import Joined
 from scanbench.runtime.resource import is_no_space
-from scanbench.runtime.runfile import RunFileError
 from scanbench.runtime.set_clock import SetClock
-from scanbench.runtime.timeline import Timeline
 from scanbench.session import protocol
 from scanbench.session.codec import ENTRIES, pack_body
 from scanbench.session.host.build import Builder, BuildFailed

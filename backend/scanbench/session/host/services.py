@@ -7,11 +7,11 @@ from scanbench.debug.debugger import Debugger
 from scanbench.faults.arm import ARMED, armed_faults
 from scanbench.faults.inject import ACTIVE
 from scanbench.faults.preview import preview
+from scanbench.recording.recording import RecordingInfo
+from scanbench.recording.timeline import PAST, Timeline
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.forces import FORCED, Force, ForcedValue, forced_values
-from scanbench.runtime.recording import RecordingInfo
 from scanbench.runtime.resource import Resource
-from scanbench.runtime.timeline import PAST, Timeline
 from scanbench.session import protocol
 from scanbench.session.host.course import Course
 from scanbench.session.host.link import Link

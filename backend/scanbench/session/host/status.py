@@ -4,12 +4,12 @@ from scanbench.debug.debugger import Debugger
 from scanbench.debug.halt import Halt as Stopped
 from scanbench.faults.inject import ACTIVE
 from scanbench.program.program import TrapKind
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Entry, Swapped
 from scanbench.runtime.forces import FORCED
 from scanbench.runtime.header import Halt, Mode
 from scanbench.runtime.journal import Fold
 from scanbench.runtime.resource import Resource
-from scanbench.runtime.timeline import Timeline
 from scanbench.session.host.course import Course
 from scanbench.session.protocol import HostState
 

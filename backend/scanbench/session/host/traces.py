@@ -6,8 +6,8 @@ from dataclasses import replace
 from queue import SimpleQueue
 
 from scanbench.program.program import Program
+from scanbench.recording.timeline import Timeline
 from scanbench.runtime.clock import monotonic_ns
-from scanbench.runtime.timeline import Timeline
 from scanbench.session import protocol
 from scanbench.session.host.link import Link
 from scanbench.session.trace_protocol import DefineTrace, DriveTrace, ReadTrace, TraceRead, TracesAre, TraceStatus

@@ -3,10 +3,10 @@
 from collections.abc import Iterable
 
 from scanbench.engines.engine import Reason
+from scanbench.recording.format import RunFileError
 from scanbench.runtime.command import Entry
 from scanbench.runtime.inside import Diverged
 from scanbench.runtime.resource import Resource
-from scanbench.runtime.runfile import RunFileError
 from scanbench.runtime.trap import Trapped
 
 __all__ = ["BETWEEN", "Diverged", "replay", "run_to"]

@@ -5,7 +5,7 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from pathlib import Path
 
-from scanbench.runtime.runfile import Block, Kind, RunFile
+from scanbench.recording.format import Block, Kind, RunFile
 
 _CHUNK = 1 << 20
 

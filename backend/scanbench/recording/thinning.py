@@ -3,7 +3,7 @@
 from collections.abc import Sequence, Set
 from dataclasses import dataclass
 
-from scanbench.runtime.runfile import Block
+from scanbench.recording.format import Block
 
 FLOOR = 64
 """So many checkpoints are always left to be gone back to quickly: rather than thin them the oldest part is dropped."""

@@ -16,9 +16,7 @@ from types import TracebackType
 from typing import Self
 
 from scanbench.program.program import Program
-from scanbench.runtime.clock import iso, wall_time
-from scanbench.runtime.command import Entry
-from scanbench.runtime.contents import (
+from scanbench.recording.blocks import (
     About,
     Codec,
     Contents,
@@ -29,11 +27,9 @@ from scanbench.runtime.contents import (
     read_contents,
     read_state,
 )
-from scanbench.runtime.errands import Errands
-from scanbench.runtime.fingerprints import libm_fingerprint, program_digest
-from scanbench.runtime.header import Mode, fresh_image
-from scanbench.runtime.runfile import Block, Damage, Kind, RunFile, RunFileError
-from scanbench.runtime.smaller import (
+from scanbench.recording.fingerprints import libm_fingerprint, program_digest
+from scanbench.recording.format import Block, Damage, Kind, RunFile, RunFileError
+from scanbench.recording.smaller import (
     Bounds,
     Seen,
     Smaller,
@@ -43,7 +39,11 @@ from scanbench.runtime.smaller import (
     refuse_existing,
     write_copy,
 )
-from scanbench.runtime.thinning import Checkpoint
+from scanbench.recording.thinning import Checkpoint
+from scanbench.recording.worker import Errands
+from scanbench.runtime.clock import iso, wall_time
+from scanbench.runtime.command import Entry
+from scanbench.runtime.header import Mode, fresh_image
 
 DEFAULT_LIMIT = 64 << 20
 _BLOCKS = {Kind.PROGRAM: "program", Kind.ENTRY: "command", Kind.KEYFRAME: "state", Kind.DELTA: "change of the state"}

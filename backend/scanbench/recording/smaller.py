@@ -6,11 +6,11 @@ from collections.abc import Sequence
 from dataclasses import dataclass, replace
 from pathlib import Path
 
-from scanbench.runtime.contents import About, Codec, keyframe
-from scanbench.runtime.heritage import heritage
-from scanbench.runtime.rewriting import Rewritten, rewrite
-from scanbench.runtime.runfile import Block, Kind, RunFile, RunFileError
-from scanbench.runtime.thinning import Checkpoint, plan_thinning
+from scanbench.recording.blocks import About, Codec, keyframe
+from scanbench.recording.format import Block, Kind, RunFile, RunFileError
+from scanbench.recording.journal_roots import heritage
+from scanbench.recording.rewriting import Rewritten, rewrite
+from scanbench.recording.thinning import Checkpoint, plan_thinning
 
 ENTRY_LIMIT = 50_000
 """Entries are in memory too, so that there is a bound of them besides the file's."""

@@ -1,7 +1,7 @@
 """When a checkpoint is due, so that no scan is further than a moment of re-running from one."""
 
-from scanbench.runtime.recording import Recording
-from scanbench.runtime.replay import BETWEEN
+from scanbench.recording.recording import Recording
+from scanbench.recording.replay import BETWEEN
 from scanbench.runtime.resource import Measured, Resource
 
 EVERY_NS = 60_000_000

@@ -18,21 +18,21 @@ from scanbench.engines.debug import NOTHING as NOT_LISTENING
 from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.sample import Sampling
+from scanbench.recording.blocks import Codec, KeptProgram
+from scanbench.recording.checkpoints import Checkpoints
+from scanbench.recording.fingerprints import model_fingerprint, program_digest
+from scanbench.recording.format import RunFileError
+from scanbench.recording.recording import DEFAULT_LIMIT, Recording
+from scanbench.recording.replay import Diverged, replay
+from scanbench.recording.smaller import Standing
+from scanbench.recording.thinning import Checkpoint
 from scanbench.runtime.agenda import Agenda
-from scanbench.runtime.checkpoints import Checkpoints
 from scanbench.runtime.command import Command, Entry, Refusal
-from scanbench.runtime.contents import Codec, KeptProgram
 from scanbench.runtime.detect import Detect
-from scanbench.runtime.fingerprints import model_fingerprint, program_digest
 from scanbench.runtime.inside import HaltAt, Inside, front
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.programs import Loaded, NoProgram, Programs
-from scanbench.runtime.recording import DEFAULT_LIMIT, Recording
-from scanbench.runtime.replay import Diverged, replay
 from scanbench.runtime.resource import Measured, Resource
-from scanbench.runtime.runfile import RunFileError
-from scanbench.runtime.smaller import Standing
-from scanbench.runtime.thinning import Checkpoint
 from scanbench.runtime.trap import Trapped
 
 PAST = "this is the past: return to live, or branch from here"

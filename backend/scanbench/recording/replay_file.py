@@ -5,15 +5,15 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from pathlib import Path
 
+from scanbench.recording.blocks import Codec
+from scanbench.recording.format import RunFileError
+from scanbench.recording.recording import Recording
+from scanbench.recording.replay import Diverged, replay
+from scanbench.recording.thinning import Checkpoint
+from scanbench.recording.timeline import NOT_AS_RECORDED, KeptPrograms, ProgramsOf, open_at
 from scanbench.runtime.command import Entry
-from scanbench.runtime.contents import Codec
 from scanbench.runtime.inside import front
-from scanbench.runtime.recording import Recording
-from scanbench.runtime.replay import Diverged, replay
 from scanbench.runtime.resource import Resource
-from scanbench.runtime.runfile import RunFileError
-from scanbench.runtime.thinning import Checkpoint
-from scanbench.runtime.timeline import NOT_AS_RECORDED, KeptPrograms, ProgramsOf, open_at
 
 
 @dataclass(frozen=True, slots=True)

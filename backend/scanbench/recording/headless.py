@@ -7,13 +7,13 @@ from typing import Generic, TypeVar
 from scanbench.check.typed.condition import Condition
 from scanbench.engines.engine import Reason
 from scanbench.program.program import Program
+from scanbench.recording.checkpoints import Checkpoints
+from scanbench.recording.recording import Recording
 from scanbench.runtime.agenda import Agenda
-from scanbench.runtime.checkpoints import Checkpoints
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.detect import Detect
 from scanbench.runtime.interrupt import Interrupt
 from scanbench.runtime.programs import EngineFactory, Loaded, Programs
-from scanbench.runtime.recording import Recording
 from scanbench.runtime.resource import Resource
 
 T = TypeVar("T")
