@@ -2,8 +2,8 @@
 
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
-from scanbench.runtime.carry_over import Change, carry_over
 from scanbench.runtime.header import Header, Mode, fresh_image
+from scanbench.runtime.migrate_image import Change, carry_over
 from scanbench.runtime.restart import restarted
 
 _U64 = (1 << 64) - 1

@@ -23,11 +23,11 @@ from scanbench.faults.shapes import Shape, Wanted
 from scanbench.faults.shapes import Start as FaultStart
 from scanbench.problems import Span
 from scanbench.recording.recording import RecordingInfo
-from scanbench.runtime.carry_over import Lost
 from scanbench.runtime.clear_violations import ClearViolations
 from scanbench.runtime.command import Entry, Freed, Held, Numbered, Patch, Plan, Restarted, Swapped
 from scanbench.runtime.forces import FORCED, Force, ForcedValue, Release
 from scanbench.runtime.holds import HELD
+from scanbench.runtime.migrate_image import Lost
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.restart import Restart

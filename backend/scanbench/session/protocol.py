@@ -13,9 +13,9 @@ from scanbench.faults.inject import Active
 from scanbench.faults.preview import PreviewedWrite
 from scanbench.faults.reference import ErrorRef
 from scanbench.recording.recording import RecordingInfo
-from scanbench.runtime.carry_over import Lost
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import ForcedValue
+from scanbench.runtime.migrate_image import Lost
 from scanbench.runtime.trap import TrapInfo
 from scanbench.symbols.violations import Violations
 from scanbench.verify.disturb import DisturbanceInfo

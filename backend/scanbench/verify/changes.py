@@ -9,9 +9,9 @@ from numpy.typing import NDArray
 from scanbench.faults.error_memory import code_bits, kept_bits, log_bits
 from scanbench.program.program import Program
 from scanbench.program.types import Elementary, Enumeration, StringType, Type
-from scanbench.runtime.carry_over import carry_over
 from scanbench.runtime.command import Entry
 from scanbench.runtime.header import Mode, fresh_image
+from scanbench.runtime.migrate_image import carry_over
 from scanbench.symbols.holding import Holders
 from scanbench.symbols.symbols import Symbol
 from scanbench.symbols.values import format_value, python_value

@@ -12,9 +12,9 @@ from scanbench.engines.probe import MakeProbed
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.program.types import BOOL, Elementary, StringType
-from scanbench.runtime.carry_over import changes
 from scanbench.runtime.command import Entry, Held, Patch, Refusal, Restarted, Swapped
 from scanbench.runtime.forces import read_table
+from scanbench.runtime.migrate_image import changes
 from scanbench.runtime.restart import retained
 from scanbench.runtime.target import Meant, meant, not_called
 from scanbench.symbols.symbols import Symbol, UnknownPath, resolve

@@ -6,9 +6,9 @@ import pytest
 
 from scanbench.check.build import check_sources
 from scanbench.program.program import Program
-from scanbench.runtime.carry_over import changes
 from scanbench.runtime.command import Command, Entry, Refusal, Swapped
 from scanbench.runtime.forces import FORCED, Force, read_table
+from scanbench.runtime.migrate_image import changes
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import EngineFactory, Loaded, Shelf

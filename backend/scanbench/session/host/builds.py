@@ -5,7 +5,7 @@ import threading
 from collections.abc import Callable
 
 from scanbench.engines.probe import Probe
-from scanbench.runtime.carry_over import NEW, REMOVED, Change, changes
+from scanbench.runtime.migrate_image import NEW, REMOVED, Change, changes
 from scanbench.runtime.programs import Loaded
 from scanbench.session import protocol
 from scanbench.session.host.build import Builder
