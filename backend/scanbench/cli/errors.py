@@ -24,12 +24,12 @@ from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.run_options import read_interval
 from scanbench.cli.sweep_states import START, BadStates, FromRun, State, read_states, run_state
 from scanbench.engines.observe import MakeObserved
-from scanbench.faults.compare import Outcome, compare
-from scanbench.faults.observed import ObservedPrograms
-from scanbench.faults.react import Point
-from scanbench.faults.reaction import WINDOW
+from scanbench.faults.reaction.compare import Outcome, compare
+from scanbench.faults.reaction.observed import ObservedPrograms
+from scanbench.faults.reaction.react import Point
+from scanbench.faults.reaction.reaction import WINDOW
+from scanbench.faults.reaction.sweep import Cell, sweep
 from scanbench.faults.reference import find_error
-from scanbench.faults.sweep import Cell, sweep
 from scanbench.faults.sweep_page import sweep_page
 from scanbench.faults.sweep_report import (
     NO_SWEEP,

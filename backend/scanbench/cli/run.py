@@ -22,13 +22,13 @@ from scanbench.engines.observe import MakeObserved
 from scanbench.engines.pair import Differs, PairEngine
 from scanbench.faults.arm import Arm
 from scanbench.faults.detect import Detection
+from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.faults.schedule import Schedule
 from scanbench.plcmodel.model import Model
 from scanbench.program.program import Program
 from scanbench.recording.headless import run_headless
 from scanbench.runtime.command import Command
 from scanbench.runtime.joined import Joined
-from scanbench.verify.disturb_schedule import DisturbanceSchedule
 
 
 class EngineChoice(StrEnum):

@@ -10,7 +10,7 @@ from pathlib import Path
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate, Recover
-from scanbench.faults.react import Point
+from scanbench.faults.reaction.react import Point
 from scanbench.faults.reference import parse_reference
 from scanbench.problems import perhaps
 from scanbench.program.program import Program

@@ -7,7 +7,7 @@ from typing import Literal
 
 from scanbench.faults.details import choose
 from scanbench.faults.inject import Active, Generate, Origin, Recover
-from scanbench.faults.reaction import FINDINGS, Reaction, Verdict
+from scanbench.faults.reaction.reaction import FINDINGS, Reaction, Verdict
 from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.model import ErrorEntry, Model
 from scanbench.program.layout import Layout

@@ -4,7 +4,7 @@ from collections.abc import Callable, Mapping
 from dataclasses import asdict
 from typing import TypeVar, cast, get_args
 
-from scanbench.faults.reaction import Difference, Line, Reaction, Reader, Verdict, What
+from scanbench.faults.reaction.reaction import Difference, Line, Reaction, Reader, Verdict, What
 
 T = TypeVar("T")
 

@@ -5,7 +5,7 @@ import io
 from collections.abc import Iterable
 from datetime import datetime
 
-from scanbench.faults.reaction import Reaction
+from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.record import RecordError, TestRecord
 from scanbench.runtime.clock import iso
 

@@ -6,7 +6,7 @@ from html import escape
 from importlib.resources import files
 from itertools import groupby
 
-from scanbench.faults.reaction import FINDINGS, Difference, Reaction, Verdict
+from scanbench.faults.reaction.reaction import FINDINGS, Difference, Reaction, Verdict
 from scanbench.faults.record import (
     WORST_FIRST,
     Missed,

@@ -11,7 +11,7 @@ from lxml import etree
 
 from scanbench.faults.history import Status
 from scanbench.faults.inject import Origin
-from scanbench.faults.reaction import Difference, Line, Reaction, Reader, Verdict, What
+from scanbench.faults.reaction.reaction import Difference, Line, Reaction, Reader, Verdict, What
 from scanbench.faults.record import (
     RecordAccepted,
     RecordCell,

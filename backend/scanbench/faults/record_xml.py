@@ -5,7 +5,7 @@ from datetime import UTC, datetime
 
 from lxml import etree
 
-from scanbench.faults.reaction import FINDINGS, Reaction
+from scanbench.faults.reaction.reaction import FINDINGS, Reaction
 from scanbench.faults.record import RecordError, RecordSweep, TestRecord
 from scanbench.plcmodel.document import xml_text
 

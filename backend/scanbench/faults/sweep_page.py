@@ -4,8 +4,8 @@ from collections.abc import Iterator, Mapping
 from html import escape
 from urllib.parse import quote
 
-from scanbench.faults.reaction import FINDINGS, Difference, Verdict
-from scanbench.faults.sweep import Cell
+from scanbench.faults.reaction.reaction import FINDINGS, Difference, Verdict
+from scanbench.faults.reaction.sweep import Cell
 from scanbench.faults.sweep_report import WORDS, SweepResult, count, reason, verdict_of
 
 _SIGNS: Mapping[Verdict | None, str] = {

@@ -8,9 +8,9 @@ from typing import cast, get_args
 from lxml import etree
 
 from scanbench.faults import record_words
-from scanbench.faults.compare import Outcome, SweepChange
-from scanbench.faults.reaction import FINDINGS, Verdict
-from scanbench.faults.sweep import Cell
+from scanbench.faults.reaction.compare import Outcome, SweepChange
+from scanbench.faults.reaction.reaction import FINDINGS, Verdict
+from scanbench.faults.reaction.sweep import Cell
 from scanbench.plcmodel.catalogue import ErrorEntry, Severity
 from scanbench.plcmodel.document import xml_text
 

@@ -15,9 +15,12 @@ from scanbench.debug.halt import Halt
 from scanbench.debug.set_value import SetLocal
 from scanbench.faults.arm import ARMED, NUMBERED, Arm, ArmedInfo, Disarm, Missed
 from scanbench.faults.clear import ClearErrorLog, ClearErrors
+from scanbench.faults.disturb.definition import Disturbance
+from scanbench.faults.disturb.disturb import DISTURBED, Calm, Disturb, DisturbanceInfo
+from scanbench.faults.disturb.fire import Corrupt, Flip, Hold, Unfired, Unhold
 from scanbench.faults.inject import ACTIVE, Active, Generate, Raised, Recover
 from scanbench.faults.preview import PreviewedWrite
-from scanbench.faults.reaction import Difference, Line, Reaction, Reader
+from scanbench.faults.reaction.reaction import Difference, Line, Reaction, Reader
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.shapes import Shape, Wanted
 from scanbench.faults.shapes import Start as FaultStart
@@ -38,9 +41,6 @@ from scanbench.session import debug_protocol, events, job_protocol, protocol, tr
 from scanbench.symbols.violations import Violation, Violations
 from scanbench.taps.covered import CoveredFile, CoveredSite
 from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
-from scanbench.verify.disturb import DISTURBED, Calm, Disturb, DisturbanceInfo
-from scanbench.verify.disturb_fire import Corrupt, Flip, Hold, Unfired, Unhold
-from scanbench.verify.disturb_wanted import Disturbance
 from scanbench.verify.findings import Change, Changes, Divergence, RerunChange, Writer
 from scanbench.verify.verified import Column, Input, Mismatch, Output, Place, Range, Row
 

@@ -9,6 +9,7 @@ from scanbench.check.build import PouInfo
 from scanbench.debug.breakpoint import Verdict
 from scanbench.debug.halt import Halt
 from scanbench.faults.arm import ArmedInfo
+from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.history import ErrorRow
 from scanbench.problems import Problem, Severity
 from scanbench.program.program import CheckSite
@@ -20,7 +21,6 @@ from scanbench.session.protocol import Previewed, RunMark, WatchItem
 from scanbench.session.trace_protocol import TraceStatus
 from scanbench.store.records import AcceptedRow, CellRow, ProjectRow, SweepRow
 from scanbench.symbols.violations import Violations
-from scanbench.verify.disturb import DisturbanceInfo
 from scanbench.verify.findings import Divergence
 from scanbench.verify.verified import DEFAULT_LIMIT, Memory, Mismatch, Range
 

@@ -16,9 +16,9 @@ from typing import BinaryIO
 from scanbench.engines.available import flavours
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.lifeline import end_with_parent
-from scanbench.faults.observed import ObservedPrograms
-from scanbench.faults.react import Point
-from scanbench.faults.sweep import sweep
+from scanbench.faults.reaction.observed import ObservedPrograms
+from scanbench.faults.reaction.react import Point
+from scanbench.faults.reaction.sweep import sweep
 from scanbench.program.program import Program
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.header import Header

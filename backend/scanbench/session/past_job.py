@@ -5,6 +5,7 @@ from pathlib import Path
 
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.observe import MakeObserved
+from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.faults.schedule import Schedule
 from scanbench.recording.format import RunFileError
 from scanbench.runtime.clock import monotonic_ns
@@ -26,7 +27,6 @@ from scanbench.session.verify_protocol import (
     WriterFound,
 )
 from scanbench.verify.changes import find_changes
-from scanbench.verify.disturb_schedule import DisturbanceSchedule
 from scanbench.verify.divergence import find_divergence
 from scanbench.verify.past_engines import past_engines, programs_of
 from scanbench.verify.reading import NoReading, Reading

@@ -9,6 +9,7 @@ from dataclasses import dataclass
 
 from scanbench.debug.halt import Halt
 from scanbench.faults.arm import ArmedInfo
+from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.inject import Active
 from scanbench.faults.preview import PreviewedWrite
 from scanbench.faults.reference import ErrorRef
@@ -18,7 +19,6 @@ from scanbench.runtime.forces import ForcedValue
 from scanbench.runtime.migrate_image import Lost
 from scanbench.runtime.trap import TrapInfo
 from scanbench.symbols.violations import Violations
-from scanbench.verify.disturb import DisturbanceInfo
 
 # ---- parent to host ------------------------------------------------------------------------------------------------
 

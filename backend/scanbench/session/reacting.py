@@ -5,7 +5,7 @@ from collections.abc import Callable
 from dataclasses import dataclass
 from pathlib import Path
 
-from scanbench.faults.reaction import WINDOW, Reaction
+from scanbench.faults.reaction.reaction import WINDOW, Reaction
 from scanbench.session.reactions import Reactions
 
 _STANDS = ("fatal", "trapped", "stopped", "off", "failed")

@@ -3,7 +3,7 @@
 import asyncio
 from pathlib import Path
 
-from scanbench.faults.reaction import Reaction
+from scanbench.faults.reaction.reaction import Reaction
 from scanbench.session import job_protocol
 from scanbench.session.jobs import ANSWER_S, DIED, SLOW, Job, answered
 

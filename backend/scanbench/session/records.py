@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from typing import cast
 
 from scanbench.faults.history import ErrorRow
-from scanbench.faults.reaction import Verdict
+from scanbench.faults.reaction.reaction import Verdict
 from scanbench.faults.record import (
     RecordAccepted,
     RecordCell,

@@ -7,8 +7,9 @@ from pathlib import Path
 
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.faults.arm import ArmedInfo
+from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.history import ErrorRow, History, Swept
-from scanbench.faults.reaction import Reaction
+from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.reference import ErrorRef
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import model_for
@@ -32,7 +33,6 @@ from scanbench.session.tracing import Tracing
 from scanbench.session.watches import Watches
 from scanbench.store.records import InstanceRow, Json, NotFound
 from scanbench.symbols.violations import Violations
-from scanbench.verify.disturb import DisturbanceInfo
 
 LOG_LINES = 500
 LISTED = 100

@@ -9,10 +9,10 @@ from scanbench.check.build import check_sources
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.carried import why_not_carried
 from scanbench.faults.inject import ACTIVE, Generate
-from scanbench.faults.observed import ObservedPrograms
-from scanbench.faults.react import Point, react
-from scanbench.faults.reaction import Reaction
-from scanbench.faults.sweep import AUTHOR
+from scanbench.faults.reaction.observed import ObservedPrograms
+from scanbench.faults.reaction.react import Point, react
+from scanbench.faults.reaction.reaction import Reaction
+from scanbench.faults.reaction.sweep import AUTHOR
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Severity
 from scanbench.program.layout import Layout

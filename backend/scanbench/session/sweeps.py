@@ -9,10 +9,10 @@ from functools import partial
 from pathlib import Path
 from typing import get_args
 
-from scanbench.faults.compare import Outcome, SweepChange, compare
 from scanbench.faults.history import Swept, worst
 from scanbench.faults.inject import Generate
-from scanbench.faults.reaction import FINDINGS, Reaction, Verdict
+from scanbench.faults.reaction.compare import Outcome, SweepChange, compare
+from scanbench.faults.reaction.reaction import FINDINGS, Reaction, Verdict
 from scanbench.faults.reaction_json import from_json, to_json
 from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.plcmodel.catalogue import path_text

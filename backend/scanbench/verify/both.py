@@ -6,13 +6,13 @@ from dataclasses import dataclass, field, replace
 import numpy as np
 from numpy.typing import NDArray
 
+from scanbench.faults.disturb.disturb import DISTURBED, is_disturbance, told, told_held
+from scanbench.faults.disturb.fire import Unfired
 from scanbench.program.layout import Layout
 from scanbench.runtime.command import Entry
 from scanbench.runtime.holds import held
 from scanbench.runtime.trap import Trapped, trap_info
 from scanbench.verify.control import Control, Source, Unverifiable, trap_of
-from scanbench.verify.disturb import DISTURBED, is_disturbance, told, told_held
-from scanbench.verify.disturb_fire import Unfired
 from scanbench.verify.monitor import Inputs, Monitor
 from scanbench.verify.naming import WHOLE, Leaf
 from scanbench.verify.ranges import Resolved

@@ -6,7 +6,7 @@ from dataclasses import dataclass
 import numpy as np
 from numpy.typing import NDArray
 
-from scanbench.faults.error_memory import code_bits, kept_bits, log_bits
+from scanbench.faults.reaction.error_memory import code_bits, kept_bits, log_bits
 from scanbench.program.program import Program
 from scanbench.program.types import Elementary, Enumeration, StringType, Type
 from scanbench.runtime.command import Entry

@@ -3,13 +3,13 @@
 from collections.abc import Mapping, Sequence
 
 from scanbench.engines.engine import Stop
+from scanbench.faults.disturb.disturb import is_disturbance
 from scanbench.runtime.command import Entry, Patch
 from scanbench.runtime.forces import forced_table, table_patches
 from scanbench.runtime.holds import HELD, held
 from scanbench.runtime.journal import Journal
 from scanbench.runtime.programs import Programs
 from scanbench.runtime.resource import Resource
-from scanbench.verify.disturb import is_disturbance
 from scanbench.verify.engines import reference
 from scanbench.verify.sides import ProgramOf, Shelf, Side
 from scanbench.verify.uses import Fresh, Pass, Recorder

@@ -12,13 +12,13 @@ from pathlib import Path
 
 from scanbench.faults.arm import Disarm
 from scanbench.faults.detect import Detection
+from scanbench.faults.disturb.disturb import Calm
 from scanbench.recording.blocks import Codec
 from scanbench.recording.format import RunFileError
 from scanbench.recording.recording import DEFAULT_LIMIT
 from scanbench.recording.timeline import ProgramsOf, Timeline
 from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.command import Command, Numbered, Refusal
-from scanbench.verify.disturb import Calm
 from scanbench.verify.findings import RerunChange
 from scanbench.verify.reading import NoReading, Reading
 from scanbench.verify.rerun_plan import Given, Planned, planned

@@ -4,12 +4,12 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, replace
 
 from scanbench.faults.arm import Arm, Disarm, Missed
+from scanbench.faults.disturb.fire import Firing
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.faults.shapes import Start
 from scanbench.runtime.command import Command, Entry, Numbered, Refusal
 from scanbench.runtime.trap import Trapped
-from scanbench.verify.disturb_fire import Firing
 from scanbench.verify.findings import RerunChange
 from scanbench.verify.reading import NoReading, Reading
 

@@ -7,8 +7,8 @@ from urllib.parse import quote
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import Response
 
+from scanbench.faults.disturb.disturb import Calm
 from scanbench.session.verifications import Exported
-from scanbench.verify.disturb import Calm
 from scanbench.verify.trace_read import MAX_BYTES
 from scanbench.web import messages_verify as wire
 from scanbench.web import translate_verify

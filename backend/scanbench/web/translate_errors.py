@@ -2,9 +2,9 @@
 
 from collections.abc import Iterable, Sequence
 
-from scanbench.faults import reaction as found
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.history import RowReaction, Swept
+from scanbench.faults.reaction import reaction as found
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.shapes import Shape, Start, Wanted
 from scanbench.plcmodel import model as plc

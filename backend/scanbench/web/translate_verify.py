@@ -1,5 +1,7 @@
 """Verifications and disturbances -> wire shapes, and back. Nothing is decided here."""
 
+from scanbench.faults.disturb.definition import Disturbance
+from scanbench.faults.disturb.disturb import Disturb, DisturbanceInfo
 from scanbench.runtime.clock import iso
 from scanbench.session import events
 from scanbench.session.events import VerificationStatus, VerifyWish
@@ -9,8 +11,6 @@ from scanbench.session.verify_protocol import UseRow
 from scanbench.session.verify_rows import RowsPage
 from scanbench.store.records import MappingRow
 from scanbench.verify import verified
-from scanbench.verify.disturb import Disturb, DisturbanceInfo
-from scanbench.verify.disturb_wanted import Disturbance
 from scanbench.verify.mapping import ColumnMap, TraceMapping
 from scanbench.verify.trace_table import TraceProblem
 from scanbench.web import messages_verify as wire

@@ -13,7 +13,7 @@ from scanbench.cli.commands import app
 from scanbench.engines.engine import Engine, Pace, Stop
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
-from scanbench.faults.sweep import Cell
+from scanbench.faults.reaction.sweep import Cell
 
 ERRORS = import_module("scanbench.cli.errors")  # of the package, `errors` is the command
 SOURCE = """PROGRAM Main

@@ -6,9 +6,9 @@ from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate
-from scanbench.faults.observed import ObservedPrograms
-from scanbench.faults.react import Point, react
-from scanbench.faults.reaction import Reaction
+from scanbench.faults.reaction.observed import ObservedPrograms
+from scanbench.faults.reaction.react import Point, react
+from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.reference import ErrorRef, parse_reference
 from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Entry, Refusal

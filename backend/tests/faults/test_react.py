@@ -4,7 +4,7 @@ import pytest
 
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.inject import Generate, Recover
-from scanbench.faults.reaction import Reaction, Reader
+from scanbench.faults.reaction.reaction import Reaction, Reader
 from scanbench.runtime.command import Command, Refusal
 from scanbench.runtime.forces import Force
 from scanbench.runtime.modes import SetMode
@@ -355,7 +355,7 @@ END_PROGRAM
 
 
 def test_a_window_without_end_is_cut_where_memory_ends(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("scanbench.faults.react.TRACE_LIMIT", 4_000)
+    monkeypatch.setattr("scanbench.faults.reaction.react.TRACE_LIMIT", 4_000)
     found = attempt(checked({"main.st": BUSY}), ("battery-error",), MAKES["native"], 200)
     assert isinstance(found, Reaction)
     assert found.verdict == "never_read"

@@ -11,7 +11,7 @@ from hypothesis import strategies as st
 from lxml import etree
 
 from scanbench.faults.history import ErrorRow, RowReaction
-from scanbench.faults.reaction import Difference, Line, Reaction, Reader, Verdict
+from scanbench.faults.reaction.reaction import Difference, Line, Reaction, Reader, Verdict
 from scanbench.faults.reaction_json import from_json, to_json
 from scanbench.faults.record import (
     WORST_FIRST,

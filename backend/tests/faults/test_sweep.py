@@ -7,10 +7,10 @@ import pytest
 from lxml import etree
 
 from scanbench.engines.observe import MakeObserved
-from scanbench.faults.compare import Change, Outcome, SweepChange, compare
 from scanbench.faults.inject import Generate
-from scanbench.faults.reaction import Reaction, Verdict
-from scanbench.faults.sweep import Cell, sweep
+from scanbench.faults.reaction.compare import Change, Outcome, SweepChange, compare
+from scanbench.faults.reaction.reaction import Reaction, Verdict
+from scanbench.faults.reaction.sweep import Cell, sweep
 from scanbench.faults.sweep_page import sweep_page
 from scanbench.faults.sweep_report import (
     SweepResult,

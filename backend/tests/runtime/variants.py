@@ -12,6 +12,9 @@ from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.faults.arm import Arm
 from scanbench.faults.detect import Detection
+from scanbench.faults.disturb.definition import Disturbance
+from scanbench.faults.disturb.disturb import Disturb
+from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.faults.inject import Generate
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.schedule import Schedule
@@ -25,9 +28,6 @@ from scanbench.runtime.forces import Force
 from scanbench.runtime.joined import Joined
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
-from scanbench.verify.disturb import Disturb
-from scanbench.verify.disturb_schedule import DisturbanceSchedule
-from scanbench.verify.disturb_wanted import Disturbance
 from tests.runtime.recorded import COUNTER, advance, spare
 
 BATTERY, UNIT = (ErrorRef("battery-error"),), (ErrorRef("cpu-bus-unit-error", (("unit", "3"),)),)

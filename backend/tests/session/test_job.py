@@ -19,7 +19,7 @@ from scanbench.engines.engine import Reason
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate, Recover
-from scanbench.faults.reaction import Reaction
+from scanbench.faults.reaction.reaction import Reaction
 from scanbench.program.program import Program
 from scanbench.recording.blocks import Codec
 from scanbench.recording.recording import Recording

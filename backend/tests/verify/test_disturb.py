@@ -8,6 +8,18 @@ import pytest
 from scanbench.check.build import check_sources
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.faults.disturb.definition import Disturbance
+from scanbench.faults.disturb.disturb import (
+    DISTURBED,
+    MOST_DISTURBANCES,
+    Calm,
+    Disturb,
+    disturbances,
+    is_disturbance,
+    told,
+)
+from scanbench.faults.disturb.fire import Corrupt, Flip, Hold, Unfired, Unhold
+from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.recording.headless import HeadlessRun, run_headless
 from scanbench.recording.journal_roots import heritage
 from scanbench.recording.replay import replay
@@ -22,10 +34,6 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from scanbench.symbols.symbols import resolve
-from scanbench.verify.disturb import DISTURBED, MOST_DISTURBANCES, Calm, Disturb, disturbances, is_disturbance, told
-from scanbench.verify.disturb_fire import Corrupt, Flip, Hold, Unfired, Unhold
-from scanbench.verify.disturb_schedule import DisturbanceSchedule
-from scanbench.verify.disturb_wanted import Disturbance
 from tests.runtime.bench import ENGINES, model, plc, program, value
 
 SOURCE = """

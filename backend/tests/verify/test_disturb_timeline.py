@@ -10,6 +10,10 @@ from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Reason
 from scanbench.engines.interpreter.observed import observed_engine
 from scanbench.faults.detect import Detection
+from scanbench.faults.disturb.definition import Disturbance
+from scanbench.faults.disturb.disturb import DISTURBED, Disturb
+from scanbench.faults.disturb.fire import Corrupt
+from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.faults.schedule import Schedule
 from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.replay_file import replay_file
@@ -19,10 +23,6 @@ from scanbench.runtime.joined import Joined
 from scanbench.runtime.programs import EngineFactory, Loaded
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
-from scanbench.verify.disturb import DISTURBED, Disturb
-from scanbench.verify.disturb_fire import Corrupt
-from scanbench.verify.disturb_schedule import DisturbanceSchedule
-from scanbench.verify.disturb_wanted import Disturbance
 from tests.runtime.bench import ENGINES, program, value
 
 SOURCE = """VAR_GLOBAL word AT CIO1 : WORD; END_VAR

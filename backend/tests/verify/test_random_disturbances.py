@@ -10,6 +10,10 @@ import pytest
 
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.faults.disturb.definition import Disturbance
+from scanbench.faults.disturb.disturb import Disturb, told
+from scanbench.faults.disturb.fire import Corrupt, Flip
+from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.recording.headless import HeadlessRun, run_headless
 from scanbench.recording.recording import Recording
 from scanbench.runtime.command import Command, Entry, Freed, Held, Patch
@@ -18,10 +22,6 @@ from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from scanbench.symbols.symbols import at_offset, resolve
-from scanbench.verify.disturb import Disturb, told
-from scanbench.verify.disturb_fire import Corrupt, Flip
-from scanbench.verify.disturb_schedule import DisturbanceSchedule
-from scanbench.verify.disturb_wanted import Disturbance
 from scanbench.verify.engines import native, reference
 from scanbench.verify.verified import Mismatch, Range
 from scanbench.verify.verifier import Verifier

@@ -10,6 +10,9 @@ from scanbench.engines.debug import Listen
 from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.faults.disturb.definition import Disturbance
+from scanbench.faults.disturb.disturb import Disturb
+from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.recording.headless import run_headless
 from scanbench.recording.recording import Recording
 from scanbench.runtime.command import Entry
@@ -22,9 +25,6 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from scanbench.session.samples import Sample, samples
-from scanbench.verify.disturb import Disturb
-from scanbench.verify.disturb_schedule import DisturbanceSchedule
-from scanbench.verify.disturb_wanted import Disturbance
 from scanbench.verify.engines import native, reference
 from scanbench.verify.verified import Range
 from scanbench.verify.verifier import BadEdit, Unverifiable, Verifier

@@ -8,6 +8,9 @@ from scanbench.debug.writers import writers
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.probed import ProbedBuilds
+from scanbench.faults.disturb.definition import Disturbance
+from scanbench.faults.disturb.disturb import Disturb
+from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.recording import checkpoints
 from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.timeline import Timeline
@@ -18,9 +21,6 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from scanbench.symbols.symbols import resolve
-from scanbench.verify.disturb import Disturb
-from scanbench.verify.disturb_schedule import DisturbanceSchedule
-from scanbench.verify.disturb_wanted import Disturbance
 from scanbench.verify.findings import Writer
 from scanbench.verify.reading import NoReading, Reading
 from scanbench.verify.writer import find_writer

@@ -5,6 +5,7 @@ from collections.abc import Mapping
 from pathlib import Path
 
 from scanbench.faults.detect import Detection
+from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.faults.schedule import Schedule
 from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.format import RunFileError
@@ -22,7 +23,6 @@ from scanbench.session.host.link import Link
 from scanbench.session.host.loop import Loop
 from scanbench.session.host.shelf import HostPrograms
 from scanbench.session.runs import run_limit, sources_in
-from scanbench.verify.disturb_schedule import DisturbanceSchedule
 
 
 class NoSpace(BuildFailed):

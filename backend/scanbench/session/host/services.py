@@ -5,6 +5,7 @@ from dataclasses import replace
 
 from scanbench.debug.debugger import Debugger
 from scanbench.faults.arm import ARMED, armed_faults
+from scanbench.faults.disturb.disturb import DISTURBED, disturbances
 from scanbench.faults.inject import ACTIVE
 from scanbench.faults.preview import preview
 from scanbench.recording.recording import RecordingInfo
@@ -22,7 +23,6 @@ from scanbench.session.host.swaps import Optimising
 from scanbench.symbols.symbols import Symbol
 from scanbench.symbols.violations import Violations, read_violations
 from scanbench.taps.watch import WatchPlan
-from scanbench.verify.disturb import DISTURBED, disturbances
 
 TICK_NS = 50_000_000
 IDLE_TICK_NS = 1_000_000_000

@@ -3,9 +3,9 @@
 from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from scanbench.faults.observed import ObservedPrograms
-from scanbench.faults.react import TRACE_LIMIT, Comparison, Point, Prepared, Twin, run_twin
-from scanbench.faults.reaction import Reaction
+from scanbench.faults.reaction.observed import ObservedPrograms
+from scanbench.faults.reaction.react import TRACE_LIMIT, Comparison, Point, Prepared, Twin, run_twin
+from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.command import Refusal
 

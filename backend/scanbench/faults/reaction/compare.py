@@ -4,7 +4,7 @@ from collections.abc import Iterable
 from dataclasses import dataclass
 from typing import Literal
 
-from scanbench.faults.reaction import Verdict
+from scanbench.faults.reaction.reaction import Verdict
 
 Change = Literal["same", "better", "worse", "slower", "faster", "new", "gone"]
 _RANKS: dict[Verdict | None, int] = {

@@ -6,9 +6,9 @@ What a block or function reads through an in-out is found; what somebody reads b
 from collections.abc import Iterable
 from dataclasses import dataclass
 
-from scanbench.faults.deciding import Instances
-from scanbench.faults.error_memory import Watched
-from scanbench.faults.flows import heads, parts, ref_of
+from scanbench.faults.reaction.deciding import Instances
+from scanbench.faults.reaction.error_memory import Watched
+from scanbench.faults.reaction.flows import heads, parts, ref_of
 from scanbench.program.bodies import every
 from scanbench.program.program import Base, CallBlock, CallFunction, Place, Pou, Program, Stmt
 from scanbench.program.types import ULINT

@@ -14,15 +14,15 @@ import numpy as np
 from scanbench.engines.observe import Observer, ReadAt
 from scanbench.faults.details import Chosen, choose
 from scanbench.faults.detect import Detection
-from scanbench.faults.effects import Effects, Names
-from scanbench.faults.error_memory import Watched, Words, code_bits, kept_bits, without_patches, words_of
 from scanbench.faults.inject import ACTIVE, Generate, Recover
-from scanbench.faults.observed import ObservedPrograms
-from scanbench.faults.reaction import FINDINGS, Line, Reaction, Reader, Verdict, What
-from scanbench.faults.readings import Readings
+from scanbench.faults.reaction.effects import Effects, Names
+from scanbench.faults.reaction.error_memory import Watched, Words, code_bits, kept_bits, without_patches, words_of
+from scanbench.faults.reaction.observed import ObservedPrograms
+from scanbench.faults.reaction.reaction import FINDINGS, Line, Reaction, Reader, Verdict, What
+from scanbench.faults.reaction.readings import Readings
+from scanbench.faults.reaction.states import Trace
+from scanbench.faults.reaction.tasks import Turns, triggers
 from scanbench.faults.reference import ErrorRef, find_error
-from scanbench.faults.tasks import Turns, triggers
-from scanbench.faults.trace import Trace
 from scanbench.problems import Span
 from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Entry, Refusal, Swapped

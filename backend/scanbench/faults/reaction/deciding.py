@@ -9,7 +9,7 @@ from bisect import bisect_right
 from collections.abc import Iterable, Iterator
 from typing import NamedTuple
 
-from scanbench.faults.flows import ANYWHERE, Flow, Flows, Ref, ref_of
+from scanbench.faults.reaction.flows import ANYWHERE, Flow, Flows, Ref, ref_of
 from scanbench.program.layout import Layout
 from scanbench.program.origin import in_library
 from scanbench.program.program import Base, Pou, Program

@@ -3,14 +3,14 @@
 from collections.abc import Sequence
 
 from scanbench.engines.observe import Observed
+from scanbench.faults.disturb.definition import bits_of, chance, single_value, writing_sites
+from scanbench.faults.disturb.disturb import DISTURBED, Disturbed
+from scanbench.faults.disturb.fire import Firing, Flip, Hold, Unfired, Unhold
+from scanbench.faults.disturb.result import Results, Wish
 from scanbench.program.program import Program
 from scanbench.runtime.agenda import NOTHING, Met, Waits
 from scanbench.runtime.command import Command, Refusal, View
 from scanbench.runtime.programs import Loaded
-from scanbench.verify.disturb import DISTURBED, Disturbed
-from scanbench.verify.disturb_fire import Firing, Flip, Hold, Unfired, Unhold
-from scanbench.verify.disturb_result import Results, Wish
-from scanbench.verify.disturb_wanted import bits_of, chance, single_value, writing_sites
 
 
 class DisturbanceSchedule:

@@ -3,14 +3,14 @@
 from collections.abc import Sequence
 from dataclasses import dataclass, field
 
+from scanbench.faults.disturb.definition import chance
+from scanbench.faults.disturb.disturb import Disturbed
+from scanbench.faults.disturb.fire import Corrupt
 from scanbench.program.program import Program
 from scanbench.program.types import BOOL, ArrayType, Elementary, Record, StringType, Type
 from scanbench.runtime.command import Command
 from scanbench.symbols.named import temporary_at
 from scanbench.symbols.symbols import UnknownPath, at_offset, resolve
-from scanbench.verify.disturb import Disturbed
-from scanbench.verify.disturb_fire import Corrupt
-from scanbench.verify.disturb_wanted import chance
 
 _WHOLE = 0xFF
 

@@ -8,9 +8,9 @@ from collections.abc import Iterator
 
 import numpy as np
 
-from scanbench.faults.deciding import Deciding
-from scanbench.faults.error_memory import WORD, Words
-from scanbench.faults.reaction import Difference
+from scanbench.faults.reaction.deciding import Deciding
+from scanbench.faults.reaction.error_memory import WORD, Words
+from scanbench.faults.reaction.reaction import Difference
 from scanbench.program.program import Program
 from scanbench.symbols.holding import Held, Holders
 from scanbench.symbols.symbols import Symbol

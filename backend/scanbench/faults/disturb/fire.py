@@ -8,6 +8,7 @@ from collections.abc import Iterable, Iterator
 from dataclasses import dataclass
 from typing import ClassVar
 
+from scanbench.faults.disturb.definition import bits_of, single_value
 from scanbench.program.layout import Layout
 from scanbench.program.types import Elementary, StringType
 from scanbench.runtime.command import Category, Command, Freed, Held, Patch, Plan, Refusal, View
@@ -16,7 +17,6 @@ from scanbench.runtime.holds import HELD, HeldByte, held, holder
 from scanbench.runtime.target import not_called
 from scanbench.symbols.symbols import Symbol
 from scanbench.symbols.values import format_value
-from scanbench.verify.disturb_wanted import bits_of, single_value
 
 
 @dataclass(frozen=True, slots=True)

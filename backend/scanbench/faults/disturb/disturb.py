@@ -9,11 +9,11 @@ from dataclasses import dataclass, replace
 from typing import ClassVar, Literal
 
 from scanbench.faults.arm import NUMBERED
+from scanbench.faults.disturb.definition import Disturbance, DisturbanceKind, describe, flaw, next_firing, what_of
+from scanbench.faults.disturb.fire import Corrupt, Firing, Flip, Hold, Unfired, Unhold, freed
 from scanbench.runtime.command import Category, Command, Entry, Numbered, Plan, Refusal, Restarted, Swapped, View
 from scanbench.runtime.command import Freed as FreedEffect
 from scanbench.runtime.journal import Fold
-from scanbench.verify.disturb_fire import Corrupt, Firing, Flip, Hold, Unfired, Unhold, freed
-from scanbench.verify.disturb_wanted import Disturbance, DisturbanceKind, describe, flaw, next_firing, what_of
 
 MOST_DISTURBANCES = 200
 """That may be there at once."""

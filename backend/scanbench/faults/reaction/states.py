@@ -5,7 +5,7 @@ from collections.abc import Iterator
 import numpy as np
 from numpy.typing import NDArray
 
-from scanbench.faults.error_memory import Words
+from scanbench.faults.reaction.error_memory import Words
 
 _BYTES_OF_CHANGE = 12
 

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scanbench.faults.details import Bits, Chosen, field_bits
-from scanbench.faults.reaction import What
+from scanbench.faults.reaction.reaction import What
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.runtime.command import Patch
