@@ -24,6 +24,8 @@ from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.debugged import DebugBuilds
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.probed import ProbedBuilds
+from scanbench.history.reading import Reading
+from scanbench.history.writer import find_writer
 from scanbench.plcmodel.load import model_named
 from scanbench.program.program import Program
 from scanbench.recording.blocks import KeptProgram
@@ -39,10 +41,8 @@ from scanbench.session.runs import sources_in
 from scanbench.session.starting import checked_program, model_of
 from scanbench.verify.engines import native
 from scanbench.verify.ranges import parse_range
-from scanbench.verify.reading import Reading
 from scanbench.verify.verified import Row
 from scanbench.verify.verifier import Verifier
-from scanbench.verify.writer import find_writer
 
 SCANS = 3_000
 LONG = 1_000_000

@@ -8,6 +8,10 @@ from pathlib import Path
 import typer
 
 from scanbench.cli.inputs import DAMAGED, find_model_named, tell_damage, unreadable, unusable, with_near
+from scanbench.history.contract import Change, Divergence
+from scanbench.history.divergence import find_divergence
+from scanbench.history.engines import past_engines, programs_of
+from scanbench.history.reading import NoReading, Reading
 from scanbench.program.program import Program
 from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.format import RunFileError
@@ -15,10 +19,6 @@ from scanbench.runtime.programs import NoProgram
 from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import sources_in
 from scanbench.session.starting import checked_program
-from scanbench.verify.divergence import find_divergence
-from scanbench.verify.findings import Change, Divergence
-from scanbench.verify.past_engines import past_engines, programs_of
-from scanbench.verify.reading import NoReading, Reading
 
 _SHOWN = 40
 """Variables, and commands, that are printed; `--json` has all of them."""

@@ -24,6 +24,7 @@ from scanbench.faults.reaction.reaction import Difference, Line, Reaction, Reade
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.shapes import Shape, Wanted
 from scanbench.faults.shapes import Start as FaultStart
+from scanbench.history.contract import Change, Changes, Divergence, RerunChange, Writer
 from scanbench.problems import Span
 from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.clear_violations import ClearViolations
@@ -41,7 +42,6 @@ from scanbench.session import debug_protocol, events, job_protocol, protocol, tr
 from scanbench.symbols.violations import Violation, Violations
 from scanbench.taps.covered import CoveredFile, CoveredSite
 from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
-from scanbench.verify.findings import Change, Changes, Divergence, RerunChange, Writer
 from scanbench.verify.verified import Column, Input, Mismatch, Output, Place, Range, Row
 
 LENGTH = struct.Struct("<I")

@@ -11,6 +11,7 @@ from scanbench.debug.halt import Halt
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.history import ErrorRow
+from scanbench.history.contract import Divergence
 from scanbench.problems import Problem, Severity
 from scanbench.program.program import CheckSite
 from scanbench.recording.recording import RecordingInfo
@@ -21,7 +22,6 @@ from scanbench.session.protocol import Previewed, RunMark, WatchItem
 from scanbench.session.trace_protocol import TraceStatus
 from scanbench.store.records import AcceptedRow, CellRow, ProjectRow, SweepRow
 from scanbench.symbols.violations import Violations
-from scanbench.verify.findings import Divergence
 from scanbench.verify.verified import DEFAULT_LIMIT, Memory, Mismatch, Range
 
 VerifyPace = Literal["free", "scan", "step"]

@@ -7,6 +7,12 @@ from scanbench.engines.cache import BlobCache
 from scanbench.engines.observe import MakeObserved
 from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.faults.schedule import Schedule
+from scanbench.history.changes import find_changes
+from scanbench.history.divergence import find_divergence
+from scanbench.history.engines import past_engines, programs_of
+from scanbench.history.reading import NoReading, Reading
+from scanbench.history.rerun import rerun
+from scanbench.history.writer import find_writer
 from scanbench.recording.format import RunFileError
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.joined import Joined
@@ -26,12 +32,6 @@ from scanbench.session.verify_protocol import (
     RunsCompared,
     WriterFound,
 )
-from scanbench.verify.changes import find_changes
-from scanbench.verify.divergence import find_divergence
-from scanbench.verify.past_engines import past_engines, programs_of
-from scanbench.verify.reading import NoReading, Reading
-from scanbench.verify.rerun import rerun
-from scanbench.verify.writer import find_writer
 
 _TELL_NS = 250_000_000
 _OPEN = 3

@@ -5,6 +5,7 @@ from collections.abc import Awaitable, Callable
 from dataclasses import dataclass, replace
 from pathlib import Path
 
+from scanbench.history.contract import Changes, RerunChange, Writer
 from scanbench.runtime.clock import fresh_token
 from scanbench.session.events import ComparisonChanged, Event, RerunChanged
 from scanbench.session.jobs import ANSWER_S, DIED, SLOW, Job, answered
@@ -23,7 +24,6 @@ from scanbench.session.verify_protocol import (
     WriterFound,
 )
 from scanbench.store.records import NotFound
-from scanbench.verify.findings import Changes, RerunChange, Writer
 
 IDLE_S = 120.0
 """So long without a question, and the process that answers them ends."""

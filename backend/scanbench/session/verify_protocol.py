@@ -6,8 +6,8 @@ answered in order; rows come as they are made, and the parent keeps them. Anothe
 
 from dataclasses import dataclass
 
+from scanbench.history.contract import Changes, Divergence, RerunChange, Writer
 from scanbench.session.protocol import Sources
-from scanbench.verify.findings import Changes, Divergence, RerunChange, Writer
 from scanbench.verify.verified import Column, Mismatch, Range
 
 NOW = (1 << 63) - 1

@@ -1,4 +1,4 @@
-"""Wire shapes of questions about the past: who wrote this, what changed, where two runs part, what if. See `verify/findings.py`.
+"""Wire shapes of questions about the past: who wrote this, what changed, where two runs part, what if. See `history/contract.py`.
 
 Bytes of values are hex, as in `messages_verify.py`.
 """

@@ -4,7 +4,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Request
 
-from scanbench.verify.findings import RerunChange
+from scanbench.history.contract import RerunChange
 from scanbench.web import messages_past as wire
 from scanbench.web import translate_past
 from scanbench.web.auth import user_of

@@ -5,13 +5,13 @@ from pathlib import Path
 
 import pytest
 
+from scanbench.history import changes as changing
+from scanbench.history.changes import find_changes
+from scanbench.history.contract import Changes
+from scanbench.history.reading import NoReading, Reading
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
-from scanbench.verify import changes as changing
-from scanbench.verify.changes import find_changes
-from scanbench.verify.findings import Changes
-from scanbench.verify.reading import NoReading, Reading
 from tests.runtime.recorded import advance, begun, of_file, to_program
 from tests.verify.test_writer import LINE
 

@@ -7,16 +7,16 @@ import pytest
 
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.history import divergence
+from scanbench.history.contract import Divergence
+from scanbench.history.divergence import find_divergence
+from scanbench.history.reading import NoReading, Reading
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
-from scanbench.verify import divergence
-from scanbench.verify.divergence import find_divergence
-from scanbench.verify.findings import Divergence
-from scanbench.verify.reading import NoReading, Reading
 from tests.runtime.recorded import advance, begun, of_file, of_file_native, to_program
 from tests.verify.test_writer import _texts
 

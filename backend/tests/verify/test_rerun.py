@@ -12,14 +12,14 @@ from scanbench.faults.inject import ACTIVE, Generate, Recover
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.schedule import Schedule
 from scanbench.faults.shapes import Shape, Start, Wanted
+from scanbench.history.contract import RerunChange
+from scanbench.history.divergence import find_divergence
+from scanbench.history.reading import NoReading, Reading
+from scanbench.history.rerun import Rerun, rerun
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
-from scanbench.verify.divergence import find_divergence
-from scanbench.verify.findings import RerunChange
-from scanbench.verify.reading import NoReading, Reading
-from scanbench.verify.rerun import Rerun, rerun
 from tests.runtime.bench import value
 from tests.runtime.recorded import SourcePrograms, advance, of_file
 

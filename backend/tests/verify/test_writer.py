@@ -11,6 +11,9 @@ from scanbench.engines.native.probed import ProbedBuilds
 from scanbench.faults.disturb.definition import Disturbance
 from scanbench.faults.disturb.disturb import Disturb
 from scanbench.faults.disturb.schedule import DisturbanceSchedule
+from scanbench.history.contract import Writer
+from scanbench.history.reading import NoReading, Reading
+from scanbench.history.writer import find_writer
 from scanbench.recording import checkpoints
 from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.timeline import Timeline
@@ -21,9 +24,6 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from scanbench.symbols.symbols import resolve
-from scanbench.verify.findings import Writer
-from scanbench.verify.reading import NoReading, Reading
-from scanbench.verify.writer import find_writer
 from tests.runtime.recorded import SourcePrograms, advance, begun, of_file, of_file_native, to_program
 
 LINE = """

@@ -13,15 +13,15 @@ from pathlib import Path
 from scanbench.faults.arm import Disarm
 from scanbench.faults.detect import Detection
 from scanbench.faults.disturb.disturb import Calm
+from scanbench.history.contract import RerunChange
+from scanbench.history.reading import NoReading, Reading
+from scanbench.history.rerun_plan import Given, Planned, planned
 from scanbench.recording.blocks import Codec
 from scanbench.recording.format import RunFileError
 from scanbench.recording.recording import DEFAULT_LIMIT
 from scanbench.recording.timeline import ProgramsOf, Timeline
 from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.command import Command, Numbered, Refusal
-from scanbench.verify.findings import RerunChange
-from scanbench.verify.reading import NoReading, Reading
-from scanbench.verify.rerun_plan import Given, Planned, planned
 
 _SLICE = 20_000
 """Scans between two words about how far it is."""

@@ -9,6 +9,9 @@ from scanbench.debug.listener import Position
 from scanbench.debug.placed import bytes_of
 from scanbench.debug.reverse import Noted, Search, in_front
 from scanbench.engines.probe import MakeProbed
+from scanbench.history.contract import Writer
+from scanbench.history.plc_writes import last_change
+from scanbench.history.reading import NoReading, Reading
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.program.types import BOOL, Elementary, StringType
@@ -19,9 +22,6 @@ from scanbench.runtime.restart import retained
 from scanbench.runtime.target import Meant, meant, not_called
 from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.symbols.values import format_value
-from scanbench.verify.findings import Writer
-from scanbench.verify.plc_writes import last_change
-from scanbench.verify.reading import NoReading, Reading
 from scanbench.verify.verified import Place
 
 _BY_ITS = "a temporary, or nothing: ask for a variable that outlives its call, or halt inside of the block"

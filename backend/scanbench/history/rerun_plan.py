@@ -8,10 +8,10 @@ from scanbench.faults.disturb.fire import Firing
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.faults.shapes import Start
+from scanbench.history.contract import RerunChange
+from scanbench.history.reading import NoReading, Reading
 from scanbench.runtime.command import Command, Entry, Numbered, Refusal
 from scanbench.runtime.trap import Trapped
-from scanbench.verify.findings import RerunChange
-from scanbench.verify.reading import NoReading, Reading
 
 _ITSELF = ("PLC", "program")
 """Who enters what the PLC finds and the program asks for."""

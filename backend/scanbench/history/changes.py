@@ -7,6 +7,8 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scanbench.faults.reaction.error_memory import code_bits, kept_bits, log_bits
+from scanbench.history.contract import MAX_CHANGES, Change, Changes
+from scanbench.history.reading import NoReading, Reading
 from scanbench.program.program import Program
 from scanbench.program.types import Elementary, Enumeration, StringType, Type
 from scanbench.runtime.command import Entry
@@ -15,8 +17,6 @@ from scanbench.runtime.migrate_image import carry_over
 from scanbench.symbols.holding import Holders
 from scanbench.symbols.symbols import Symbol
 from scanbench.symbols.values import format_value, python_value
-from scanbench.verify.findings import MAX_CHANGES, Change, Changes
-from scanbench.verify.reading import NoReading, Reading
 
 MAX_ENTRIES = 1_000
 """Entries in between that are listed."""

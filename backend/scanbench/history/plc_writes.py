@@ -6,11 +6,11 @@ from scanbench.check.typed.condition import BadCondition, compile_signal
 from scanbench.debug.placed import bytes_of
 from scanbench.engines.engine import Reason
 from scanbench.engines.sample import HEAD_WORDS, Sampling
+from scanbench.history.reading import Reading
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
 from scanbench.program.types import Elementary
 from scanbench.symbols.symbols import Symbol, resolve
-from scanbench.verify.reading import Reading
 
 _CHUNK = 1 << 17
 """Scans whose changes are looked at at once."""

@@ -5,10 +5,10 @@ from collections.abc import Iterator, Sequence
 from scanbench.debug.frames import frame_name, instance_path, task_of
 from scanbench.engines.debug import WRITE, Frame, Listen
 from scanbench.engines.engine import Reason
+from scanbench.history.contract import Change
+from scanbench.history.reading import Reading
 from scanbench.runtime.resource import Resource
 from scanbench.symbols.symbols import UnknownPath, resolve
-from scanbench.verify.findings import Change
-from scanbench.verify.reading import Reading
 from scanbench.verify.verified import Place
 
 Owners = dict[int, list[tuple[int, Change]]]

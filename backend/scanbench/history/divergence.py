@@ -11,16 +11,16 @@ from dataclasses import dataclass, replace
 from operator import attrgetter
 from typing import Literal
 
+from scanbench.history.changes import Comparer, Moment, entered, moment_of, same_model
+from scanbench.history.contract import Change, Changes, Divergence
+from scanbench.history.first_write import first_write
+from scanbench.history.reading import NoReading, Reading
 from scanbench.recording.replay import replay
 from scanbench.recording.timeline import NOT_AS_RECORDED
 from scanbench.runtime.command import Entry
 from scanbench.runtime.inside import Diverged
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.trap import Trapped
-from scanbench.verify.changes import Comparer, Moment, entered, moment_of, same_model
-from scanbench.verify.findings import Change, Changes, Divergence
-from scanbench.verify.first_write import first_write
-from scanbench.verify.reading import NoReading, Reading
 from scanbench.verify.verified import Place
 
 MAX_MARKS = 200
