@@ -30,8 +30,13 @@ from scanbench.faults.reaction.react import Point
 from scanbench.faults.reaction.reaction import WINDOW
 from scanbench.faults.reaction.sweep import Cell, sweep
 from scanbench.faults.reference import find_error
-from scanbench.faults.sweep_page import sweep_page
-from scanbench.faults.sweep_report import (
+from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_text
+from scanbench.plcmodel.model import Model
+from scanbench.plcmodel.user_errors import extended
+from scanbench.program.program import Program
+from scanbench.recording.recording import Recording
+from scanbench.reports.sweep_page import sweep_page
+from scanbench.reports.sweep_report import (
     NO_SWEEP,
     SweepResult,
     compare_text,
@@ -43,11 +48,6 @@ from scanbench.faults.sweep_report import (
     sweep_text,
     table,
 )
-from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_text
-from scanbench.plcmodel.model import Model
-from scanbench.plcmodel.user_errors import extended
-from scanbench.program.program import Program
-from scanbench.recording.recording import Recording
 from scanbench.runtime.clock import iso, wall_time
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.header import Header

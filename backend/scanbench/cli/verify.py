@@ -15,12 +15,12 @@ from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.run_options import AUTHOR, Options
 from scanbench.cli.verify_subject import Given, Subject, opened
 from scanbench.cli.verify_text import verify_text
+from scanbench.reports.report import Collected, Report, ReportHead
+from scanbench.reports.report_html import to_html
+from scanbench.reports.report_json import to_json
 from scanbench.runtime.clock import iso, monotonic_ns, wall_time
 from scanbench.verify.engines import Make, native, reference
 from scanbench.verify.ranges import parse_range
-from scanbench.verify.report import Collected, Report, ReportHead
-from scanbench.verify.report_html import to_html
-from scanbench.verify.report_json import to_json
 from scanbench.verify.verified import DEFAULT_LIMIT, MAX_LIMIT, BadRange, Range
 from scanbench.verify.verifier import Begun, Unverifiable
 

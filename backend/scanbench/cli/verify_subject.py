@@ -22,13 +22,13 @@ from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.format import RunFileError, is_run_file
 from scanbench.recording.headless import HeadlessRun, run_headless
 from scanbench.recording.recording import Recording
+from scanbench.reports.report import Source
 from scanbench.runtime.programs import NoProgram
 from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import RUN_SUFFIX, sources_in, sources_of
 from scanbench.session.starting import checked_program, model_of
 from scanbench.verify.engines import Make
 from scanbench.verify.mapping import BadMapping, TraceMapping, propose
-from scanbench.verify.report import Source
 from scanbench.verify.trace_bind import check
 from scanbench.verify.trace_read import read_trace
 from scanbench.verify.trace_run import TraceVerifier

@@ -2,9 +2,9 @@
 
 from collections.abc import Iterator
 
-from scanbench.faults.sweep_report import count
-from scanbench.verify.report import Report, ReportHead
-from scanbench.verify.value_text import column_of, differing_bits, value_text
+from scanbench.reports.report import Report, ReportHead
+from scanbench.reports.sweep_report import count
+from scanbench.reports.value_text import column_of, differing_bits, value_text
 from scanbench.verify.verified import ENDED, Column, Mismatch, Row
 
 STRETCHES = 5

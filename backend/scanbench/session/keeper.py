@@ -14,8 +14,8 @@ from typing import TypeVar
 
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.faults.history import ErrorRow, RowReaction
-from scanbench.faults.reaction_json import from_json, to_json
 from scanbench.plcmodel.model import Model
+from scanbench.reports.reaction_json import from_json, to_json
 from scanbench.session.events import LogEntry
 from scanbench.store.records import HistoryRow, Json, LogRow, NotFound, StoreError
 from scanbench.store.store import Store

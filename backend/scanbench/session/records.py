@@ -7,7 +7,9 @@ from typing import cast
 
 from scanbench.faults.history import ErrorRow
 from scanbench.faults.reaction.reaction import Verdict
-from scanbench.faults.record import (
+from scanbench.plcmodel.model import Model
+from scanbench.plcmodel.user_errors import device_of, model_for
+from scanbench.reports.record import (
     RecordAccepted,
     RecordCell,
     RecordHead,
@@ -15,10 +17,8 @@ from scanbench.faults.record import (
     TestRecord,
     make_record,
 )
-from scanbench.faults.record_read import from_xml
-from scanbench.faults.record_text import Language, RecordLine
-from scanbench.plcmodel.model import Model
-from scanbench.plcmodel.user_errors import device_of, model_for
+from scanbench.reports.record_read import from_xml
+from scanbench.reports.record_text import Language, RecordLine
 from scanbench.runtime.clock import wall_time
 from scanbench.session.keeper import Keeper
 from scanbench.session.refused import Refused

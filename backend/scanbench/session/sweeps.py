@@ -13,10 +13,10 @@ from scanbench.faults.history import Swept, worst
 from scanbench.faults.inject import Generate
 from scanbench.faults.reaction.compare import Outcome, SweepChange, compare
 from scanbench.faults.reaction.reaction import FINDINGS, Reaction, Verdict
-from scanbench.faults.reaction_json import from_json, to_json
 from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.plcmodel.catalogue import path_text
 from scanbench.plcmodel.model import Model
+from scanbench.reports.reaction_json import from_json, to_json
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Refusal
 from scanbench.session.events import SweepChanged

@@ -10,6 +10,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
+from scanbench.reports.report import stretched
 from scanbench.session import debug_protocol, protocol
 from scanbench.session.events import Event, StateChanged, VerificationStatus, VerifyPace, VerifyWish
 from scanbench.session.jobs import ANSWER_S, DIED, SLOW, Job
@@ -29,7 +30,6 @@ from scanbench.session.verify_protocol import (
     VerifyStep,
 )
 from scanbench.session.verify_rows import Rows
-from scanbench.verify.report import stretched
 from scanbench.verify.verified import Memory
 
 BEHIND = 256

@@ -6,6 +6,10 @@ from pathlib import Path
 from typing import Literal
 
 from scanbench import __version__
+from scanbench.reports.report import Report, ReportHead
+from scanbench.reports.report_html import to_html
+from scanbench.reports.report_json import to_json
+from scanbench.reports.table_csv import to_csv
 from scanbench.runtime.clock import iso, monotonic_ns, wall_time
 from scanbench.session.codec import BadMessage, Splitter, pack, pack_body, unpack
 from scanbench.session.events import VerificationsChanged, VerificationStatus, VerifyPace, VerifyWish
@@ -18,10 +22,6 @@ from scanbench.session.verify_rows import Rows, RowsPage
 from scanbench.store.records import Json, KeptRow, NotFound
 from scanbench.store.store import Store
 from scanbench.verify.mapping import TraceMapping
-from scanbench.verify.report import Report, ReportHead
-from scanbench.verify.report_html import to_html
-from scanbench.verify.report_json import to_json
-from scanbench.verify.table_csv import to_csv
 from scanbench.verify.verified import Memory, Range
 
 MOST = 10

@@ -7,6 +7,8 @@ from scanbench.engines.cache import BlobCache
 from scanbench.program.program import Program
 from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.format import RunFileError
+from scanbench.reports.report import stretched
+from scanbench.reports.value_text import value_text
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.programs import NoProgram
 from scanbench.session.codec import ENTRIES, pack_body
@@ -28,10 +30,8 @@ from scanbench.session.verify_protocol import (
 )
 from scanbench.verify.engines import native
 from scanbench.verify.mapping import BadMapping
-from scanbench.verify.report import stretched
 from scanbench.verify.trace_run import TraceVerifier, open_trace
 from scanbench.verify.trace_table import BadTraceFile
-from scanbench.verify.value_text import value_text
 from scanbench.verify.verified import BadRange, Column, Row, ScanVerified
 from scanbench.verify.verifier import BadEdit, Unverifiable, Verifier
 

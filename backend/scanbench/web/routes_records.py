@@ -9,11 +9,11 @@ from urllib.parse import quote
 from fastapi import APIRouter, Request
 from fastapi.responses import Response
 
-from scanbench.faults.record import TestRecord
-from scanbench.faults.record_csv import to_csv
-from scanbench.faults.record_html import to_html
-from scanbench.faults.record_text import Language
-from scanbench.faults.record_xml import to_xml
+from scanbench.reports.record import TestRecord
+from scanbench.reports.record_csv import to_csv
+from scanbench.reports.record_html import to_html
+from scanbench.reports.record_text import Language
+from scanbench.reports.record_xml import to_xml
 from scanbench.web import messages_records as wire
 from scanbench.web import translate, translate_records
 from scanbench.web.auth import user_of

@@ -2,7 +2,7 @@
 
 from datetime import datetime
 
-from scanbench.faults import record as kept
+from scanbench.reports import record as kept
 from scanbench.runtime.clock import iso
 from scanbench.session.records import HistoryVersion
 from scanbench.store import records as store

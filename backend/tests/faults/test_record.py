@@ -12,8 +12,9 @@ from lxml import etree
 
 from scanbench.faults.history import ErrorRow, RowReaction
 from scanbench.faults.reaction.reaction import Difference, Line, Reaction, Reader, Verdict
-from scanbench.faults.reaction_json import from_json, to_json
-from scanbench.faults.record import (
+from scanbench.plcmodel.document import TOLD
+from scanbench.reports.reaction_json import from_json, to_json
+from scanbench.reports.record import (
     WORST_FIRST,
     RecordAccepted,
     RecordCell,
@@ -24,13 +25,12 @@ from scanbench.faults.record import (
     TestRecord,
     make_record,
 )
-from scanbench.faults.record_csv import COLUMNS, to_csv
-from scanbench.faults.record_html import to_html
-from scanbench.faults.record_read import from_xml
-from scanbench.faults.record_text import RecordLine, folded
-from scanbench.faults.record_words import WORDS
-from scanbench.faults.record_xml import to_xml
-from scanbench.plcmodel.document import TOLD
+from scanbench.reports.record_csv import COLUMNS, to_csv
+from scanbench.reports.record_html import to_html
+from scanbench.reports.record_read import from_xml
+from scanbench.reports.record_text import RecordLine, folded
+from scanbench.reports.record_words import WORDS
+from scanbench.reports.record_xml import to_xml
 from tests.runtime.bench import model
 
 NOON = datetime(2026, 11, 21, 12, 0, 0, 123456, tzinfo=UTC)

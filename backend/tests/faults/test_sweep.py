@@ -11,8 +11,8 @@ from scanbench.faults.inject import Generate
 from scanbench.faults.reaction.compare import Change, Outcome, SweepChange, compare
 from scanbench.faults.reaction.reaction import Reaction, Verdict
 from scanbench.faults.reaction.sweep import Cell, sweep
-from scanbench.faults.sweep_page import sweep_page
-from scanbench.faults.sweep_report import (
+from scanbench.reports.sweep_page import sweep_page
+from scanbench.reports.sweep_report import (
     SweepResult,
     outcomes_in,
     reason,

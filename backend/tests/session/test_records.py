@@ -11,11 +11,11 @@ from typing import cast
 
 import pytest
 
-from scanbench.faults import record as record_room
 from scanbench.faults.history import ErrorRow, History
-from scanbench.faults.record import TestRecord
-from scanbench.faults.record_xml import to_xml
 from scanbench.plcmodel.model import Model
+from scanbench.reports import record as record_room
+from scanbench.reports.record import TestRecord
+from scanbench.reports.record_xml import to_xml
 from scanbench.session import records
 from scanbench.session.keeper import Keeper
 from scanbench.session.records import Records

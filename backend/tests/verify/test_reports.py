@@ -9,11 +9,11 @@ from html.parser import HTMLParser
 
 import pytest
 
-from scanbench.verify.report import CONTEXT, MAX_ROWS, Collected, Report, ReportHead
-from scanbench.verify.report_html import DIFFERENCES, to_html
-from scanbench.verify.report_json import to_json
-from scanbench.verify.table_csv import to_csv
-from scanbench.verify.value_text import Format, differing_bits, value_text
+from scanbench.reports.report import CONTEXT, MAX_ROWS, Collected, Report, ReportHead
+from scanbench.reports.report_html import DIFFERENCES, to_html
+from scanbench.reports.report_json import to_json
+from scanbench.reports.table_csv import to_csv
+from scanbench.reports.value_text import Format, differing_bits, value_text
 from scanbench.verify.verified import Column, Input, Mismatch, Output, Place, Row, ScanVerified
 
 SPEED = Column("speed", "INT", "int", 2)

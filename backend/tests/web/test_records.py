@@ -8,7 +8,7 @@ from typing import cast
 import pytest
 from lxml import etree
 
-from scanbench.faults.record import RecordHead, TestRecord
+from scanbench.reports.record import RecordHead, TestRecord
 from scanbench.session.workbench import Workbench
 from scanbench.web import routes_records
 from tests.web.server import Browser, Server

@@ -12,7 +12,10 @@ from lxml import etree
 from scanbench.faults.history import Status
 from scanbench.faults.inject import Origin
 from scanbench.faults.reaction.reaction import Difference, Line, Reaction, Reader, Verdict, What
-from scanbench.faults.record import (
+from scanbench.plcmodel.document import Document, first_of, parse
+from scanbench.plcmodel.model import Severity
+from scanbench.problems import Problem
+from scanbench.reports.record import (
     RecordAccepted,
     RecordCell,
     RecordError,
@@ -21,10 +24,7 @@ from scanbench.faults.record import (
     SweepStatus,
     TestRecord,
 )
-from scanbench.faults.record_text import RecordLine
-from scanbench.plcmodel.document import Document, first_of, parse
-from scanbench.plcmodel.model import Severity
-from scanbench.problems import Problem
+from scanbench.reports.record_text import RecordLine
 
 FILE = "record.xml"
 

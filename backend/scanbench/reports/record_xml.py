@@ -6,8 +6,8 @@ from datetime import UTC, datetime
 from lxml import etree
 
 from scanbench.faults.reaction.reaction import FINDINGS, Reaction
-from scanbench.faults.record import RecordError, RecordSweep, TestRecord
 from scanbench.plcmodel.document import xml_text
+from scanbench.reports.record import RecordError, RecordSweep, TestRecord
 
 VERSION = "1"
 Told = str | int | datetime | None

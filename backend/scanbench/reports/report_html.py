@@ -4,10 +4,10 @@ from collections.abc import Iterable, Iterator, Sequence
 from html import escape
 from importlib.resources import files
 
-from scanbench.faults.record_text import Language
-from scanbench.verify.report import CONTEXT, Report
-from scanbench.verify.report_words import WORDS
-from scanbench.verify.value_text import column_of, differing_bits, value_text
+from scanbench.reports.record_text import Language
+from scanbench.reports.report import CONTEXT, Report
+from scanbench.reports.report_words import WORDS
+from scanbench.reports.value_text import column_of, differing_bits, value_text
 from scanbench.verify.verified import Column, Mismatch, Output, Place, Row
 
 DIFFERENCES = 50

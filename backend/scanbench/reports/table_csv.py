@@ -5,8 +5,8 @@ import io
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 
-from scanbench.verify.report import Report
-from scanbench.verify.value_text import Format, value_text
+from scanbench.reports.report import Report
+from scanbench.reports.value_text import Format, value_text
 from scanbench.verify.verified import Column, Input, Output, Row
 
 PIECE = 1 << 18

@@ -6,7 +6,7 @@ from urllib.parse import quote
 
 from scanbench.faults.reaction.reaction import FINDINGS, Difference, Verdict
 from scanbench.faults.reaction.sweep import Cell
-from scanbench.faults.sweep_report import WORDS, SweepResult, count, reason, verdict_of
+from scanbench.reports.sweep_report import WORDS, SweepResult, count, reason, verdict_of
 
 _SIGNS: Mapping[Verdict | None, str] = {
     "reacted": "✓", "stored_only": "▤", "no_effect": "◐", "not_reached": "↷", "never_read": "✗", "stopped": "■", None: "–",

@@ -8,9 +8,9 @@ from typing import Literal
 from scanbench.faults.history import ErrorRow, Status
 from scanbench.faults.inject import Origin
 from scanbench.faults.reaction.reaction import FINDINGS, Reaction, Verdict
-from scanbench.faults.record_text import Language, RecordLine, details_in_words, in_names, worded
 from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_text
 from scanbench.plcmodel.model import Model
+from scanbench.reports.record_text import Language, RecordLine, details_in_words, in_names, worded
 
 SweepStatus = Literal["running", "done", "cancelled", "interrupted", "failed"]
 WORST_FIRST: tuple[Verdict, ...] = (*FINDINGS, "stopped", "reacted")

@@ -7,7 +7,7 @@ from importlib.resources import files
 from itertools import groupby
 
 from scanbench.faults.reaction.reaction import FINDINGS, Difference, Reaction, Verdict
-from scanbench.faults.record import (
+from scanbench.reports.record import (
     WORST_FIRST,
     Missed,
     RecordCell,
@@ -15,8 +15,8 @@ from scanbench.faults.record import (
     RecordSweep,
     TestRecord,
 )
-from scanbench.faults.record_text import FoldedLine, Language, folded
-from scanbench.faults.record_words import WORDS
+from scanbench.reports.record_text import FoldedLine, Language, folded
+from scanbench.reports.record_words import WORDS
 
 SHOWN = 8
 """Readers, and outputs, of one error; the XML has them all."""

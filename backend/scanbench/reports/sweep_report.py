@@ -7,12 +7,12 @@ from typing import cast, get_args
 
 from lxml import etree
 
-from scanbench.faults import record_words
 from scanbench.faults.reaction.compare import Outcome, SweepChange
 from scanbench.faults.reaction.reaction import FINDINGS, Verdict
 from scanbench.faults.reaction.sweep import Cell
 from scanbench.plcmodel.catalogue import ErrorEntry, Severity
 from scanbench.plcmodel.document import xml_text
+from scanbench.reports import record_words
 
 WORDS: Mapping[Verdict | None, str] = {
     verdict: record_words.WORDS["en"][verdict or "not_raised"] for verdict in (*get_args(Verdict), None)

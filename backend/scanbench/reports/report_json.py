@@ -2,8 +2,8 @@
 
 import json
 
-from scanbench.verify.report import Report, ReportHead
-from scanbench.verify.value_text import column_of, differing_bits, value_text
+from scanbench.reports.report import Report, ReportHead
+from scanbench.reports.value_text import column_of, differing_bits, value_text
 from scanbench.verify.verified import Column, Mismatch, Place, Row
 
 FORMAT = 1

@@ -2,7 +2,7 @@
 
 from collections.abc import Mapping
 
-from scanbench.faults.record_text import Language
+from scanbench.reports.record_text import Language
 
 WORDS: Mapping[Language, Mapping[str, str]] = {
     "en": {

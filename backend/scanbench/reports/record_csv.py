@@ -6,7 +6,7 @@ from collections.abc import Iterable
 from datetime import datetime
 
 from scanbench.faults.reaction.reaction import Reaction
-from scanbench.faults.record import RecordError, TestRecord
+from scanbench.reports.record import RecordError, TestRecord
 from scanbench.runtime.clock import iso
 
 COLUMNS = (
