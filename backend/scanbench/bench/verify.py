@@ -39,9 +39,9 @@ from scanbench.session.from_disk import program_files, project_model, read_text
 from scanbench.session.protocol import Sources
 from scanbench.session.runs import sources_in
 from scanbench.session.starting import checked_program, model_of
+from scanbench.verify.contract import Row
 from scanbench.verify.engines import native
 from scanbench.verify.ranges import parse_range
-from scanbench.verify.verified import Row
 from scanbench.verify.verifier import Verifier
 
 SCANS = 3_000

@@ -19,9 +19,9 @@ from scanbench.reports.report import Collected, Report, ReportHead
 from scanbench.reports.report_html import to_html
 from scanbench.reports.report_json import to_json
 from scanbench.runtime.clock import iso, monotonic_ns, wall_time
+from scanbench.verify.contract import DEFAULT_LIMIT, MAX_LIMIT, BadRange, Range
 from scanbench.verify.engines import Make, native, reference
 from scanbench.verify.ranges import parse_range
-from scanbench.verify.verified import DEFAULT_LIMIT, MAX_LIMIT, BadRange, Range
 from scanbench.verify.verifier import Begun, Unverifiable
 
 SCANS = 1000

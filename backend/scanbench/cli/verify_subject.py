@@ -27,13 +27,13 @@ from scanbench.runtime.programs import NoProgram
 from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import RUN_SUFFIX, sources_in, sources_of
 from scanbench.session.starting import checked_program, model_of
+from scanbench.verify.contract import Range, ScanVerified
 from scanbench.verify.engines import Make
-from scanbench.verify.mapping import BadMapping, TraceMapping, propose
-from scanbench.verify.trace_bind import check
-from scanbench.verify.trace_read import read_trace
-from scanbench.verify.trace_run import TraceVerifier
-from scanbench.verify.trace_table import BadTraceFile, Table, TraceProblem
-from scanbench.verify.verified import Range, ScanVerified
+from scanbench.verify.trace.bind import check
+from scanbench.verify.trace.mapping import BadMapping, TraceMapping, propose
+from scanbench.verify.trace.read import read_trace
+from scanbench.verify.trace.run import TraceVerifier
+from scanbench.verify.trace.table import BadTraceFile, Table, TraceProblem
 from scanbench.verify.verifier import Begun, Unverifiable, Verifier
 
 PROBLEMS_SHOWN = 20

@@ -5,7 +5,7 @@ from collections.abc import Iterator
 from scanbench.reports.report import Report, ReportHead
 from scanbench.reports.sweep_report import count
 from scanbench.reports.value_text import column_of, differing_bits, value_text
-from scanbench.verify.verified import ENDED, Column, Mismatch, Row
+from scanbench.verify.contract import ENDED, Column, Mismatch, Row
 
 STRETCHES = 5
 """Of scans that were not compared that are named."""

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 from typing import Literal
 
-from scanbench.verify.verified import Place
+from scanbench.verify.contract import Place
 
 MAX_CHANGES = 5000
 """Variables that are listed; how many there are is told in any case."""

@@ -21,7 +21,7 @@ from scanbench.runtime.command import Entry
 from scanbench.runtime.inside import Diverged
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.trap import Trapped
-from scanbench.verify.verified import Place
+from scanbench.verify.contract import Place
 
 MAX_MARKS = 200
 MAX_ENTRIES = 200

@@ -9,7 +9,7 @@ from scanbench.history.contract import Change
 from scanbench.history.reading import Reading
 from scanbench.runtime.resource import Resource
 from scanbench.symbols.symbols import UnknownPath, resolve
-from scanbench.verify.verified import Place
+from scanbench.verify.contract import Place
 
 Owners = dict[int, list[tuple[int, Change]]]
 """By byte: which bits of it are whose."""

@@ -22,7 +22,7 @@ from scanbench.runtime.restart import retained
 from scanbench.runtime.target import Meant, meant, not_called
 from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
 from scanbench.symbols.values import format_value
-from scanbench.verify.verified import Place
+from scanbench.verify.contract import Place
 
 _BY_ITS = "a temporary, or nothing: ask for a variable that outlives its call, or halt inside of the block"
 

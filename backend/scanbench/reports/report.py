@@ -4,7 +4,7 @@ from collections import deque
 from dataclasses import dataclass, field
 from typing import Literal
 
-from scanbench.verify.verified import DEFAULT_LIMIT, Column, Mismatch, Row, ScanVerified
+from scanbench.verify.contract import DEFAULT_LIMIT, Column, Mismatch, Row, ScanVerified
 
 Source = Literal["live", "past", "trace"]
 CONTEXT = 2

@@ -8,7 +8,7 @@ from scanbench.reports.record_text import Language
 from scanbench.reports.report import CONTEXT, Report
 from scanbench.reports.report_words import WORDS
 from scanbench.reports.value_text import column_of, differing_bits, value_text
-from scanbench.verify.verified import Column, Mismatch, Output, Place, Row
+from scanbench.verify.contract import Column, Mismatch, Output, Place, Row
 
 DIFFERENCES = 50
 """Differences that have a section of their own."""

@@ -4,7 +4,7 @@ import json
 
 from scanbench.reports.report import Report, ReportHead
 from scanbench.reports.value_text import column_of, differing_bits, value_text
-from scanbench.verify.verified import Column, Mismatch, Place, Row
+from scanbench.verify.contract import Column, Mismatch, Place, Row
 
 FORMAT = 1
 """Another number when what is there means something else; more keys may come at any time."""

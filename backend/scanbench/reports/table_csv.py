@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from scanbench.reports.report import Report
 from scanbench.reports.value_text import Format, value_text
-from scanbench.verify.verified import Column, Input, Output, Row
+from scanbench.verify.contract import Column, Input, Output, Row
 
 PIECE = 1 << 18
 """Characters that are made at a time."""

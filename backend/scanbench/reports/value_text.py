@@ -7,7 +7,7 @@ from typing import Literal, get_args
 
 from scanbench.program.types import Elementary, Enumeration, Kind, StringType, Type
 from scanbench.symbols.values import DATES, format_time, format_value
-from scanbench.verify.verified import Column, Mismatch
+from scanbench.verify.contract import Column, Mismatch
 
 Format = Literal["default", "decimal", "signed", "unsigned", "hex", "binary", "bcd", "float", "time", "ascii"]
 """The same names, and the same meaning, as of a row of the watch table."""

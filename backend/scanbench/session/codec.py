@@ -42,7 +42,7 @@ from scanbench.session import debug_protocol, events, job_protocol, protocol, tr
 from scanbench.symbols.violations import Violation, Violations
 from scanbench.taps.covered import CoveredFile, CoveredSite
 from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
-from scanbench.verify.verified import Column, Input, Mismatch, Output, Place, Range, Row
+from scanbench.verify.contract import Column, Input, Mismatch, Output, Place, Range, Row
 
 LENGTH = struct.Struct("<I")
 LARGEST = 1 << 30

@@ -22,7 +22,7 @@ from scanbench.session.protocol import Previewed, RunMark, WatchItem
 from scanbench.session.trace_protocol import TraceStatus
 from scanbench.store.records import AcceptedRow, CellRow, ProjectRow, SweepRow
 from scanbench.symbols.violations import Violations
-from scanbench.verify.verified import DEFAULT_LIMIT, Memory, Mismatch, Range
+from scanbench.verify.contract import DEFAULT_LIMIT, Memory, Mismatch, Range
 
 VerifyPace = Literal["free", "scan", "step"]
 """How a verification goes on: by itself, scan by scan, statement by statement."""

@@ -16,10 +16,10 @@ from scanbench.session.session import Session
 from scanbench.session.starting import checked_program, model_of
 from scanbench.store.records import MappingRow, NotFound
 from scanbench.store.store import Store
-from scanbench.verify.mapping import BadMapping, TraceMapping, fits, propose
-from scanbench.verify.trace_bind import check
-from scanbench.verify.trace_read import MAX_BYTES, read_trace
-from scanbench.verify.trace_table import BadTraceFile, Table, TraceProblem
+from scanbench.verify.trace.bind import check
+from scanbench.verify.trace.mapping import BadMapping, TraceMapping, fits, propose
+from scanbench.verify.trace.read import MAX_BYTES, read_trace
+from scanbench.verify.trace.table import BadTraceFile, Table, TraceProblem
 
 KEPT_NS = 3600 * 1_000_000_000
 MOST = 20

@@ -30,7 +30,7 @@ from scanbench.session.verify_protocol import (
     VerifyStep,
 )
 from scanbench.session.verify_rows import Rows
-from scanbench.verify.verified import Memory
+from scanbench.verify.contract import Memory
 
 BEHIND = 256
 """Scans that a verification of a PLC that runs may be behind; then it goes on with the newest ones."""

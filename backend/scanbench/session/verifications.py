@@ -21,8 +21,8 @@ from scanbench.session.verify_protocol import KeptRows, UseRow
 from scanbench.session.verify_rows import Rows, RowsPage
 from scanbench.store.records import Json, KeptRow, NotFound
 from scanbench.store.store import Store
-from scanbench.verify.mapping import TraceMapping
-from scanbench.verify.verified import Memory, Range
+from scanbench.verify.contract import Memory, Range
+from scanbench.verify.trace.mapping import TraceMapping
 
 MOST = 10
 """Verifications that go on at a time: each is a process."""

@@ -28,11 +28,11 @@ from scanbench.session.verify_protocol import (
     VerifyScans,
     VerifyStep,
 )
+from scanbench.verify.contract import BadRange, Column, Row, ScanVerified
 from scanbench.verify.engines import native
-from scanbench.verify.mapping import BadMapping
-from scanbench.verify.trace_run import TraceVerifier, open_trace
-from scanbench.verify.trace_table import BadTraceFile
-from scanbench.verify.verified import BadRange, Column, Row, ScanVerified
+from scanbench.verify.trace.mapping import BadMapping
+from scanbench.verify.trace.run import TraceVerifier, open_trace
+from scanbench.verify.trace.table import BadTraceFile
 from scanbench.verify.verifier import BadEdit, Unverifiable, Verifier
 
 _TELL_NS = 100_000_000

@@ -8,7 +8,7 @@ from dataclasses import dataclass
 
 from scanbench.history.contract import Changes, Divergence, RerunChange, Writer
 from scanbench.session.protocol import Sources
-from scanbench.verify.verified import Column, Mismatch, Range
+from scanbench.verify.contract import Column, Mismatch, Range
 
 NOW = (1 << 63) - 1
 """As a scan: the end of the run."""

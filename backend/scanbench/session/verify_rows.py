@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 
 from scanbench.session.codec import unpack
 from scanbench.session.verify_protocol import KeptRows, PackedRow, ScansVerified
-from scanbench.verify.verified import Column, Row
+from scanbench.verify.contract import Column, Row
 
 MOST_ROWS = 20_000
 MOST_BYTES = 48 << 20

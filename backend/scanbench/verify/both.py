@@ -12,6 +12,7 @@ from scanbench.program.layout import Layout
 from scanbench.runtime.command import Entry
 from scanbench.runtime.holds import held
 from scanbench.runtime.trap import Trapped, trap_info
+from scanbench.verify.contract import ENDED, Mismatch, Row
 from scanbench.verify.control import Control, Source, Unverifiable, trap_of
 from scanbench.verify.monitor import Inputs, Monitor
 from scanbench.verify.naming import WHOLE, Leaf
@@ -20,7 +21,6 @@ from scanbench.verify.rows import MAX_MISMATCHES, Disturbed, Pair, Reader, row_o
 from scanbench.verify.sentences import mismatch, values
 from scanbench.verify.sides import Begin, Side
 from scanbench.verify.uses import Access, Pass, Recorder, results_are
-from scanbench.verify.verified import ENDED, Mismatch, Row
 
 MAX_BYTES = 2000
 """Bytes that are another of which the variables are looked for."""

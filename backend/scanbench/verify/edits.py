@@ -10,11 +10,11 @@ from scanbench.runtime.command import Patch
 from scanbench.runtime.trap import trap_info
 from scanbench.symbols.values import parse_value
 from scanbench.verify.both import Both, Ran
+from scanbench.verify.contract import Output, Row
 from scanbench.verify.monitor import Inputs
 from scanbench.verify.naming import Leaf
 from scanbench.verify.rows import written_by
 from scanbench.verify.uses import Pass, Recorder
-from scanbench.verify.verified import Output, Row
 
 
 class BadEdit(ValueError):

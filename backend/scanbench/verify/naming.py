@@ -27,8 +27,8 @@ from scanbench.program.types import (
 from scanbench.symbols.named import located
 from scanbench.symbols.sites import Sites
 from scanbench.symbols.symbols import RAW_TYPES, Symbol, at_offset, instance_at, roots_at
+from scanbench.verify.contract import Column
 from scanbench.verify.ranges import owner_of
-from scanbench.verify.verified import Column
 
 WHOLE = 0xFF
 _PARTS = {1: "B", 2: "W", 4: "D"}

@@ -8,8 +8,8 @@ from scanbench.program.program import Pou, Program
 from scanbench.symbols.instances import instances_of
 from scanbench.symbols.sites import Sites
 from scanbench.symbols.symbols import instance_at
+from scanbench.verify.contract import Place
 from scanbench.verify.ranges import owner_of
-from scanbench.verify.verified import Place
 
 Line = Callable[[str, int], str]
 """A line of a source file, trimmed; empty where it is not known."""

@@ -12,7 +12,7 @@ from scanbench.program.types import Record
 from scanbench.symbols.instances import instances_of
 from scanbench.symbols.sites import Sites
 from scanbench.symbols.symbols import UnknownPath, resolve
-from scanbench.verify.verified import BadRange, Range
+from scanbench.verify.contract import BadRange, Range
 
 _TEXT = re.compile(r"(?P<head>[^:@]*)(?::(?P<first>[^-@]*)(?:-(?P<last>[^@]*))?)?(?:@(?P<instance>.*))?")
 _FILE = re.compile(r".*(/|\.(st|il|iecst|scl|exp|txt|tcpou|tcgvl|tcdut|xml)$)", re.IGNORECASE)

@@ -3,12 +3,12 @@
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 
+from scanbench.verify.contract import MAX_COLUMNS, Cause, Column, Input, Mismatch, Output, Row, RowKind
 from scanbench.verify.monitor import Inputs
 from scanbench.verify.naming import Leaf, Namer, Names
 from scanbench.verify.places import FramesAt, Places
 from scanbench.verify.sentences import Teller
 from scanbench.verify.uses import Access, Pass
-from scanbench.verify.verified import MAX_COLUMNS, Cause, Column, Input, Mismatch, Output, Row, RowKind
 
 MAX_MISMATCHES = 20
 """Of a row."""

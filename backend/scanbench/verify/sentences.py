@@ -4,10 +4,10 @@ from dataclasses import dataclass
 
 from scanbench.engines.debug import Frame
 from scanbench.symbols.values import format_value
+from scanbench.verify.contract import Cause, Mismatch, Place
 from scanbench.verify.naming import Leaf, Namer, Names
 from scanbench.verify.places import Places
 from scanbench.verify.uses import Access
-from scanbench.verify.verified import Cause, Mismatch, Place
 
 _TEMPORARY = "a temporary"
 

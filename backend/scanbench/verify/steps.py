@@ -8,12 +8,12 @@ from scanbench.engines.engine import Reason, Stop
 from scanbench.runtime.holds import held
 from scanbench.runtime.resource import Resource
 from scanbench.verify.both import Both, View, ViewOf
+from scanbench.verify.contract import ENDED, Input, Mismatch, Output, Place, Row
 from scanbench.verify.control import trap_of
 from scanbench.verify.naming import ANYWHERE, Leaf, Names
 from scanbench.verify.sentences import mismatch, values
 from scanbench.verify.sides import Begin, Side
 from scanbench.verify.uses import Access, Pass
-from scanbench.verify.verified import ENDED, Input, Mismatch, Output, Place, Row
 
 
 class _Stepper:

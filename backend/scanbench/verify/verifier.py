@@ -14,6 +14,7 @@ from scanbench.runtime.command import Swapped
 from scanbench.runtime.inside import Diverged
 from scanbench.runtime.programs import NoProgram
 from scanbench.verify.both import Both, View
+from scanbench.verify.contract import DEFAULT_LIMIT, MAX_LIMIT, BadRange, Column, Range, Row, ScanVerified, Use
 from scanbench.verify.control import Control, Source, TextsOf, Unverifiable
 from scanbench.verify.edits import BadEdit, Edits
 from scanbench.verify.engines import Make
@@ -21,11 +22,10 @@ from scanbench.verify.monitor import Monitor
 from scanbench.verify.naming import Namer
 from scanbench.verify.places import Places
 from scanbench.verify.ranges import Resolved, resolve_range
-from scanbench.verify.records import uses_of
 from scanbench.verify.rows import Columns, Reader
 from scanbench.verify.sides import Side
 from scanbench.verify.steps import step_row
-from scanbench.verify.verified import DEFAULT_LIMIT, MAX_LIMIT, BadRange, Column, Range, Row, ScanVerified, Use
+from scanbench.verify.used_record import uses_of
 
 T = TypeVar("T")
 __all__ = ["BadEdit", "Begun", "Unverifiable", "Verifier"]

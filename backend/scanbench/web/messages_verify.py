@@ -1,6 +1,6 @@
 """Wire shapes of verification. Bytes of values are hex, as they lie in the image: `5802` is INT 600; null: there is none.
 
-What it means is said in `verify/verified.py`; rows, columns and cells have the same names there.
+What it means is said in `verify/contract.py`; rows, columns and cells have the same names there.
 """
 
 from typing import Annotated, Literal

@@ -9,7 +9,7 @@ from fastapi.responses import Response
 
 from scanbench.faults.disturb.disturb import Calm
 from scanbench.session.verifications import Exported
-from scanbench.verify.trace_read import MAX_BYTES
+from scanbench.verify.trace.read import MAX_BYTES
 from scanbench.web import messages_verify as wire
 from scanbench.web import translate_verify
 from scanbench.web.auth import user_of

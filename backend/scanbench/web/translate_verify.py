@@ -10,9 +10,9 @@ from scanbench.session.verifications import Kept
 from scanbench.session.verify_protocol import UseRow
 from scanbench.session.verify_rows import RowsPage
 from scanbench.store.records import MappingRow
-from scanbench.verify import verified
-from scanbench.verify.mapping import ColumnMap, TraceMapping
-from scanbench.verify.trace_table import TraceProblem
+from scanbench.verify import contract as verified
+from scanbench.verify.trace.mapping import ColumnMap, TraceMapping
+from scanbench.verify.trace.table import TraceProblem
 from scanbench.web import messages_verify as wire
 
 

@@ -10,7 +10,7 @@ import pytest
 from typer.testing import CliRunner
 
 from scanbench.cli.commands import app
-from scanbench.verify.verified import ScanVerified
+from scanbench.verify.contract import ScanVerified
 from scanbench.verify.verifier import Verifier
 from tests.verify.planted import Fault, planted
 

@@ -12,7 +12,7 @@ from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.session.verifications import Verifications
 from scanbench.store.store import Store
-from scanbench.verify.verified import Range
+from scanbench.verify.contract import Range
 
 
 class Plc:

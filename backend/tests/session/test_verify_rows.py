@@ -6,7 +6,7 @@ from scanbench.session import verify_rows
 from scanbench.session.codec import pack_body
 from scanbench.session.verify_protocol import PackedRow, ScansVerified
 from scanbench.session.verify_rows import Rows
-from scanbench.verify.verified import Column, Mismatch, Output, Row
+from scanbench.verify.contract import Column, Mismatch, Output, Row
 
 A = Column("speed", "INT", "int", 2)
 

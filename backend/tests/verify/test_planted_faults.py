@@ -17,8 +17,8 @@ from scanbench.runtime.resource import Resource
 from scanbench.session.codec import ENTRIES, pack_body
 from scanbench.session.protocol import Sources
 from scanbench.session.runs import sources_in
+from scanbench.verify.contract import Row
 from scanbench.verify.ranges import parse_range
-from scanbench.verify.verified import Row
 from scanbench.verify.verifier import Verifier
 from tests.verify.planted import Fault, planted
 

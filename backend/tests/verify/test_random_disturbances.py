@@ -22,8 +22,8 @@ from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from scanbench.symbols.symbols import at_offset, resolve
+from scanbench.verify.contract import Mismatch, Range
 from scanbench.verify.engines import native, reference
-from scanbench.verify.verified import Mismatch, Range
 from scanbench.verify.verifier import Verifier
 from tests.runtime.bench import program
 

@@ -4,8 +4,8 @@ import pytest
 
 from scanbench.program.program import Program
 from scanbench.symbols.sites import sites_of
+from scanbench.verify.contract import BadRange, Range
 from scanbench.verify.ranges import Resolved, parse_range, resolve_range
-from scanbench.verify.verified import BadRange, Range
 from tests.runtime.bench import program
 
 SOURCE = """\

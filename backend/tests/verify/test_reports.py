@@ -14,7 +14,7 @@ from scanbench.reports.report_html import DIFFERENCES, to_html
 from scanbench.reports.report_json import to_json
 from scanbench.reports.table_csv import to_csv
 from scanbench.reports.value_text import Format, differing_bits, value_text
-from scanbench.verify.verified import Column, Input, Mismatch, Output, Place, Row, ScanVerified
+from scanbench.verify.contract import Column, Input, Mismatch, Output, Place, Row, ScanVerified
 
 SPEED = Column("speed", "INT", "int", 2)
 RUN = Column("run", "BOOL", "bool", 1)

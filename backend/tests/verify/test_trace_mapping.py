@@ -7,10 +7,10 @@ from dataclasses import replace
 import pytest
 
 from scanbench.program.types import ELEMENTARY, StringType
-from scanbench.verify.mapping import BadMapping, ColumnMap, TraceMapping, fits, propose
-from scanbench.verify.trace_bind import Checked, check
-from scanbench.verify.trace_read import read_trace
-from scanbench.verify.trace_values import cell_value, exactness
+from scanbench.verify.trace.bind import Checked, check
+from scanbench.verify.trace.mapping import BadMapping, ColumnMap, TraceMapping, fits, propose
+from scanbench.verify.trace.read import read_trace
+from scanbench.verify.trace.values import cell_value, exactness
 from tests.verify.trace_parts import checked, conveyor, conveyor_csv, mapped, program_of
 
 LINE = """

@@ -6,9 +6,9 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from scanbench.verify import trace_table
-from scanbench.verify.trace_read import read_trace
-from scanbench.verify.trace_table import BadTraceFile, Table, TraceProblem
+from scanbench.verify.trace import table as trace_table
+from scanbench.verify.trace.read import read_trace
+from scanbench.verify.trace.table import BadTraceFile, Table, TraceProblem
 
 WIDE = "scan,start,level\n0,FALSE,1.5\n1,TRUE,\n"
 

@@ -15,14 +15,14 @@ from scanbench.runtime.write import Write
 from scanbench.session.samples import Sample, samples
 from scanbench.symbols.symbols import resolve
 from scanbench.symbols.values import format_value
+from scanbench.verify.contract import BadRange, Mismatch, Row
 from scanbench.verify.control import Unverifiable
 from scanbench.verify.edits import BadEdit
-from scanbench.verify.mapping import BadMapping, Gaps, TraceMapping, propose
 from scanbench.verify.ranges import parse_range
-from scanbench.verify.trace_monitor import EVERY
-from scanbench.verify.trace_read import read_trace
-from scanbench.verify.trace_run import TraceVerifier, open_trace
-from scanbench.verify.verified import BadRange, Mismatch, Row
+from scanbench.verify.trace.mapping import BadMapping, Gaps, TraceMapping, propose
+from scanbench.verify.trace.monitor import EVERY
+from scanbench.verify.trace.read import read_trace
+from scanbench.verify.trace.run import TraceVerifier, open_trace
 from tests.caseformat import MODELS
 from tests.verify.trace_parts import conveyor, conveyor_csv, exported, leaves, program_of, with_cell
 

@@ -25,8 +25,8 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.session.codec import ENTRIES
 from scanbench.session.samples import Sample, samples
+from scanbench.verify.contract import Range
 from scanbench.verify.engines import native, reference
-from scanbench.verify.verified import Range
 from scanbench.verify.verifier import BadEdit, Unverifiable, Verifier
 from tests.caseformat import MODELS
 from tests.programs import INGREDIENTS, generate

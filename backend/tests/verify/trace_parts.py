@@ -16,9 +16,9 @@ from scanbench.session.samples import samples
 from scanbench.symbols.symbols import members
 from scanbench.taps.trace import Trace, TraceDefinition
 from scanbench.taps.trace_csv import to_csv
-from scanbench.verify.mapping import ColumnMap, Gaps, Role, TraceMapping
-from scanbench.verify.trace_bind import Checked, check
-from scanbench.verify.trace_read import read_trace
+from scanbench.verify.trace.bind import Checked, check
+from scanbench.verify.trace.mapping import ColumnMap, Gaps, Role, TraceMapping
+from scanbench.verify.trace.read import read_trace
 from tests.caseformat import MODELS
 
 Writes = Mapping[int, tuple[tuple[str, str], ...]]

@@ -10,8 +10,8 @@ from scanbench.debug.writers import writers
 from scanbench.program.program import Program
 from scanbench.symbols.sites import Sites, sites_of
 from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
-from scanbench.verify.trace_axis import Unit, axis_of, plain_name
-from scanbench.verify.trace_table import Table
+from scanbench.verify.trace.axis import Unit, axis_of, plain_name
+from scanbench.verify.trace.table import Table
 
 T = TypeVar("T", bound=str)
 Role = Literal["input", "output", "ignore"]

@@ -2,10 +2,10 @@
 
 import codecs
 
-from scanbench.verify.trace_csv import read_csv
-from scanbench.verify.trace_json import read_json
-from scanbench.verify.trace_long import widened
-from scanbench.verify.trace_table import MAX_BYTES, BadTraceFile, Table, bad, check_size
+from scanbench.verify.trace.csv import read_csv
+from scanbench.verify.trace.json import read_json
+from scanbench.verify.trace.long import widened
+from scanbench.verify.trace.table import MAX_BYTES, BadTraceFile, Table, bad, check_size
 
 __all__ = ["MAX_BYTES", "BadTraceFile", "Table", "read_trace"]
 

@@ -3,8 +3,8 @@
 from dataclasses import replace
 from decimal import Decimal
 
-from scanbench.verify.trace_axis import axis_of, number
-from scanbench.verify.trace_table import Problems, Table, check_size
+from scanbench.verify.trace.axis import axis_of, number
+from scanbench.verify.trace.table import Problems, Table, check_size
 
 _VARIABLES = ("variable", "signal", "name", "tag")
 _VALUE = "value"

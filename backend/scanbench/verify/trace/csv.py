@@ -4,7 +4,7 @@ import csv
 import io
 import re
 
-from scanbench.verify.trace_table import MAX_COLUMNS, MAX_ROWS, Problems, Table, bad, check_size
+from scanbench.verify.trace.table import MAX_COLUMNS, MAX_ROWS, Problems, Table, bad, check_size
 
 _SEPARATOR = re.compile(r"sep=(.)\r?\n", re.IGNORECASE)
 """A first line that Excel understands."""

@@ -6,7 +6,7 @@ from decimal import Decimal, InvalidOperation
 from typing import Literal
 
 from scanbench.syntax.literals import UNITS_NS, duration
-from scanbench.verify.trace_table import Problems, Table
+from scanbench.verify.trace.table import Problems, Table
 
 Unit = Literal["scan", "ns", "us", "ms", "s"]
 TIME_UNITS: tuple[Unit, ...] = ("ns", "us", "ms", "s")

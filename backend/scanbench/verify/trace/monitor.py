@@ -15,7 +15,7 @@ from scanbench.runtime.inside import Onlooker
 from scanbench.runtime.resource import Resource
 from scanbench.verify.engines import reference
 from scanbench.verify.sides import Begin, Side
-from scanbench.verify.trace_bind import Signal, Trace
+from scanbench.verify.trace.bind import Signal, Trace
 from scanbench.verify.uses import Recorder
 
 EVERY = 200

@@ -6,13 +6,13 @@ from dataclasses import replace
 from scanbench.engines.debug import Frame, Listen
 from scanbench.runtime.trap import trap_info
 from scanbench.symbols.values import format_value
+from scanbench.verify.contract import ENDED, Input, Mismatch, Output, Place, Row, RowKind, Use
 from scanbench.verify.naming import ANYWHERE, Leaf, Names
 from scanbench.verify.ranges import Resolved
 from scanbench.verify.rows import MAX_MISMATCHES, Reader, written_by
-from scanbench.verify.trace_bind import Signal, Trace
-from scanbench.verify.trace_monitor import Ran, Result, TraceMonitor, put
+from scanbench.verify.trace.bind import Signal, Trace
+from scanbench.verify.trace.monitor import Ran, Result, TraceMonitor, put
 from scanbench.verify.uses import Access, Pass
-from scanbench.verify.verified import ENDED, Input, Mismatch, Output, Place, Row, RowKind, Use
 
 _HELD = "not in the trace: inputs held"
 _TAKEN_OVER = "taken over from the trace, not compared"

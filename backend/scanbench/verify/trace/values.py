@@ -10,7 +10,7 @@ from decimal import Decimal
 from scanbench.program.types import Elementary, Enumeration, Kind, StringType
 from scanbench.symbols.values import parse_value
 from scanbench.syntax.literals import UNITS_NS
-from scanbench.verify.trace_axis import Unit, number
+from scanbench.verify.trace.axis import Unit, number
 
 Leaf = Elementary | StringType
 _PLAIN = re.compile(r"[+-]?\d+")

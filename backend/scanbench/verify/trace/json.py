@@ -3,7 +3,7 @@
 import json
 from collections.abc import Sequence
 
-from scanbench.verify.trace_table import MAX_COLUMNS, MAX_ROWS, Problems, Table, bad, check_size
+from scanbench.verify.trace.table import MAX_COLUMNS, MAX_ROWS, Problems, Table, bad, check_size
 
 UNITS = ("ns", "us", "ms", "s")
 

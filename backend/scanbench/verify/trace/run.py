@@ -7,19 +7,19 @@ from scanbench.problems import perhaps
 from scanbench.program.program import Program
 from scanbench.program.types import StringType
 from scanbench.symbols.values import parse_value
+from scanbench.verify.contract import DEFAULT_LIMIT, Column, Range, Row, ScanVerified, Use
 from scanbench.verify.control import Unverifiable
 from scanbench.verify.edits import BadEdit, Edit
-from scanbench.verify.mapping import BadMapping, TraceMapping
 from scanbench.verify.naming import Namer
 from scanbench.verify.places import Places
 from scanbench.verify.ranges import Resolved, resolve_range
 from scanbench.verify.rows import Columns, Reader
-from scanbench.verify.trace_bind import Trace, check
-from scanbench.verify.trace_monitor import Ran, TraceMonitor
-from scanbench.verify.trace_read import read_trace
-from scanbench.verify.trace_rows import TraceRows, leaves_read
+from scanbench.verify.trace.bind import Trace, check
+from scanbench.verify.trace.mapping import BadMapping, TraceMapping
+from scanbench.verify.trace.monitor import Ran, TraceMonitor
+from scanbench.verify.trace.read import read_trace
+from scanbench.verify.trace.rows import TraceRows, leaves_read
 from scanbench.verify.uses import Pass, Recorder
-from scanbench.verify.verified import DEFAULT_LIMIT, Column, Range, Row, ScanVerified, Use
 from scanbench.verify.verifier import Begun
 
 

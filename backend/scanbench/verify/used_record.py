@@ -3,11 +3,11 @@
 from itertools import zip_longest
 
 from scanbench.verify.both import Both
+from scanbench.verify.contract import Use
 from scanbench.verify.edits import pass_of
 from scanbench.verify.monitor import Inputs
 from scanbench.verify.sides import Side
 from scanbench.verify.uses import Access, Pass, Recorder
-from scanbench.verify.verified import Use
 
 
 def uses_of(both: Both, call: int) -> tuple[Use, ...]:

@@ -9,10 +9,10 @@ from scanbench.program.program import Program
 from scanbench.program.types import Elementary, StringType
 from scanbench.symbols.sites import sites_of
 from scanbench.symbols.symbols import Symbol, UnknownPath, resolve
-from scanbench.verify.mapping import ColumnMap, Gaps, TraceMapping, bits_of, written
-from scanbench.verify.trace_axis import Scans, axis_of, plain_name, scans_of
-from scanbench.verify.trace_table import Problems, Table, TraceProblem
-from scanbench.verify.trace_values import Exactness, Leaf, cell_value, exactness
+from scanbench.verify.trace.axis import Scans, axis_of, plain_name, scans_of
+from scanbench.verify.trace.mapping import ColumnMap, Gaps, TraceMapping, bits_of, written
+from scanbench.verify.trace.table import Problems, Table, TraceProblem
+from scanbench.verify.trace.values import Exactness, Leaf, cell_value, exactness
 
 
 @dataclass(frozen=True, slots=True)
