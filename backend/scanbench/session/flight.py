@@ -25,8 +25,8 @@ from scanbench.runtime.resource import Resource
 from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import sources_in
 from scanbench.session.starting import NoStart, ProgramOf
-from scanbench.session.trace_file import write_pages
 from scanbench.session.trace_protocol import FlightDone, RecordFlight
+from scanbench.taps.spool import write_pages
 from scanbench.taps.trace import TraceSignal, described
 from scanbench.taps.trace_buffer import TraceBuffer, Words, row_bytes
 

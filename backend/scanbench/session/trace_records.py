@@ -14,10 +14,10 @@ from scanbench.session.events import FlightChanged
 from scanbench.session.jobs import DIED, Job
 from scanbench.session.refused import Refused
 from scanbench.session.session import Session
-from scanbench.session.trace_file import Spool, read_pages
 from scanbench.session.trace_protocol import FlightAt, FlightDone, RecordFlight, TraceStatus
 from scanbench.store.records import Json, KeptRow
 from scanbench.store.store import Store
+from scanbench.taps.spool import Spool, read_pages
 from scanbench.taps.trace import TraceSignal
 from scanbench.taps.trace_buffer import Samples, TooMany, TraceBuffer, buffer_of
 

@@ -14,10 +14,10 @@ from scanbench.recording.timeline import Timeline
 from scanbench.session.host.link import Link
 from scanbench.session.host.traces import Traces
 from scanbench.session.refused import Refused
-from scanbench.session.trace_file import Spool, read_pages, write_pages
 from scanbench.session.trace_protocol import ReadTrace, TraceRead, TraceStatus
 from scanbench.session.tracing import Tracing
 from scanbench.store.records import Json
+from scanbench.taps.spool import Spool, read_pages, write_pages
 from scanbench.taps.trace import Trace, TraceDefinition
 from scanbench.taps.trace_buffer import Samples, TraceBuffer
 from tests.runtime.bench import plc
