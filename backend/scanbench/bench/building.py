@@ -25,7 +25,7 @@ from scanbench.session.host.build import Builder, find_model
 from scanbench.session.host.shelf import HostPrograms
 from scanbench.session.host.swaps import Recode
 from scanbench.session.known import keep, key_of
-from scanbench.session.protocol import Sources
+from scanbench.wire.host import Sources
 
 LARGE = ("big10k", "big10kflat")
 """Programs of 10,000 lines."""

@@ -23,7 +23,7 @@ from scanbench.recording.timeline import Timeline
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 
 SCANS = 10_000_000
 IMAGE_WORDS = 16_384

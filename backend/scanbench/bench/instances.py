@@ -19,8 +19,6 @@ from time import perf_counter
 
 from scanbench.check.incremental import Checks
 from scanbench.engines.cache import BlobCache
-from scanbench.session import protocol
-from scanbench.session.events import PlcState
 from scanbench.session.host.build import find_model
 from scanbench.session.instance import Instance, Remembered
 from scanbench.session.known import keep, key_of
@@ -29,6 +27,8 @@ from scanbench.session.nursery import nursery
 from scanbench.session.runs import run_path
 from scanbench.session.samples import samples
 from scanbench.store.records import Limits
+from scanbench.wire import host as protocol
+from scanbench.wire.events import PlcState
 
 SAMPLE = "Conveyor"
 SETTLE_S = 3.0

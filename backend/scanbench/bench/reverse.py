@@ -23,7 +23,7 @@ from scanbench.program.program import Program
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Entry
 from scanbench.runtime.programs import Loaded
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 
 SCANS = 1_000_000
 STEPS = 100

@@ -34,15 +34,15 @@ from scanbench.recording.recording import Recording
 from scanbench.runtime.programs import Loaded, Shelf
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES, pack_body
 from scanbench.session.from_disk import program_files, project_model, read_text
-from scanbench.session.protocol import Sources
 from scanbench.session.runs import sources_in
 from scanbench.session.starting import checked_program, model_of
 from scanbench.verify.contract import Row
 from scanbench.verify.engines import native
 from scanbench.verify.ranges import parse_range
 from scanbench.verify.verifier import Verifier
+from scanbench.wire.codec import ENTRIES, pack_body
+from scanbench.wire.host import Sources
 
 SCANS = 3_000
 LONG = 1_000_000

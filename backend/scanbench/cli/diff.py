@@ -16,9 +16,9 @@ from scanbench.program.program import Program
 from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.format import RunFileError
 from scanbench.runtime.programs import NoProgram
-from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import sources_in
 from scanbench.session.starting import checked_program
+from scanbench.wire.codec import ENTRIES
 
 _SHOWN = 40
 """Variables, and commands, that are printed; `--json` has all of them."""

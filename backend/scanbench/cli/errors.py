@@ -52,10 +52,10 @@ from scanbench.runtime.clock import iso, wall_time
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram
-from scanbench.session.codec import ENTRIES
 from scanbench.session.from_disk import DEFAULT_MODEL
-from scanbench.session.protocol import Sources
 from scanbench.session.starting import NoStart, checked_program, model_of, point_in
+from scanbench.wire.codec import ENTRIES
+from scanbench.wire.host import Sources
 
 errors = typer.Typer(
     no_args_is_help=True, rich_markup_mode=None, help="Errors of a PLC: list them, and find out what a program does about each."

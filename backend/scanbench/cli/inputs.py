@@ -13,7 +13,7 @@ from scanbench.problems import Problem
 from scanbench.recording.format import Damaged
 from scanbench.recording.recording import Recording
 from scanbench.session.from_disk import DEFAULT_MODEL, program_files, project_model, read_text
-from scanbench.session.refused import Refused
+from scanbench.wire.refused import Refused
 
 DAMAGED = 4
 """Exit code where a run file is damaged: what was looked at is right, but a part of the run is lost."""

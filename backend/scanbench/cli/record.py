@@ -7,8 +7,8 @@ from pathlib import Path
 from scanbench.cli.inputs import usage
 from scanbench.program.program import Program
 from scanbench.recording.recording import DEFAULT_LIMIT, Recording
-from scanbench.session.codec import ENTRIES, pack_body
-from scanbench.session.protocol import Sources
+from scanbench.wire.codec import ENTRIES, pack_body
+from scanbench.wire.host import Sources
 
 LIMIT = DEFAULT_LIMIT
 """Bytes of a file: a longer run keeps fewer checkpoints of its beginning, and of a very long one the beginning goes."""

@@ -17,8 +17,8 @@ from scanbench.recording.format import RunFileError
 from scanbench.recording.replay import Diverged
 from scanbench.recording.replay_file import Replayed, replay_file
 from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
-from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import sources_in
+from scanbench.wire.codec import ENTRIES
 
 
 def replay(

@@ -24,7 +24,6 @@ from scanbench.recording.headless import HeadlessRun, run_headless
 from scanbench.recording.recording import Recording
 from scanbench.reports.report import Source
 from scanbench.runtime.programs import NoProgram
-from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import RUN_SUFFIX, sources_in, sources_of
 from scanbench.session.starting import checked_program, model_of
 from scanbench.verify.contract import Range, ScanVerified
@@ -35,6 +34,7 @@ from scanbench.verify.trace.read import read_trace
 from scanbench.verify.trace.run import TraceVerifier
 from scanbench.verify.trace.table import BadTraceFile, Table, TraceProblem
 from scanbench.verify.verifier import Begun, Unverifiable, Verifier
+from scanbench.wire.codec import ENTRIES
 
 PROBLEMS_SHOWN = 20
 _SUFFIXES = (".scanrun", RUN_SUFFIX)

@@ -14,10 +14,10 @@ from scanbench.check.incremental import Checks
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.lifeline import end_with_parent
 from scanbench.plcmodel.model import Model
-from scanbench.session.events import CheckOutcome
 from scanbench.session.known import keep, key_of
-from scanbench.session.protocol import Sources
-from scanbench.session.refused import Unavailable
+from scanbench.wire.events import CheckOutcome
+from scanbench.wire.host import Sources
+from scanbench.wire.refused import Unavailable
 
 INTERVAL_NS = 10_000_000
 """A scan where no CONFIGURATION says another."""

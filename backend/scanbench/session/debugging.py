@@ -4,9 +4,11 @@ from collections.abc import Awaitable, Callable, Sequence
 from dataclasses import replace
 
 from scanbench.debug.breakpoint import Breakpoint, Verdict
-from scanbench.session import debug_protocol, events, protocol
-from scanbench.session.debug_protocol import BreakpointsAre, Coverage, DebugAnswer, DebugRequest
-from scanbench.session.refused import Unavailable
+from scanbench.wire import debugging as debug_protocol
+from scanbench.wire import events
+from scanbench.wire import host as protocol
+from scanbench.wire.debugging import BreakpointsAre, Coverage, DebugAnswer, DebugRequest
+from scanbench.wire.refused import Unavailable
 
 SHARED = ""
 """The group of what all browsers at a PLC share."""

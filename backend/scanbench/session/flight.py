@@ -22,13 +22,13 @@ from scanbench.recording.timeline import NOT_AS_RECORDED, KeptPrograms, open_at
 from scanbench.runtime.command import Entry, Swapped
 from scanbench.runtime.programs import Loaded, NoProgram
 from scanbench.runtime.resource import Resource
-from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import sources_in
 from scanbench.session.starting import NoStart, ProgramOf
-from scanbench.session.trace_protocol import FlightDone, RecordFlight
 from scanbench.taps.spool import write_pages
 from scanbench.taps.trace import TraceSignal, described
 from scanbench.taps.trace_buffer import TraceBuffer, Words, row_bytes
+from scanbench.wire.codec import ENTRIES
+from scanbench.wire.traces import FlightDone, RecordFlight
 
 MAX_BYTES = 512 << 20
 """What a record may take while it is made."""

@@ -4,9 +4,9 @@ import json
 from pathlib import Path
 
 from scanbench.plcmodel.user_errors import USER_ERRORS
-from scanbench.session.refused import Refused
 from scanbench.syntax.parse_file import ENDINGS, is_program_file
 from scanbench.syntax.source import decode
+from scanbench.wire.refused import Refused
 
 DEFAULT_MODEL = "GENERIC-IEC"
 PROJECT_FILE = "project.json"

@@ -18,15 +18,15 @@ from scanbench.faults.reference import ErrorRef
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Command
 from scanbench.runtime.forces import ForcedValue
-from scanbench.session import protocol
-from scanbench.session.codec import LENGTH, BadMessage, body_length, pack, unpack
-from scanbench.session.debug_protocol import DebugAnswer, DebugRequest
-from scanbench.session.events import PlcState
 from scanbench.session.nursery import NoProcess, Process, nursery
-from scanbench.session.refused import Unavailable
 from scanbench.session.runs import bring_back, set_aside
-from scanbench.session.trace_protocol import TraceRead
 from scanbench.store.records import Limits
+from scanbench.wire import host as protocol
+from scanbench.wire.codec import LENGTH, BadMessage, body_length, pack, unpack
+from scanbench.wire.debugging import DebugAnswer, DebugRequest
+from scanbench.wire.events import PlcState
+from scanbench.wire.refused import Unavailable
+from scanbench.wire.traces import TraceRead
 
 log = logging.getLogger("scanbench")
 

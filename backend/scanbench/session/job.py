@@ -23,14 +23,15 @@ from scanbench.program.program import Program
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram
-from scanbench.session import past_job, verify_job, verify_protocol
-from scanbench.session.codec import BadMessage, Splitter, pack
+from scanbench.session import past_job, verify_job
 from scanbench.session.flight import BadSignal, fly
-from scanbench.session.job_protocol import CellFound, FindReaction, JobDone, Reacted, RunSweep, Trying
 from scanbench.session.known import key_of, recall
-from scanbench.session.protocol import Sources
 from scanbench.session.starting import NoStart, checked_program, model_of, point_in, reaction_in
-from scanbench.session.trace_protocol import FlightAt, FlightDone, RecordFlight
+from scanbench.wire import verification as verify_protocol
+from scanbench.wire.codec import BadMessage, Splitter, pack
+from scanbench.wire.host import Sources
+from scanbench.wire.jobs import CellFound, FindReaction, JobDone, Reacted, RunSweep, Trying
+from scanbench.wire.traces import FlightAt, FlightDone, RecordFlight
 
 log = logging.getLogger("scanbench")
 _NICENESS = 10

@@ -7,8 +7,8 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
-from scanbench.session.codec import LENGTH, BadMessage, body_length, pack, unpack
 from scanbench.session.nursery import JOB, NoProcess, Process, nursery
+from scanbench.wire.codec import LENGTH, BadMessage, body_length, pack, unpack
 
 log = logging.getLogger("scanbench")
 DIED = "the process that computes it died: try again"

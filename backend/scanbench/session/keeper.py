@@ -16,9 +16,9 @@ from scanbench.debug.breakpoint import Breakpoint
 from scanbench.faults.history import ErrorRow, RowReaction
 from scanbench.plcmodel.model import Model
 from scanbench.reports.reaction_json import from_json, to_json
-from scanbench.session.events import LogEntry
 from scanbench.store.records import HistoryRow, Json, LogRow, NotFound, StoreError
 from scanbench.store.store import Store
+from scanbench.wire.events import LogEntry
 
 log = logging.getLogger("scanbench")
 LOG_KEPT = 20_000

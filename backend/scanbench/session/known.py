@@ -12,7 +12,7 @@ from scanbench.engines.cache import BlobCache
 from scanbench.garbage import without_collection
 from scanbench.plcmodel.model import Model
 from scanbench.program.program import Program
-from scanbench.session.protocol import Sources
+from scanbench.wire.host import Sources
 
 _ROOMS = ("syntax", "check", "plcmodel", "engines")
 

@@ -17,10 +17,10 @@ from scanbench.recording.format import RunFileError
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.joined import Joined
 from scanbench.runtime.programs import NoProgram
-from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import sources_in
 from scanbench.session.starting import NoStart, ProgramOf
-from scanbench.session.verify_protocol import (
+from scanbench.wire.codec import ENTRIES
+from scanbench.wire.verification import (
     NOW,
     ChangesFound,
     CompareRuns,

@@ -7,11 +7,12 @@ from pathlib import Path
 
 from scanbench.history.contract import Changes, RerunChange, Writer
 from scanbench.runtime.clock import fresh_token
-from scanbench.session.events import ComparisonChanged, Event, RerunChanged
 from scanbench.session.jobs import ANSWER_S, DIED, SLOW, Job, answered
-from scanbench.session.refused import Refused
 from scanbench.session.session import Session
-from scanbench.session.verify_protocol import (
+from scanbench.store.records import NotFound
+from scanbench.wire.events import ComparisonChanged, Event, RerunChanged
+from scanbench.wire.refused import Refused
+from scanbench.wire.verification import (
     NOW,
     ChangesFound,
     CompareRuns,
@@ -23,7 +24,6 @@ from scanbench.session.verify_protocol import (
     RunsCompared,
     WriterFound,
 )
-from scanbench.store.records import NotFound
 
 IDLE_S = 120.0
 """So long without a question, and the process that answers them ends."""

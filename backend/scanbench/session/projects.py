@@ -6,13 +6,13 @@ from collections.abc import Callable, Mapping, Sequence
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import USER_ERRORS
 from scanbench.session.builds import INTERVAL_NS, Checker
-from scanbench.session.events import BuildOutcome, Change, CheckOutcome
-from scanbench.session.protocol import Sources
-from scanbench.session.refused import Refused, Unavailable
 from scanbench.session.session import Session
 from scanbench.store.records import FileInfo, FileRow, ProjectRow
 from scanbench.store.store import Store
 from scanbench.syntax.parse_file import ENDINGS, is_program_file
+from scanbench.wire.events import BuildOutcome, Change, CheckOutcome
+from scanbench.wire.host import Sources
+from scanbench.wire.refused import Refused, Unavailable
 
 
 class Projects:

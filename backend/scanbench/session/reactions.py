@@ -4,8 +4,8 @@ import asyncio
 from pathlib import Path
 
 from scanbench.faults.reaction.reaction import Reaction
-from scanbench.session import job_protocol
 from scanbench.session.jobs import ANSWER_S, DIED, SLOW, Job, answered
+from scanbench.wire import jobs as job_protocol
 
 IDLE_S = 60.0
 """So long without a question, and the process ends."""

@@ -11,8 +11,8 @@ from scanbench.recording.format import RunFileError
 from scanbench.recording.recording import DEFAULT_LIMIT, Recording
 from scanbench.runtime.clock import fresh_token
 from scanbench.runtime.command import Swapped
-from scanbench.session.codec import ENTRIES, BadMessage, unpack
-from scanbench.session.protocol import Sources
+from scanbench.wire.codec import ENTRIES, BadMessage, unpack
+from scanbench.wire.host import Sources
 
 RUN_SUFFIX = ".run"
 _MIB = 1 << 20

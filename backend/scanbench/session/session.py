@@ -17,22 +17,24 @@ from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import Force, ForcedValue
 from scanbench.runtime.write import Write
-from scanbench.session import debug_protocol, events, protocol
-from scanbench.session.debug_protocol import DebugAnswer, DebugRequest
 from scanbench.session.debugging import Debugging
-from scanbench.session.events import BuildOutcome, Event, LogEntry, PlcState, Subscriber, User
 from scanbench.session.instance import Instance, Remembered
 from scanbench.session.keeper import Keeper
 from scanbench.session.load import Load, Loads
 from scanbench.session.marks import Marks
 from scanbench.session.reacting import Raised, Reacting
 from scanbench.session.reactions import Reactions
-from scanbench.session.refused import Refused, Unavailable
-from scanbench.session.trace_protocol import TracesAre
 from scanbench.session.tracing import Tracing
 from scanbench.session.watches import Watches
 from scanbench.store.records import InstanceRow, Json, NotFound
 from scanbench.symbols.violations import Violations
+from scanbench.wire import debugging as debug_protocol
+from scanbench.wire import events
+from scanbench.wire import host as protocol
+from scanbench.wire.debugging import DebugAnswer, DebugRequest
+from scanbench.wire.events import BuildOutcome, Event, LogEntry, PlcState, Subscriber, User
+from scanbench.wire.refused import Refused, Unavailable
+from scanbench.wire.traces import TracesAre
 
 LOG_LINES = 500
 LISTED = 100

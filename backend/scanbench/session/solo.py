@@ -11,12 +11,12 @@ from scanbench.session.instance import Remembered
 from scanbench.session.keeper import Keeper
 from scanbench.session.load import Loads
 from scanbench.session.nursery import nursery
-from scanbench.session.protocol import Driven, Sources
 from scanbench.session.reactions import Reactions
-from scanbench.session.refused import Refused
 from scanbench.session.runs import run_path
 from scanbench.session.session import Session
 from scanbench.store.store import Store
+from scanbench.wire.host import Driven, Sources
+from scanbench.wire.refused import Refused
 
 _STANDS = ("paused", "halted", "stopped", "trapped", "fatal")
 

@@ -30,10 +30,10 @@ from scanbench.runtime.inside import front
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import NoProgram
 from scanbench.runtime.resource import Resource
-from scanbench.session.codec import ENTRIES
 from scanbench.session.host.build import BuildFailed, find_model
-from scanbench.session.protocol import Sources
 from scanbench.session.runs import sources_in
+from scanbench.wire.codec import ENTRIES
+from scanbench.wire.host import Sources
 
 T = TypeVar("T")
 ProgramOf = Callable[[Sources], Program]

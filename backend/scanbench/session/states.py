@@ -6,11 +6,11 @@ import shutil
 from collections.abc import Sequence
 from pathlib import Path
 
-from scanbench.session.refused import Refused
 from scanbench.session.runs import discard
 from scanbench.session.session import Session
 from scanbench.store.records import StateRow, SweepRow
 from scanbench.store.store import Store
+from scanbench.wire.refused import Refused
 
 NOW = "Now"
 """How the state of a PLC is called that nobody named."""

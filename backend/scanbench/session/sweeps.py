@@ -19,15 +19,15 @@ from scanbench.plcmodel.model import Model
 from scanbench.reports.reaction_json import from_json, to_json
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Refusal
-from scanbench.session.events import SweepChanged
-from scanbench.session.job_protocol import CellFound, JobDone, RunSweep, StartPoint, Trying
 from scanbench.session.jobs import DIED, Job
-from scanbench.session.protocol import Sources
-from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.session.states import NOW, States
 from scanbench.store.records import AcceptedRow, CellRow, NotFound, SweepRow, SweepStatus, SweptError
 from scanbench.store.store import Store
+from scanbench.wire.events import SweepChanged
+from scanbench.wire.host import Sources
+from scanbench.wire.jobs import CellFound, JobDone, RunSweep, StartPoint, Trying
+from scanbench.wire.refused import Refused
 
 log = logging.getLogger("scanbench")
 STOPPED_SERVER = "the server was stopped"

@@ -10,8 +10,6 @@ from scanbench.program.program import Program
 from scanbench.runtime.clock import fresh_token, monotonic_ns
 from scanbench.runtime.programs import NoProgram
 from scanbench.session.known import key_of, recall
-from scanbench.session.protocol import Sources
-from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.session.starting import checked_program, model_of
 from scanbench.store.records import MappingRow, NotFound
@@ -20,6 +18,8 @@ from scanbench.verify.trace.bind import check
 from scanbench.verify.trace.mapping import BadMapping, TraceMapping, fits, propose
 from scanbench.verify.trace.read import MAX_BYTES, read_trace
 from scanbench.verify.trace.table import BadTraceFile, Table, TraceProblem
+from scanbench.wire.host import Sources
+from scanbench.wire.refused import Refused
 
 KEPT_NS = 3600 * 1_000_000_000
 MOST = 20

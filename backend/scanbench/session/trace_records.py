@@ -10,16 +10,16 @@ from typing import cast
 
 from scanbench.engines.sample import MAX_SIGNALS
 from scanbench.runtime.clock import fresh_token
-from scanbench.session.events import FlightChanged
 from scanbench.session.jobs import DIED, Job
-from scanbench.session.refused import Refused
 from scanbench.session.session import Session
-from scanbench.session.trace_protocol import FlightAt, FlightDone, RecordFlight, TraceStatus
 from scanbench.store.records import Json, KeptRow
 from scanbench.store.store import Store
 from scanbench.taps.spool import Spool, read_pages
 from scanbench.taps.trace import TraceSignal
 from scanbench.taps.trace_buffer import Samples, TooMany, TraceBuffer, buffer_of
+from scanbench.wire.events import FlightChanged
+from scanbench.wire.refused import Refused
+from scanbench.wire.traces import FlightAt, FlightDone, RecordFlight, TraceStatus
 
 SUFFIX = ".trace"
 MAX_FLIGHT = 10_000_000

@@ -5,12 +5,13 @@ from contextlib import suppress
 from dataclasses import asdict, dataclass, replace
 from typing import cast
 
-from scanbench.session import events, protocol
-from scanbench.session.refused import Refused, Unavailable
-from scanbench.session.trace_protocol import DefineTrace, DriveTrace, ReadTrace, TraceRead, TracesAre, TraceStatus
 from scanbench.store.records import Json, NotFound
 from scanbench.taps.trace import TraceDefinition, TraceTrigger
 from scanbench.taps.trace_buffer import Samples
+from scanbench.wire import events
+from scanbench.wire import host as protocol
+from scanbench.wire.refused import Refused, Unavailable
+from scanbench.wire.traces import DefineTrace, DriveTrace, ReadTrace, TraceRead, TracesAre, TraceStatus
 
 Ask = Callable[[Callable[[int], object]], Awaitable[object]]
 

@@ -11,8 +11,8 @@ from scanbench.plcmodel.user_errors import USER_ERRORS, document_of, with_user_e
 from scanbench.plcmodel.write_catalogue import write_catalogue
 from scanbench.problems import Problem
 from scanbench.session.projects import Projects
-from scanbench.session.refused import Refused
 from scanbench.store.records import NotFound
+from scanbench.wire.refused import Refused
 
 
 @dataclass(frozen=True, slots=True)

@@ -11,12 +11,15 @@ from pathlib import Path
 from typing import Literal
 
 from scanbench.reports.report import stretched
-from scanbench.session import debug_protocol, protocol
-from scanbench.session.events import Event, StateChanged, VerificationStatus, VerifyPace, VerifyWish
 from scanbench.session.jobs import ANSWER_S, DIED, SLOW, Job
-from scanbench.session.refused import Refused
 from scanbench.session.session import Session
-from scanbench.session.verify_protocol import (
+from scanbench.session.verify_rows import Rows
+from scanbench.verify.contract import Memory
+from scanbench.wire import debugging as debug_protocol
+from scanbench.wire import host as protocol
+from scanbench.wire.events import Event, StateChanged, VerificationStatus, VerifyPace, VerifyWish
+from scanbench.wire.refused import Refused
+from scanbench.wire.verification import (
     BeginTrace,
     BeginVerify,
     ScansVerified,
@@ -29,8 +32,6 @@ from scanbench.session.verify_protocol import (
     VerifyScans,
     VerifyStep,
 )
-from scanbench.session.verify_rows import Rows
-from scanbench.verify.contract import Memory
 
 BEHIND = 256
 """Scans that a verification of a PLC that runs may be behind; then it goes on with the newest ones."""

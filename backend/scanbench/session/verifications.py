@@ -11,18 +11,18 @@ from scanbench.reports.report_html import to_html
 from scanbench.reports.report_json import to_json
 from scanbench.reports.table_csv import to_csv
 from scanbench.runtime.clock import iso, monotonic_ns, wall_time
-from scanbench.session.codec import BadMessage, Splitter, pack, pack_body, unpack
-from scanbench.session.events import VerificationsChanged, VerificationStatus, VerifyPace, VerifyWish
-from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.session.trace_files import TraceFile
 from scanbench.session.verification import TraceSource, Verification
-from scanbench.session.verify_protocol import KeptRows, UseRow
 from scanbench.session.verify_rows import Rows, RowsPage
 from scanbench.store.records import Json, KeptRow, NotFound
 from scanbench.store.store import Store
 from scanbench.verify.contract import Memory, Range
 from scanbench.verify.trace.mapping import TraceMapping
+from scanbench.wire.codec import BadMessage, Splitter, pack, pack_body, unpack
+from scanbench.wire.events import VerificationsChanged, VerificationStatus, VerifyPace, VerifyWish
+from scanbench.wire.refused import Refused
+from scanbench.wire.verification import KeptRows, UseRow
 
 MOST = 10
 """Verifications that go on at a time: each is a process."""

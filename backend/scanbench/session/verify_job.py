@@ -11,10 +11,16 @@ from scanbench.reports.report import stretched
 from scanbench.reports.value_text import value_text
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.programs import NoProgram
-from scanbench.session.codec import ENTRIES, pack_body
 from scanbench.session.runs import sources_in
 from scanbench.session.starting import NoStart, ProgramOf
-from scanbench.session.verify_protocol import (
+from scanbench.verify.contract import BadRange, Column, Row, ScanVerified
+from scanbench.verify.engines import native
+from scanbench.verify.trace.mapping import BadMapping
+from scanbench.verify.trace.run import TraceVerifier, open_trace
+from scanbench.verify.trace.table import BadTraceFile
+from scanbench.verify.verifier import BadEdit, Unverifiable, Verifier
+from scanbench.wire.codec import ENTRIES, pack_body
+from scanbench.wire.verification import (
     BeginTrace,
     BeginVerify,
     PackedRow,
@@ -28,12 +34,6 @@ from scanbench.session.verify_protocol import (
     VerifyScans,
     VerifyStep,
 )
-from scanbench.verify.contract import BadRange, Column, Row, ScanVerified
-from scanbench.verify.engines import native
-from scanbench.verify.trace.mapping import BadMapping
-from scanbench.verify.trace.run import TraceVerifier, open_trace
-from scanbench.verify.trace.table import BadTraceFile
-from scanbench.verify.verifier import BadEdit, Unverifiable, Verifier
 
 _TELL_NS = 100_000_000
 Request = BeginVerify | BeginTrace | VerifyScans | VerifyStep | SetInputs | UsesOf

@@ -4,9 +4,9 @@ from bisect import bisect_left
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
 
-from scanbench.session.codec import unpack
-from scanbench.session.verify_protocol import KeptRows, PackedRow, ScansVerified
 from scanbench.verify.contract import Column, Row
+from scanbench.wire.codec import unpack
+from scanbench.wire.verification import KeptRows, PackedRow, ScansVerified
 
 MOST_ROWS = 20_000
 MOST_BYTES = 48 << 20

@@ -3,11 +3,11 @@
 import asyncio
 from collections.abc import Callable
 
-from scanbench.session.events import WatchListChanged
-from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.store.records import NotFound, WatchContent, WatchListRow
 from scanbench.store.store import Store
+from scanbench.wire.events import WatchListChanged
+from scanbench.wire.refused import Refused
 
 LISTS = 500
 """Lists of a project that one person sees."""

@@ -22,10 +22,8 @@ from scanbench.session.missing import stand_in, why_missing
 from scanbench.session.nursery import nursery
 from scanbench.session.pasts import Pasts
 from scanbench.session.projects import Projects
-from scanbench.session.protocol import Driven
 from scanbench.session.reactions import Reactions
 from scanbench.session.records import Records
-from scanbench.session.refused import Refused, Unavailable
 from scanbench.session.runs import discard, discard_all, fresh_path, run_path, sources_and_damage, sweep
 from scanbench.session.samples import samples
 from scanbench.session.session import LOG_LINES, Session
@@ -37,6 +35,8 @@ from scanbench.session.verifications import Verifications
 from scanbench.session.watch_lists import WatchLists
 from scanbench.store.records import InstanceRow, Limits, NotFound, ProjectRow
 from scanbench.store.store import Store
+from scanbench.wire.host import Driven
+from scanbench.wire.refused import Refused, Unavailable
 
 log = logging.getLogger("scanbench")
 _LOOK_NS = 2_000_000_000

@@ -13,7 +13,6 @@ from starlette.types import ASGIApp
 
 from scanbench import __version__
 from scanbench.runtime.resource import is_no_space
-from scanbench.session.refused import Refused, Unavailable
 from scanbench.session.workbench import Workbench
 from scanbench.store.records import Conflict, ListConflict, NameTaken, NotFound, NotStorable, StoreError
 from scanbench.web import messages as wire
@@ -39,6 +38,7 @@ from scanbench.web.auth import Gate, Guard
 from scanbench.web.built_files import BuiltFiles
 from scanbench.web.headers import NoStore
 from scanbench.web.pages import frontend_directory, not_built_page
+from scanbench.wire.refused import Refused, Unavailable
 
 _STATUS: dict[type[Exception], int] = {
     NotFound: 404, NameTaken: 409, NotStorable: 422, Refused: 422, Unavailable: 503, StoreError: 503,

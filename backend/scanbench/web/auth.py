@@ -19,9 +19,9 @@ from starlette.responses import HTMLResponse, JSONResponse, RedirectResponse, Re
 from starlette.types import ASGIApp, Receive, Scope, Send
 from starlette.websockets import WebSocketClose
 
-from scanbench.session.events import User
 from scanbench.web.pages import sign_in_page
 from scanbench.web.public_url import PublicUrl
+from scanbench.wire.events import User
 
 USER = "scanbench_user"
 _SAFE = {"GET", "HEAD", "OPTIONS"}

@@ -5,8 +5,8 @@ from typing import Annotated
 from fastapi import Depends, Request, WebSocket
 
 from scanbench.plcmodel.document import SIZE_LIMIT
-from scanbench.session.refused import Refused
 from scanbench.session.workbench import Workbench
+from scanbench.wire.refused import Refused
 
 
 def _bench(request: Request) -> Workbench:

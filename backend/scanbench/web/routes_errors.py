@@ -5,13 +5,13 @@ from fastapi import APIRouter, Request
 from scanbench.faults.arm import Arm, Disarm
 from scanbench.faults.clear import ClearErrorLog, ClearErrors
 from scanbench.faults.inject import Generate, Recover
-from scanbench.session.refused import Refused
 from scanbench.web import messages as wire
 from scanbench.web import messages_errors, translate, translate_errors
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id
 from scanbench.web.reach import Bench
 from scanbench.web.translate_errors import command_result
+from scanbench.wire.refused import Refused
 
 router = APIRouter(prefix="/api/instances/{instance}", tags=["errors"])
 

@@ -7,7 +7,6 @@ from fastapi.responses import FileResponse
 from starlette.background import BackgroundTask
 
 from scanbench import __version__
-from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.session.workbench import Workbench
 from scanbench.store.records import Limits, NotFound
@@ -18,6 +17,7 @@ from scanbench.web.messages_base import Id, Scan, Version
 from scanbench.web.messages_errors import ErrorHistoryRow
 from scanbench.web.reach import Bench, SocketBench
 from scanbench.web.socket import Client
+from scanbench.wire.refused import Refused
 
 router = APIRouter(prefix="/api", tags=["instances"])
 LARGEST_IMPORT = 1 << 30

@@ -8,9 +8,6 @@ from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
-from scanbench.session.debug_protocol import Evaluate, Evaluated
-from scanbench.session.protocol import Ack
-from scanbench.session.refused import Refused
 from scanbench.web import messages as wire
 from scanbench.web import messages_values, translate
 from scanbench.web.auth import user_of
@@ -18,6 +15,9 @@ from scanbench.web.messages_base import Id
 from scanbench.web.messages_errors import CommandResult
 from scanbench.web.reach import Bench
 from scanbench.web.translate_errors import command_result
+from scanbench.wire.debugging import Evaluate, Evaluated
+from scanbench.wire.host import Ack
+from scanbench.wire.refused import Refused
 
 router = APIRouter(prefix="/api/instances/{instance}", tags=["values"])
 

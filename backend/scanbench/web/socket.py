@@ -21,9 +21,6 @@ from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
-from scanbench.session import events
-from scanbench.session.events import Event, User
-from scanbench.session.protocol import Ack
 from scanbench.session.session import Session
 from scanbench.web import messages as wire
 from scanbench.web import messages_debug as debugger
@@ -32,6 +29,9 @@ from scanbench.web import translate, translate_debug, translate_errors, translat
 from scanbench.web.dap.attaching import ForBrowser
 from scanbench.web.dap.conversation import Conversation
 from scanbench.web.waiting import Waiting
+from scanbench.wire import events
+from scanbench.wire.events import Event, User
+from scanbench.wire.host import Ack
 
 WAITING_FRAMES = 4
 """So many frames not yet sent: the browser is slow, and gets a snapshot instead."""

@@ -7,9 +7,6 @@ from scanbench.problems import Problem
 from scanbench.program.program import CheckSite
 from scanbench.runtime.clock import iso
 from scanbench.runtime.forces import ForcedValue
-from scanbench.session import events
-from scanbench.session.events import BuildOutcome, Change, CheckOutcome, LogEntry, PlcState, User
-from scanbench.session.protocol import SymbolInfo, WatchItem
 from scanbench.session.session import Session
 from scanbench.store.records import FileInfo, FileRow, ProjectRow
 from scanbench.symbols.violations import Violation, Violations
@@ -25,6 +22,9 @@ from scanbench.web import (
     translate_verify,
 )
 from scanbench.web.messages_watch import WatchListChanged
+from scanbench.wire import events
+from scanbench.wire.events import BuildOutcome, Change, CheckOutcome, LogEntry, PlcState, User
+from scanbench.wire.host import SymbolInfo, WatchItem
 
 
 def user(who: User) -> wire.User:

@@ -4,9 +4,9 @@ from dataclasses import asdict
 
 from scanbench.debug.breakpoint import Verdict
 from scanbench.debug.halt import Halt
-from scanbench.session import debug_protocol
 from scanbench.taps.covered import CoveredSite
 from scanbench.web import messages_debug as wire
+from scanbench.wire import debugging as debug_protocol
 
 
 def halt(now: Halt | None) -> wire.HaltInfo | None:

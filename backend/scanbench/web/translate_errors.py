@@ -8,9 +8,9 @@ from scanbench.faults.reaction import reaction as found
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.shapes import Shape, Start, Wanted
 from scanbench.plcmodel import model as plc
-from scanbench.session.protocol import Ack, PreviewedErrors
-from scanbench.session.refused import Refused
 from scanbench.web import messages_errors as wire
+from scanbench.wire.host import Ack, PreviewedErrors
+from scanbench.wire.refused import Refused
 
 
 def refs(errors: Sequence[wire.GenerateOne]) -> tuple[ErrorRef, ...]:

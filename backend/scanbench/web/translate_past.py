@@ -1,9 +1,9 @@
 """Findings about the past -> wire shapes. Nothing is decided here."""
 
 from scanbench.history.contract import Change, Changes, Divergence, Writer
-from scanbench.session import events
 from scanbench.web import messages_past as wire
 from scanbench.web.translate_verify import place
+from scanbench.wire import events
 
 
 def writer(of: Writer) -> wire.LastWriter:

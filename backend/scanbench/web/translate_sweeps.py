@@ -4,10 +4,10 @@ from collections.abc import Mapping
 from typing import get_args
 
 from scanbench.runtime.clock import iso
-from scanbench.session.events import SweepChanged
 from scanbench.session.sweeps import Comparison, Whole
 from scanbench.store.records import AcceptedRow, CellRow, StateRow, SweepRow
 from scanbench.web import messages_errors as wire
+from scanbench.wire.events import SweepChanged
 
 
 def state(row: StateRow) -> wire.ProgramState:

@@ -1,11 +1,11 @@
 """Traces and their records -> wire shapes, and back. Nothing is decided here."""
 
 from scanbench.runtime.clock import iso
-from scanbench.session import events
-from scanbench.session.trace_protocol import TraceStatus
 from scanbench.session.trace_records import TraceRecord
 from scanbench.taps import trace as tap
 from scanbench.web import messages_trace as wire
+from scanbench.wire import events
+from scanbench.wire.traces import TraceStatus
 
 
 def wanted(of: wire.TraceDefinition) -> tap.TraceDefinition:

@@ -3,17 +3,17 @@
 from scanbench.faults.disturb.definition import Disturbance
 from scanbench.faults.disturb.disturb import Disturb, DisturbanceInfo
 from scanbench.runtime.clock import iso
-from scanbench.session import events
-from scanbench.session.events import VerificationStatus, VerifyWish
 from scanbench.session.trace_files import Checked, TraceFile, mapping_of
 from scanbench.session.verifications import Kept
-from scanbench.session.verify_protocol import UseRow
 from scanbench.session.verify_rows import RowsPage
 from scanbench.store.records import MappingRow
 from scanbench.verify import contract as verified
 from scanbench.verify.trace.mapping import ColumnMap, TraceMapping
 from scanbench.verify.trace.table import TraceProblem
 from scanbench.web import messages_verify as wire
+from scanbench.wire import events
+from scanbench.wire.events import VerificationStatus, VerifyWish
+from scanbench.wire.verification import UseRow
 
 
 def range_of(of: wire.VerifyRange) -> verified.Range:

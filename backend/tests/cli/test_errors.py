@@ -12,7 +12,7 @@ from typer.testing import CliRunner
 
 from scanbench.cli.commands import app
 from scanbench.session import starting
-from scanbench.session.protocol import Sources
+from scanbench.wire.host import Sources
 
 ERRORS = import_module("scanbench.cli.errors")  # of the package, `errors` is the command
 SAMPLE = str(files("scanbench").joinpath("samples/conveyor"))

@@ -15,8 +15,8 @@ from scanbench.recording import format as runfile
 from scanbench.recording.recording import Recording
 from scanbench.runtime.forces import FORCED
 from scanbench.runtime.journal import Journal
-from scanbench.session.codec import ENTRIES
 from scanbench.session.runs import sources_of
+from scanbench.wire.codec import ENTRIES
 
 SOURCE = """
 PROGRAM Main

@@ -10,7 +10,7 @@ from scanbench.debug.debugger import MOST_ASSIGNED
 from scanbench.recording.replay_file import replay_file
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.debug.test_breakpoints import data, line
 from tests.debug.test_walks import BUILDS
 from tests.debug.walking import STATIONS, Walker

@@ -11,7 +11,7 @@ from scanbench.debug.shown import VariableInfo
 from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Plan, Refusal, View
 from scanbench.runtime.write import Write
-from scanbench.session.codec import pack_body, unpack
+from scanbench.wire.codec import pack_body, unpack
 from tests.debug.scenes import checked, halted
 
 SOURCE = """TYPE Color : (RED, GREEN); Small : INT(0..10); END_TYPE

@@ -14,7 +14,7 @@ from scanbench.recording.replay_file import replay_file
 from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.debug.walking import MakeDebug, Walker
 from tests.runtime.recorded import of_file, of_file_native
 

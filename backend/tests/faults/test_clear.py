@@ -12,7 +12,8 @@ from scanbench.runtime.modes import SetMode
 from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
-from scanbench.session import codec, protocol
+from scanbench.wire import codec
+from scanbench.wire import host as protocol
 from tests.faults.test_detect import done, plc
 from tests.faults.test_instructions import generated, go, row, set_to
 from tests.runtime.bench import ENGINES, value

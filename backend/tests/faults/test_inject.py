@@ -18,7 +18,7 @@ from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.write import Write
-from scanbench.session import codec
+from scanbench.wire import codec
 from tests.runtime.bench import ENGINES, model, plc, value
 
 SOURCE = """

@@ -13,7 +13,7 @@ from scanbench.runtime.command import Refusal
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import EngineFactory, Loaded, NoProgram
 from scanbench.runtime.resource import Resource
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.bench import program
 
 COUNTER = """

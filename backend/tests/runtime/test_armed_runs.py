@@ -19,7 +19,7 @@ from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import EngineFactory, Loaded
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.bench import program
 from tests.runtime.random_runs import ARMS, COMMANDS, SOURCE, Step
 

@@ -10,7 +10,7 @@ from scanbench.recording import recording as recordings
 from scanbench.recording.format import RunFile
 from scanbench.recording.recording import Recording
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.recorded import advance, begun, resumed, tidy
 
 

@@ -19,7 +19,7 @@ from scanbench.recording.replay_file import replay_file
 from scanbench.runtime.command import Entry, Patch, Plan, Swapped
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.bench import program
 from tests.runtime.recorded import COUNTER, advance, begun, of_file, resumed
 

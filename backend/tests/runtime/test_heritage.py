@@ -20,7 +20,7 @@ from scanbench.runtime.journal import Fold, Journal
 from scanbench.runtime.programs import Programs
 from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.bench import ENGINES
 from tests.runtime.random_runs import live, random_steps, shelf
 from tests.runtime.recorded import SourcePrograms, advance, of_file, tidy

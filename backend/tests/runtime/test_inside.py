@@ -18,7 +18,7 @@ from scanbench.runtime.modes import SetMode
 from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.bench import ENGINES, value
 from tests.runtime.recorded import SECOND, advance, begun, of_file, of_file_native, resumed, to_program
 

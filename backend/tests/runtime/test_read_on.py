@@ -12,7 +12,7 @@ from scanbench.recording.format import RunFileError
 from scanbench.recording.recording import Recording, Replaced
 from scanbench.runtime.command import Entry
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.recorded import SECOND, advance, begun, to_program
 from tests.runtime.test_recording import whole_run
 

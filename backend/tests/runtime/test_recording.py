@@ -23,7 +23,7 @@ from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.forces import FORCED, Force
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.bench import value
 from tests.runtime.recorded import SECOND, advance, begun, of_file, of_file_native, resumed, tidy, to_program
 
@@ -334,7 +334,7 @@ REPLAY = """
 import sys
 from pathlib import Path
 from scanbench.recording.replay_file import replay_file
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.recorded import of_file_native
 print(replay_file(Path(sys.argv[1]), of_file_native, ENTRIES).hash)
 """

@@ -27,7 +27,7 @@ from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.bench import value
 from tests.runtime.recorded import (
     COUNTER,

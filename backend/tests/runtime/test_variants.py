@@ -11,7 +11,7 @@ from scanbench.recording.replay import Diverged
 from scanbench.recording.replay_file import replay_file
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.resource import Resource
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.recorded import spare
 from tests.runtime.variants import agenda, records, variants, write
 

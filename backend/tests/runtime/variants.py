@@ -27,7 +27,7 @@ from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import Force
 from scanbench.runtime.joined import Joined
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.recorded import COUNTER, advance, spare
 
 BATTERY, UNIT = (ErrorRef("battery-error"),), (ErrorRef("cpu-bus-unit-error", (("unit", "3"),)),)

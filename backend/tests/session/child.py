@@ -8,10 +8,11 @@ from pathlib import Path
 from typing import Self, TypeVar
 
 from scanbench.debug.halt import Halt
-from scanbench.session import debug_protocol, protocol
-from scanbench.session.codec import Splitter, pack
 from scanbench.session.nursery import HOST
-from scanbench.session.protocol import Sources
+from scanbench.wire import debugging as debug_protocol
+from scanbench.wire import host as protocol
+from scanbench.wire.codec import Splitter, pack
+from scanbench.wire.host import Sources
 
 T = TypeVar("T")
 MODEL = "CJ1M-CPU63"

@@ -4,10 +4,12 @@ import asyncio
 from collections.abc import Callable, Sequence
 
 from scanbench.debug.breakpoint import Breakpoint, Verdict
-from scanbench.session import debug_protocol, events, protocol
-from scanbench.session.debug_protocol import BreakpointsAre, DebugAnswer, DebugRequest, SetBreakpoints
 from scanbench.session.debugging import Debugging
-from scanbench.session.refused import Unavailable
+from scanbench.wire import debugging as debug_protocol
+from scanbench.wire import events
+from scanbench.wire import host as protocol
+from scanbench.wire.debugging import BreakpointsAre, DebugAnswer, DebugRequest, SetBreakpoints
+from scanbench.wire.refused import Unavailable
 
 
 class Host:

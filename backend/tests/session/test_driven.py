@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from scanbench.runtime.forces import Force
-from scanbench.session import protocol
-from scanbench.session.protocol import Driven, HostState
+from scanbench.wire import host as protocol
+from scanbench.wire.host import Driven, HostState
 from tests.session.child import Child
 
 COUNTING = "PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"

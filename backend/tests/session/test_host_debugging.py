@@ -8,8 +8,9 @@ import pytest
 
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.runtime.write import Write
-from scanbench.session import debug_protocol, protocol
-from scanbench.session.protocol import Driven
+from scanbench.wire import debugging as debug_protocol
+from scanbench.wire import host as protocol
+from scanbench.wire.host import Driven
 from tests.session.child import Child
 
 STATIONS = """FUNCTION_BLOCK Station

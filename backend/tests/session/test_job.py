@@ -32,11 +32,11 @@ from scanbench.runtime.programs import Loaded, NoProgram, Shelf
 from scanbench.runtime.write import Write
 from scanbench.session import job as job_process
 from scanbench.session import starting
-from scanbench.session.codec import ENTRIES, Splitter, pack, pack_body, unpack
-from scanbench.session.job_protocol import CellFound, FindReaction, JobDone, Reacted, RunSweep, StartPoint, Trying
 from scanbench.session.nursery import JOB
-from scanbench.session.protocol import Sources
 from scanbench.session.starting import NoStart, reaction_in
+from scanbench.wire.codec import ENTRIES, Splitter, pack, pack_body, unpack
+from scanbench.wire.host import Sources
+from scanbench.wire.jobs import CellFound, FindReaction, JobDone, Reacted, RunSweep, StartPoint, Trying
 from tests.faults.reacting import MAKES, ref
 from tests.runtime.bench import model
 

@@ -11,10 +11,10 @@ from pathlib import Path
 import pytest
 
 from scanbench.faults.history import ErrorRow
-from scanbench.session.events import LogEntry
 from scanbench.session.keeper import LOG_KEPT, LOG_TRIMMED_EVERY, Keeper
 from scanbench.store.records import HistoryRow, LogRow, StoreError
 from scanbench.store.store import Store
+from scanbench.wire.events import LogEntry
 
 NOON = datetime(2026, 11, 21, 12, 0, tzinfo=UTC)
 ROW = ErrorRow(

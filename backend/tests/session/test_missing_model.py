@@ -10,11 +10,11 @@ import pytest
 
 from scanbench.plcmodel.load import model_directory
 from scanbench.runtime.restart import Restart
-from scanbench.session.refused import Refused
 from scanbench.session.runs import run_path
 from scanbench.session.workbench import Workbench
 from scanbench.store.records import HistoryRow, NotFound
 from scanbench.store.store import Store
+from scanbench.wire.refused import Refused
 
 NOON = datetime(2026, 11, 21, 12, 0, tzinfo=UTC)
 ROW = HistoryRow(

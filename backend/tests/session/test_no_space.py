@@ -10,11 +10,11 @@ import pytest
 
 from scanbench.runtime.forces import Force
 from scanbench.runtime.write import Write
-from scanbench.session import protocol
 from scanbench.session.instance import Instance, Remembered
 from scanbench.session.nursery import nursery
-from scanbench.session.protocol import Driven, HostState
 from scanbench.store.records import Limits
+from scanbench.wire import host as protocol
+from scanbench.wire.host import Driven, HostState
 from tests.session.child import Child
 
 COUNTING = "PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"

@@ -13,12 +13,12 @@ from time import monotonic, sleep
 
 import pytest
 
-from scanbench.session import protocol
-from scanbench.session.codec import Splitter, pack
-from scanbench.session.events import PlcState
 from scanbench.session.instance import Instance, Remembered
 from scanbench.session.nursery import HostProcess, NoProcess, Nursery
 from scanbench.store.records import Limits
+from scanbench.wire import host as protocol
+from scanbench.wire.codec import Splitter, pack
+from scanbench.wire.events import PlcState
 
 COUNTING = "PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"
 LARGE = "PROGRAM Main\nVAR n : ARRAY[1..{0}] OF DINT; END_VAR\n  n[1] := n[1] + 1;\nEND_PROGRAM\n"
@@ -178,7 +178,7 @@ import socket, sys, time
 from pathlib import Path
 from scanbench.session.nursery import nursery
 from tests.session.test_nursery import Talk
-from scanbench.session import protocol
+from scanbench.wire import host as protocol
 talks = [Talk(nursery(), Path(sys.argv[1]), number) for number in range(2)]
 for talk in talks:
     talk.start()

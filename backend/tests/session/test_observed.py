@@ -3,8 +3,8 @@
 from scanbench.program.program import Program
 from scanbench.runtime.programs import Loaded
 from scanbench.session.host.build import Builder
-from scanbench.session.protocol import Sources
 from scanbench.symbols.sites import sites_of
+from scanbench.wire.host import Sources
 
 SOURCE = "PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\n  IF n = 5 THEN\n    n := 7;\n  END_IF;\nEND_PROGRAM\n"
 EDITED = SOURCE.replace("  n := n + 1;", "\n\n  n := n + 2;\n  n := n - 1;")

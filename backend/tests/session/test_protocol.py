@@ -20,12 +20,13 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.trap import TrapInfo, Trapped
 from scanbench.runtime.write import Write
-from scanbench.session import codec, protocol
-from scanbench.session.codec import ENTRIES, LENGTH, BadMessage, Splitter, pack, pack_body, unpack
 from scanbench.session.host.link import Link
 from scanbench.session.instance import Remembered
 from scanbench.session.watches import Watches
 from scanbench.store.records import Limits
+from scanbench.wire import codec
+from scanbench.wire import host as protocol
+from scanbench.wire.codec import ENTRIES, LENGTH, BadMessage, Splitter, pack, pack_body, unpack
 
 AT = datetime(2026, 11, 21, 12, 0, 0, 123456, UTC)
 COMMANDS = (

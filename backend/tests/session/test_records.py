@@ -19,10 +19,10 @@ from scanbench.reports.record_xml import to_xml
 from scanbench.session import records
 from scanbench.session.keeper import Keeper
 from scanbench.session.records import Records
-from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.store.records import CellRow, LogRow, SweptError
 from scanbench.store.store import Store
+from scanbench.wire.refused import Refused
 from tests.runtime.bench import model
 
 NOON = datetime(2026, 11, 21, 12, 0, tzinfo=UTC)

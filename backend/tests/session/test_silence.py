@@ -10,10 +10,10 @@ from pathlib import Path
 import pytest
 
 from scanbench.runtime.write import Write
-from scanbench.session.events import PlcState
 from scanbench.session.instance import Instance, Patience, Remembered
-from scanbench.session.refused import Unavailable
 from scanbench.store.records import Limits
+from scanbench.wire.events import PlcState
+from scanbench.wire.refused import Unavailable
 from tests.session.test_nursery import PATIENCE_S, runs, sources
 
 QUICK = Patience(look_s=0.1, looks=3, grace_s=0.2)

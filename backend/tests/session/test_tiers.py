@@ -20,7 +20,7 @@ from scanbench.session import known
 from scanbench.session.host import tiers as tiers_module
 from scanbench.session.host.build import Builder, Built, find_model
 from scanbench.session.host.swaps import Recode
-from scanbench.session.protocol import Sources
+from scanbench.wire.host import Sources
 
 BLOCK = (
     """\

@@ -13,13 +13,13 @@ import pytest
 from scanbench.recording.timeline import Timeline
 from scanbench.session.host.link import Link
 from scanbench.session.host.traces import Traces
-from scanbench.session.refused import Refused
-from scanbench.session.trace_protocol import ReadTrace, TraceRead, TraceStatus
 from scanbench.session.tracing import Tracing
 from scanbench.store.records import Json
 from scanbench.taps.spool import Spool, read_pages, write_pages
 from scanbench.taps.trace import Trace, TraceDefinition
 from scanbench.taps.trace_buffer import Samples, TraceBuffer
+from scanbench.wire.refused import Refused
+from scanbench.wire.traces import ReadTrace, TraceRead, TraceStatus
 from tests.runtime.bench import plc
 
 DEFINITION = TraceDefinition("T", ("Main.n",), scans=1000)

@@ -7,12 +7,12 @@ from typing import Literal, cast
 import pytest
 
 from scanbench.session import verifications
-from scanbench.session.events import Event, VerificationStatus, VerifyWish
-from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.session.verifications import Verifications
 from scanbench.store.store import Store
 from scanbench.verify.contract import Range
+from scanbench.wire.events import Event, VerificationStatus, VerifyWish
+from scanbench.wire.refused import Refused
 
 
 class Plc:

@@ -3,10 +3,10 @@
 import pytest
 
 from scanbench.session import verify_rows
-from scanbench.session.codec import pack_body
-from scanbench.session.verify_protocol import PackedRow, ScansVerified
 from scanbench.session.verify_rows import Rows
 from scanbench.verify.contract import Column, Mismatch, Output, Row
+from scanbench.wire.codec import pack_body
+from scanbench.wire.verification import PackedRow, ScansVerified
 
 A = Column("speed", "INT", "int", 2)
 

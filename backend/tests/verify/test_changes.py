@@ -11,7 +11,7 @@ from scanbench.history.contract import Changes
 from scanbench.history.reading import NoReading, Reading
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.recorded import advance, begun, of_file, to_program
 from tests.verify.test_writer import LINE
 

@@ -32,8 +32,8 @@ from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
 from scanbench.symbols.symbols import resolve
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.bench import ENGINES, model, plc, program, value
 
 SOURCE = """

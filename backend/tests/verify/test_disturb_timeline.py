@@ -22,7 +22,7 @@ from scanbench.runtime.inside import HaltAt
 from scanbench.runtime.joined import Joined
 from scanbench.runtime.programs import EngineFactory, Loaded
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.bench import ENGINES, program, value
 
 SOURCE = """VAR_GLOBAL word AT CIO1 : WORD; END_VAR

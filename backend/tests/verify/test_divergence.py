@@ -16,7 +16,7 @@ from scanbench.runtime.command import Refusal
 from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.recorded import advance, begun, of_file, of_file_native, to_program
 from tests.verify.test_writer import _texts
 

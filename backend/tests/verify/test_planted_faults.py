@@ -14,12 +14,12 @@ from scanbench.recording.headless import run_headless
 from scanbench.recording.recording import Recording
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
-from scanbench.session.codec import ENTRIES, pack_body
-from scanbench.session.protocol import Sources
 from scanbench.session.runs import sources_in
 from scanbench.verify.contract import Row
 from scanbench.verify.ranges import parse_range
 from scanbench.verify.verifier import Verifier
+from scanbench.wire.codec import ENTRIES, pack_body
+from scanbench.wire.host import Sources
 from tests.verify.planted import Fault, planted
 
 MODEL = "GENERIC-IEC"

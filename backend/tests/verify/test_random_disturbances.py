@@ -20,11 +20,11 @@ from scanbench.runtime.command import Command, Entry, Freed, Held, Patch
 from scanbench.runtime.header import Mode, fresh_image
 from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
 from scanbench.symbols.symbols import at_offset, resolve
 from scanbench.verify.contract import Mismatch, Range
 from scanbench.verify.engines import native, reference
 from scanbench.verify.verifier import Verifier
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.bench import program
 
 SOURCE = """

@@ -19,7 +19,7 @@ from scanbench.history.rerun import Rerun, rerun
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.bench import value
 from tests.runtime.recorded import SourcePrograms, advance, of_file
 

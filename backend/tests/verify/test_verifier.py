@@ -23,11 +23,11 @@ from scanbench.runtime.programs import Loaded, Shelf
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
 from scanbench.session.samples import Sample, samples
 from scanbench.verify.contract import Range
 from scanbench.verify.engines import native, reference
 from scanbench.verify.verifier import BadEdit, Unverifiable, Verifier
+from scanbench.wire.codec import ENTRIES
 from tests.caseformat import MODELS
 from tests.programs import INGREDIENTS, generate
 from tests.programs.compare import checked

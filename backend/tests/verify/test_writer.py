@@ -22,8 +22,8 @@ from scanbench.runtime.forces import Force
 from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
-from scanbench.session.codec import ENTRIES
 from scanbench.symbols.symbols import resolve
+from scanbench.wire.codec import ENTRIES
 from tests.runtime.recorded import SourcePrograms, advance, begun, of_file, of_file_native, to_program
 
 LINE = """

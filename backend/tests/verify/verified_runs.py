@@ -12,11 +12,11 @@ from scanbench.runtime.agenda import Agenda
 from scanbench.runtime.command import Command
 from scanbench.runtime.detect import Detect
 from scanbench.runtime.programs import EngineFactory, Programs
-from scanbench.session.codec import ENTRIES
 from scanbench.verify.contract import DEFAULT_LIMIT, Mismatch, Row
 from scanbench.verify.engines import Make, reference
 from scanbench.verify.ranges import parse_range
 from scanbench.verify.verifier import Verifier
+from scanbench.wire.codec import ENTRIES
 
 
 def record(

@@ -16,7 +16,7 @@ from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem, Severity
 from scanbench.program.program import Program
 from scanbench.session.known import key_of, recall
-from scanbench.session.protocol import Sources
+from scanbench.wire.host import Sources
 
 if TYPE_CHECKING:
     from scanbench.session.host.tiers import Tiers

@@ -7,7 +7,6 @@ from collections.abc import Callable
 from scanbench.engines.probe import Probe
 from scanbench.runtime.migrate_image import NEW, REMOVED, Change, changes
 from scanbench.runtime.programs import Loaded
-from scanbench.session import protocol
 from scanbench.session.host.build import Builder
 from scanbench.session.host.debugcode import Debuggable, Probed, probed
 from scanbench.session.host.limits import MemoryLimit
@@ -15,6 +14,7 @@ from scanbench.session.host.link import Link
 from scanbench.session.host.loop import Loop
 from scanbench.session.host.observed import Observable
 from scanbench.session.host.swaps import BuildRefused, Swap
+from scanbench.wire import host as protocol
 
 log = logging.getLogger("scanbench")
 LOST_LIMIT = 500

@@ -5,9 +5,9 @@ from collections.abc import Callable
 from scanbench.debug.debugger import Debugger
 from scanbench.engines.observe import Seen
 from scanbench.recording.timeline import Timeline
-from scanbench.session.debug_protocol import Coverage
-from scanbench.session.protocol import Sources
 from scanbench.taps.coverage import CoverageTap
+from scanbench.wire.debugging import Coverage
+from scanbench.wire.host import Sources
 
 
 class Covering:

@@ -19,13 +19,14 @@ from scanbench.recording.timeline import PAST, Timeline
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.resource import Resource
-from scanbench.session import debug_protocol, protocol
 from scanbench.session.host.covering import Covering
 from scanbench.session.host.debugcode import Debuggable
 from scanbench.session.host.link import Link
 from scanbench.session.host.saying import Saying
 from scanbench.symbols.sites import Sites, sites_of
 from scanbench.symbols.symbols import UnknownPath
+from scanbench.wire import debugging as debug_protocol
+from scanbench.wire import host as protocol
 
 _COUNTED_NS = 200_000_000
 """How often it is told that hits were counted, or that more was reached."""

@@ -25,7 +25,7 @@ from scanbench.plcmodel.load import NoModels
 from scanbench.session.host.build import Builder, all_models
 from scanbench.session.host.entry import Serve, entry
 from scanbench.session.known import key_of
-from scanbench.session.protocol import Sources
+from scanbench.wire.host import Sources
 
 _LARGEST_REQUEST = 65536
 _WARM = "PROGRAM warm\nVAR t : TON; s : STRING; END_VAR\n  t(IN := NOT t.Q, PT := T#1s);\nEND_PROGRAM\n"

@@ -11,7 +11,6 @@ from pathlib import Path
 from scanbench.engines.lifeline import end_with_parent
 from scanbench.faults.arm import Arm
 from scanbench.faults.shapes import Start, Wanted
-from scanbench.session import protocol
 from scanbench.session.host.build import Builder, BuildFailed
 from scanbench.session.host.builds import Builds
 from scanbench.session.host.limits import MemoryLimit, limit_files
@@ -19,7 +18,8 @@ from scanbench.session.host.link import Link
 from scanbench.session.host.lookup import look_up
 from scanbench.session.host.loop import Loop
 from scanbench.session.host.opening import NoSpace, open_loop
-from scanbench.session.trace_protocol import ReadTrace
+from scanbench.wire import host as protocol
+from scanbench.wire.traces import ReadTrace
 
 log = logging.getLogger("scanbench")
 _NO_TICK_NS = 1_000_000_000

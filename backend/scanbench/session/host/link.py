@@ -10,7 +10,7 @@ from collections import deque
 from collections.abc import Callable
 
 from scanbench.runtime.clock import monotonic_ns
-from scanbench.session.codec import Splitter, pack
+from scanbench.wire.codec import Splitter, pack
 
 BACKLOG_BYTES = 4 << 20
 """More than this unsent: the parent does not keep up, and is told no more than answers until it does."""

@@ -2,10 +2,10 @@
 
 from scanbench.program.program import Program
 from scanbench.program.types import Elementary, Enumeration, Section, StringType, Subrange
-from scanbench.session.protocol import Found, Lookup, SymbolInfo, WatchItem
 from scanbench.symbols.call_sites import formal_of
 from scanbench.symbols.instances import instances_of
 from scanbench.symbols.symbols import Symbol, UnknownPath, complete, members, resolve
+from scanbench.wire.host import Found, Lookup, SymbolInfo, WatchItem
 
 COMPLETIONS = 50
 

@@ -21,9 +21,6 @@ from scanbench.runtime.header import Mode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.resource import Resource, not_kept
 from scanbench.runtime.rights import Right, may
-from scanbench.session import debug_protocol, protocol
-from scanbench.session.codec import BadMessage, pack_body, unpack
-from scanbench.session.debug_protocol import DebugRequest
 from scanbench.session.host.course import MAX_SPEED, Course
 from scanbench.session.host.covering import Covering
 from scanbench.session.host.debugcode import Debuggable, Probed
@@ -35,7 +32,11 @@ from scanbench.session.host.shelf import HostPrograms
 from scanbench.session.host.swaps import BuildRefused, Copied, Optimising, Recode, Swap
 from scanbench.session.host.traces import Traces
 from scanbench.session.runs import run_limit
-from scanbench.session.trace_protocol import DefineTrace, DriveTrace
+from scanbench.wire import debugging as debug_protocol
+from scanbench.wire import host as protocol
+from scanbench.wire.codec import BadMessage, pack_body, unpack
+from scanbench.wire.debugging import DebugRequest
+from scanbench.wire.traces import DefineTrace, DriveTrace
 
 
 class Loop:

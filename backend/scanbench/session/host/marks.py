@@ -3,7 +3,7 @@
 from collections.abc import Sequence
 
 from scanbench.runtime.command import Entry
-from scanbench.session.protocol import RunMark
+from scanbench.wire.host import RunMark
 
 LIMIT = 5000
 """Marks that are kept to be shown."""

@@ -3,7 +3,7 @@
 from dataclasses import dataclass
 
 from scanbench.program.program import Program
-from scanbench.session.protocol import Submit
+from scanbench.wire.host import Submit
 
 _KEPT = 2
 

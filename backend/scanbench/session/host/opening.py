@@ -16,13 +16,13 @@ from scanbench.runtime.command import Refusal
 from scanbench.runtime.joined import Joined
 from scanbench.runtime.resource import is_no_space
 from scanbench.runtime.set_clock import SetClock
-from scanbench.session import protocol
-from scanbench.session.codec import ENTRIES, pack_body
 from scanbench.session.host.build import Builder, BuildFailed
 from scanbench.session.host.link import Link
 from scanbench.session.host.loop import Loop
 from scanbench.session.host.shelf import HostPrograms
 from scanbench.session.runs import run_limit, sources_in
+from scanbench.wire import host as protocol
+from scanbench.wire.codec import ENTRIES, pack_body
 
 
 class NoSpace(BuildFailed):

@@ -5,8 +5,8 @@ from scanbench.faults.inject import Generate
 from scanbench.problems import Span
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Entry
-from scanbench.session.debug_protocol import LogpointSaid
 from scanbench.session.host.link import Link
+from scanbench.wire.debugging import LogpointSaid
 
 _AT_ONCE = 100
 """Messages in each stretch of time; of the others only their number is told."""

@@ -13,7 +13,6 @@ from scanbench.recording.timeline import PAST, Timeline
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.forces import FORCED, Force, ForcedValue, forced_values
 from scanbench.runtime.resource import Resource
-from scanbench.session import protocol
 from scanbench.session.host.course import Course
 from scanbench.session.host.link import Link
 from scanbench.session.host.lookup import watch_item
@@ -23,6 +22,7 @@ from scanbench.session.host.swaps import Optimising
 from scanbench.symbols.symbols import Symbol
 from scanbench.symbols.violations import Violations, read_violations
 from scanbench.taps.watch import WatchPlan
+from scanbench.wire import host as protocol
 
 TICK_NS = 50_000_000
 IDLE_TICK_NS = 1_000_000_000

@@ -7,7 +7,7 @@ from scanbench.engines.engine import Engine
 from scanbench.program.program import Program
 from scanbench.runtime.programs import Loaded, NoProgram
 from scanbench.session.host.build import Builder, BuildFailed
-from scanbench.session.protocol import Sources, SourcesOf, WantSources
+from scanbench.wire.host import Sources, SourcesOf, WantSources
 
 _KEPT = 3
 """Programs that stay ready: the one that runs, and those that were run or looked at last."""

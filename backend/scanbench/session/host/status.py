@@ -11,7 +11,7 @@ from scanbench.runtime.header import Halt, Mode
 from scanbench.runtime.journal import Fold
 from scanbench.runtime.resource import Resource
 from scanbench.session.host.course import Course
-from scanbench.session.protocol import HostState
+from scanbench.wire.host import HostState
 
 
 def _swapped(versions: tuple[int, ...], entry: Entry) -> tuple[int, ...]:

@@ -7,7 +7,7 @@ from scanbench.engines.engine import Engine
 from scanbench.program.program import Program
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.programs import Loaded
-from scanbench.session.protocol import Sources
+from scanbench.wire.host import Sources
 
 
 @dataclass(frozen=True, slots=True)

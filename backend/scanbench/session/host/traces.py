@@ -8,11 +8,11 @@ from queue import SimpleQueue
 from scanbench.program.program import Program
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.clock import monotonic_ns
-from scanbench.session import protocol
 from scanbench.session.host.link import Link
-from scanbench.session.trace_protocol import DefineTrace, DriveTrace, ReadTrace, TraceRead, TracesAre, TraceStatus
 from scanbench.taps.trace import MAX_BYTES, MAX_TRACES, BadTrace, Trace, total_bytes
 from scanbench.taps.trace_buffer import PAGE, TooMany
+from scanbench.wire import host as protocol
+from scanbench.wire.traces import DefineTrace, DriveTrace, ReadTrace, TraceRead, TracesAre, TraceStatus
 
 log = logging.getLogger("scanbench")
 _GROWN_NS = 200_000_000

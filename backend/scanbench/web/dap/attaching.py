@@ -5,13 +5,13 @@ from contextlib import suppress
 from itertools import count
 
 from scanbench.runtime.restart import Restart
-from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.web.dap import shapes
 from scanbench.web.dap.debuggee import Debuggee
 from scanbench.web.dap.events import Send
 from scanbench.web.dap.paths import FolderPaths, ProjectPaths, ServerPaths
 from scanbench.web.dap.run import proceed
+from scanbench.wire.refused import Refused
 
 _numbers = count(1)
 _NO_LAUNCH = "a server's PLCs are attached to: to launch a program, use `scanbench dap`"

@@ -4,11 +4,11 @@ from collections.abc import Sequence
 from dataclasses import replace
 
 from scanbench.debug.breakpoint import Breakpoint, BreakpointKind, DataAccess, Verdict
-from scanbench.session import debug_protocol as host
-from scanbench.session.refused import Refused
 from scanbench.web.dap import shapes
 from scanbench.web.dap.debuggee import Debuggee
 from scanbench.web.dap.shapes import Body
+from scanbench.wire import debugging as host
+from scanbench.wire.refused import Refused
 
 _ALL_LINES = 1 << 30
 _ACCESS: dict[str, DataAccess] = {"read": "read", "write": "change", "readWrite": "access"}

@@ -8,14 +8,14 @@ from typing import Protocol
 
 from pydantic import ValidationError
 
-from scanbench.session.events import Event, User
-from scanbench.session.refused import Refused, Unavailable
 from scanbench.web.dap import shapes
 from scanbench.web.dap.answers import fault, refusal, response
 from scanbench.web.dap.debuggee import Debuggee
 from scanbench.web.dap.events import Events
 from scanbench.web.dap.handlers import CAPABILITIES, HANDLERS
 from scanbench.web.dap.shapes import Body
+from scanbench.wire.events import Event, User
+from scanbench.wire.refused import Refused, Unavailable
 
 log = logging.getLogger("scanbench")
 

@@ -5,14 +5,14 @@ from dataclasses import dataclass, field
 from typing import TypeVar
 
 from scanbench.debug.breakpoint import Breakpoint
-from scanbench.session.debug_protocol import DebugRequest
-from scanbench.session.protocol import Ack
-from scanbench.session.refused import Refused
 from scanbench.session.session import Session
 from scanbench.web.dap.handles import Handles
 from scanbench.web.dap.paths import Paths
 from scanbench.web.dap.shapes import Body, Initialize
 from scanbench.web.dap.threads import Threads
+from scanbench.wire.debugging import DebugRequest
+from scanbench.wire.host import Ack
+from scanbench.wire.refused import Refused
 
 A = TypeVar("A")
 

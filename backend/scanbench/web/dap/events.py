@@ -3,12 +3,12 @@
 from collections.abc import Callable
 
 from scanbench.debug.halt import Halt
-from scanbench.session import events
-from scanbench.session.events import Event, PlcState
 from scanbench.web.dap.breakpoints import described
 from scanbench.web.dap.debuggee import Debuggee
 from scanbench.web.dap.shapes import Body
 from scanbench.web.dap.threads import PLC
+from scanbench.wire import events
+from scanbench.wire.events import Event, PlcState
 
 Send = Callable[[str, Body], None]
 _GONE = {

@@ -3,7 +3,7 @@
 from collections import OrderedDict
 from dataclasses import dataclass
 
-from scanbench.session.refused import Refused
+from scanbench.wire.refused import Refused
 
 _KEPT = 20_000
 """So many at most: a client that asks on and on loses the oldest."""

@@ -11,8 +11,6 @@ from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem, Severity
 from scanbench.session.builds import INTERVAL_NS
 from scanbench.session.from_disk import DEFAULT_MODEL, program_files, project_model, read_text
-from scanbench.session.protocol import Sources
-from scanbench.session.refused import Refused
 from scanbench.session.solo import Solo
 from scanbench.session.user_cache import user_cache
 from scanbench.syntax.literals import duration
@@ -22,6 +20,8 @@ from scanbench.web.dap.events import Send
 from scanbench.web.dap.paths import FolderPaths
 from scanbench.web.dap.run import move, proceed
 from scanbench.web.dap.shapes import Body
+from scanbench.wire.host import Sources
+from scanbench.wire.refused import Refused
 
 _SHORTEST_NS = 1_000
 _SLOWEST = 0.01

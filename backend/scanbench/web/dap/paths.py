@@ -3,8 +3,8 @@
 from abc import ABC, abstractmethod
 from collections.abc import Callable, Iterable
 
-from scanbench.session.refused import Refused
 from scanbench.web.dap.shapes import Body, Source
+from scanbench.wire.refused import Refused
 
 Files = Callable[[], Iterable[str]]
 """The files of the program that runs, by their paths in the project."""

@@ -13,11 +13,11 @@ from urllib.parse import parse_qs, quote, urlsplit
 from websockets.asyncio.client import ClientConnection, connect
 from websockets.exceptions import WebSocketException
 
-from scanbench.session.refused import Refused
 from scanbench.web.auth import USER
 from scanbench.web.dap import shapes
 from scanbench.web.dap.framing import LARGEST
 from scanbench.web.dap.shapes import Body
+from scanbench.wire.refused import Refused
 
 DEFAULT_ADDRESS = "http://127.0.0.1:8700"
 _WAIT_S = 10

@@ -4,14 +4,14 @@ from scanbench.faults.inject import Generate
 from scanbench.faults.reference import parse_reference
 from scanbench.runtime.command import Command, Refusal
 from scanbench.runtime.forces import Force, Release
-from scanbench.session import debug_protocol as host
-from scanbench.session.debug_protocol import StepAction
-from scanbench.session.protocol import Ack
-from scanbench.session.refused import Refused
 from scanbench.web import translate_debug
 from scanbench.web.dap import shapes
 from scanbench.web.dap.debuggee import Debuggee
 from scanbench.web.dap.shapes import Body
+from scanbench.wire import debugging as host
+from scanbench.wire.debugging import StepAction
+from scanbench.wire.host import Ack
+from scanbench.wire.refused import Refused
 
 
 async def on_continue(plc: Debuggee, _args: shapes.Nothing) -> Body:

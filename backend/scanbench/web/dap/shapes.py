@@ -10,7 +10,7 @@ from pydantic import BaseModel, ConfigDict, Field
 from pydantic.alias_generators import to_camel
 
 from scanbench.debug.breakpoint import BreakpointKind, DataAccess
-from scanbench.session.debug_protocol import StepAction
+from scanbench.wire.debugging import StepAction
 
 Body = dict[str, object]
 """A JSON object."""

@@ -1,9 +1,9 @@
 """The files of the program that runs."""
 
-from scanbench.session.refused import Refused
 from scanbench.web.dap import shapes
 from scanbench.web.dap.debuggee import Debuggee
 from scanbench.web.dap.shapes import Body
+from scanbench.wire.refused import Refused
 
 
 async def on_loaded_sources(plc: Debuggee, _args: shapes.Nothing) -> Body:

@@ -12,9 +12,7 @@ from contextlib import suppress
 
 from pydantic import ValidationError
 
-from scanbench.session.events import User
 from scanbench.session.nursery import nursery
-from scanbench.session.refused import Refused
 from scanbench.web.dap import shapes
 from scanbench.web.dap.answers import fault, refusal
 from scanbench.web.dap.conversation import Conversation
@@ -23,6 +21,8 @@ from scanbench.web.dap.launching import Launcher
 from scanbench.web.dap.remote import Remote
 from scanbench.web.dap.shapes import Body
 from scanbench.web.dap.streams import own_streams
+from scanbench.wire.events import User
+from scanbench.wire.refused import Refused
 
 log = logging.getLogger("scanbench")
 _CHUNK = 1 << 16

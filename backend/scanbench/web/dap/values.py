@@ -2,13 +2,13 @@
 
 import re
 
-from scanbench.session import debug_protocol as host
-from scanbench.session.debug_protocol import VariableInfo
-from scanbench.session.refused import Refused
 from scanbench.web.dap import shapes
 from scanbench.web.dap.debuggee import Debuggee
 from scanbench.web.dap.handles import Below
 from scanbench.web.dap.shapes import Body
+from scanbench.wire import debugging as host
+from scanbench.wire.debugging import VariableInfo
+from scanbench.wire.refused import Refused
 
 _PAGE, _MOST = 1000, 10_000
 """Variables that are asked for at once, and those that a client gets that wants all."""

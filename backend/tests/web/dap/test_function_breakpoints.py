@@ -7,16 +7,16 @@ from typing import cast
 
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.halt import Halt
-from scanbench.session.debug_protocol import BreakpointsAre, DebugRequest, PlaceInfo, Places, SetBreakpoints, WantPlaces
 from scanbench.session.debugging import Debugging
-from scanbench.session.events import PlcState
-from scanbench.session.protocol import Sources
 from scanbench.session.session import Session
 from scanbench.web.dap.breakpoints import on_set_function_breakpoints
 from scanbench.web.dap.debuggee import Debuggee
 from scanbench.web.dap.events import Events
 from scanbench.web.dap.paths import ProjectPaths
 from scanbench.web.dap.shapes import Body, FunctionBreakpoint, SetFunctionBreakpoints
+from scanbench.wire.debugging import BreakpointsAre, DebugRequest, PlaceInfo, Places, SetBreakpoints, WantPlaces
+from scanbench.wire.events import PlcState
+from scanbench.wire.host import Sources
 
 POUS = {"Main.st": "Main", "Belt.st": "Belt"}
 

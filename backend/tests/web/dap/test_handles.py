@@ -1,7 +1,7 @@
 import pytest
 
-from scanbench.session.refused import Refused
 from scanbench.web.dap.handles import Below, Handles
+from scanbench.wire.refused import Refused
 
 
 def test_frames_are_of_one_halt() -> None:

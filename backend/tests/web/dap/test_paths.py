@@ -1,8 +1,8 @@
 import pytest
 
-from scanbench.session.refused import Refused
 from scanbench.web.dap.paths import FolderPaths, ProjectPaths, ServerPaths
 from scanbench.web.dap.shapes import Source
+from scanbench.wire.refused import Refused
 
 FILES = {"Main.st": "", "blocks/Valve.st": ""}
 

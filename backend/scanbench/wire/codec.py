@@ -38,11 +38,16 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped
 from scanbench.runtime.write import Write
-from scanbench.session import debug_protocol, events, job_protocol, protocol, trace_protocol, verify_protocol
 from scanbench.symbols.violations import Violation, Violations
 from scanbench.taps.covered import CoveredFile, CoveredSite
 from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
 from scanbench.verify.contract import Column, Input, Mismatch, Output, Place, Range, Row
+from scanbench.wire import debugging as debug_protocol
+from scanbench.wire import events
+from scanbench.wire import host as protocol
+from scanbench.wire import jobs as job_protocol
+from scanbench.wire import traces as trace_protocol
+from scanbench.wire import verification as verify_protocol
 
 LENGTH = struct.Struct("<I")
 LARGEST = 1 << 30

@@ -7,8 +7,8 @@ answered in order; rows come as they are made, and the parent keeps them. Anothe
 from dataclasses import dataclass
 
 from scanbench.history.contract import Changes, Divergence, RerunChange, Writer
-from scanbench.session.protocol import Sources
 from scanbench.verify.contract import Column, Mismatch, Range
+from scanbench.wire.host import Sources
 
 NOW = (1 << 63) - 1
 """As a scan: the end of the run."""

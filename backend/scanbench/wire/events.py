@@ -17,12 +17,12 @@ from scanbench.program.program import CheckSite
 from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.forces import ForcedValue
 from scanbench.runtime.trap import TrapInfo
-from scanbench.session import debug_protocol
-from scanbench.session.protocol import Previewed, RunMark, WatchItem
-from scanbench.session.trace_protocol import TraceStatus
 from scanbench.store.records import AcceptedRow, CellRow, ProjectRow, SweepRow
 from scanbench.symbols.violations import Violations
 from scanbench.verify.contract import DEFAULT_LIMIT, Memory, Mismatch, Range
+from scanbench.wire import debugging as debug_protocol
+from scanbench.wire.host import Previewed, RunMark, WatchItem
+from scanbench.wire.traces import TraceStatus
 
 VerifyPace = Literal["free", "scan", "step"]
 """How a verification goes on: by itself, scan by scan, statement by statement."""

@@ -7,7 +7,7 @@ with its parent. A sweep is cancelled by ending the process. Nothing here change
 from dataclasses import dataclass
 
 from scanbench.faults.reaction.reaction import Reaction
-from scanbench.session.protocol import Sources
+from scanbench.wire.host import Sources
 
 # ---- parent to job -------------------------------------------------------------------------------------------------
 
