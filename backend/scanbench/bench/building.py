@@ -18,13 +18,13 @@ from time import perf_counter_ns
 
 from scanbench.check.incremental import Checks
 from scanbench.engines.cache import BlobCache
+from scanbench.host.build import Builder, find_model
+from scanbench.host.program_cache import keep, key_of
+from scanbench.host.programs import HostPrograms
+from scanbench.host.swaps import Recode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import Loaded, Shelf
 from scanbench.runtime.resource import Resource
-from scanbench.session.host.build import Builder, find_model
-from scanbench.session.host.shelf import HostPrograms
-from scanbench.session.host.swaps import Recode
-from scanbench.session.known import keep, key_of
 from scanbench.wire.host import Sources
 
 LARGE = ("big10k", "big10kflat")

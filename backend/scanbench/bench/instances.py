@@ -19,12 +19,12 @@ from time import perf_counter
 
 from scanbench.check.incremental import Checks
 from scanbench.engines.cache import BlobCache
-from scanbench.session.host.build import find_model
+from scanbench.host.build import find_model
+from scanbench.host.load import Loads
+from scanbench.host.program_cache import keep, key_of
+from scanbench.host.run_files import run_path
+from scanbench.host.zygote import nursery
 from scanbench.session.instance import Instance, Remembered
-from scanbench.session.known import keep, key_of
-from scanbench.session.load import Loads
-from scanbench.session.nursery import nursery
-from scanbench.session.runs import run_path
 from scanbench.session.samples import samples
 from scanbench.store.records import Limits
 from scanbench.wire import host as protocol

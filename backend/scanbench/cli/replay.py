@@ -12,12 +12,12 @@ from scanbench.cli.inputs import DAMAGED, find_model_named, unreadable, unusable
 from scanbench.cli.interrupt import INTERRUPTED
 from scanbench.cli.run import ENGINES, EngineChoice
 from scanbench.engines.pair import Differs
+from scanbench.host.run_files import sources_in
 from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.format import RunFileError
 from scanbench.recording.replay import Diverged
 from scanbench.recording.replay_file import Replayed, replay_file
 from scanbench.runtime.programs import EngineFactory, Loaded, Shelf
-from scanbench.session.runs import sources_in
 from scanbench.wire.codec import ENTRIES
 
 

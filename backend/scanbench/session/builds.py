@@ -13,8 +13,8 @@ from pathlib import Path
 from scanbench.check.incremental import Checks
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.lifeline import end_with_parent
+from scanbench.host.program_cache import keep, key_of
 from scanbench.plcmodel.model import Model
-from scanbench.session.known import keep, key_of
 from scanbench.wire.events import CheckOutcome
 from scanbench.wire.host import Sources
 from scanbench.wire.refused import Unavailable

@@ -15,11 +15,11 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from scanbench.faults.reference import ErrorRef
+from scanbench.host.run_files import bring_back, set_aside
+from scanbench.host.zygote import NoProcess, Process, nursery
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Command
 from scanbench.runtime.forces import ForcedValue
-from scanbench.session.nursery import NoProcess, Process, nursery
-from scanbench.session.runs import bring_back, set_aside
 from scanbench.store.records import Limits
 from scanbench.wire import host as protocol
 from scanbench.wire.codec import LENGTH, BadMessage, body_length, pack, unpack

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
-from scanbench.session.nursery import JOB, NoProcess, Process, nursery
+from scanbench.host.zygote import JOB, NoProcess, Process, nursery
 from scanbench.wire.codec import LENGTH, BadMessage, body_length, pack, unpack
 
 log = logging.getLogger("scanbench")

@@ -3,9 +3,9 @@
 from collections.abc import Sequence
 
 from scanbench.debug.halt import Halt
+from scanbench.host.marks import LIMIT, LONGEST, marks_of
 from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.command import Entry
-from scanbench.session.host.marks import LIMIT, LONGEST, marks_of
 from scanbench.wire.events import TimelineChanged
 from scanbench.wire.host import RunMark, RunMarks
 

@@ -11,6 +11,7 @@ from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.history import ErrorRow, History, Swept
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.reference import ErrorRef
+from scanbench.host.load import Load, Loads
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import model_for
 from scanbench.runtime.clock import wall_time
@@ -20,7 +21,6 @@ from scanbench.runtime.write import Write
 from scanbench.session.debugging import Debugging
 from scanbench.session.instance import Instance, Remembered
 from scanbench.session.keeper import Keeper
-from scanbench.session.load import Load, Loads
 from scanbench.session.marks import Marks
 from scanbench.session.reacting import Raised, Reacting
 from scanbench.session.reactions import Reactions

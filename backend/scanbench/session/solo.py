@@ -6,13 +6,13 @@ from contextlib import suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
 
+from scanbench.host.load import Loads
+from scanbench.host.run_files import run_path
+from scanbench.host.zygote import nursery
 from scanbench.plcmodel.model import Model
 from scanbench.session.instance import Remembered
 from scanbench.session.keeper import Keeper
-from scanbench.session.load import Loads
-from scanbench.session.nursery import nursery
 from scanbench.session.reactions import Reactions
-from scanbench.session.runs import run_path
 from scanbench.session.session import Session
 from scanbench.store.store import Store
 from scanbench.wire.host import Driven, Sources

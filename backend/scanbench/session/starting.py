@@ -13,6 +13,8 @@ from scanbench.faults.reaction.observed import ObservedPrograms
 from scanbench.faults.reaction.react import Point, react
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.reaction.sweep import AUTHOR
+from scanbench.host.build import BuildFailed, find_model
+from scanbench.host.run_files import sources_in
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Severity
 from scanbench.program.layout import Layout
@@ -30,8 +32,6 @@ from scanbench.runtime.inside import front
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import NoProgram
 from scanbench.runtime.resource import Resource
-from scanbench.session.host.build import BuildFailed, find_model
-from scanbench.session.runs import sources_in
 from scanbench.wire.codec import ENTRIES
 from scanbench.wire.host import Sources
 

@@ -6,7 +6,7 @@ import shutil
 from collections.abc import Sequence
 from pathlib import Path
 
-from scanbench.session.runs import discard
+from scanbench.host.run_files import discard
 from scanbench.session.session import Session
 from scanbench.store.records import StateRow, SweepRow
 from scanbench.store.store import Store

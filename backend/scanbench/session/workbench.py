@@ -10,6 +10,9 @@ from functools import partial
 from pathlib import Path
 
 from scanbench import __version__
+from scanbench.host.load import Loads
+from scanbench.host.run_files import discard, discard_all, fresh_path, run_path, sources_and_damage, sweep
+from scanbench.host.zygote import nursery
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.recording.format import RunFileError
@@ -17,14 +20,11 @@ from scanbench.runtime.clock import monotonic_ns
 from scanbench.session.builds import Checker
 from scanbench.session.instance import Remembered
 from scanbench.session.keeper import Keeper, breakpoint_of, line_of, row_of
-from scanbench.session.load import Loads
 from scanbench.session.missing import stand_in, why_missing
-from scanbench.session.nursery import nursery
 from scanbench.session.pasts import Pasts
 from scanbench.session.projects import Projects
 from scanbench.session.reactions import Reactions
 from scanbench.session.records import Records
-from scanbench.session.runs import discard, discard_all, fresh_path, run_path, sources_and_damage, sweep
 from scanbench.session.samples import samples
 from scanbench.session.session import LOG_LINES, Session
 from scanbench.session.states import States

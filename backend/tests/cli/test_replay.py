@@ -9,13 +9,13 @@ from typer.testing import CliRunner, Result
 
 from scanbench.cli.commands import app
 from scanbench.faults.inject import ACTIVE
+from scanbench.host.run_files import sources_of
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.recording import checkpoints
 from scanbench.recording import format as runfile
 from scanbench.recording.recording import Recording
 from scanbench.runtime.forces import FORCED
 from scanbench.runtime.journal import Journal
-from scanbench.session.runs import sources_of
 from scanbench.wire.codec import ENTRIES
 
 SOURCE = """

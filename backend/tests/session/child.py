@@ -8,7 +8,7 @@ from pathlib import Path
 from typing import Self, TypeVar
 
 from scanbench.debug.halt import Halt
-from scanbench.session.nursery import HOST
+from scanbench.host.zygote import HOST
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import host as protocol
 from scanbench.wire.codec import Splitter, pack
@@ -27,7 +27,7 @@ class Child:
         ours, theirs = socket.socketpair()
         self._socket, self._splitter = ours, Splitter()
         ours.settimeout(60)
-        command = [sys.executable, "-m", "scanbench.session.host", str(theirs.fileno()), HOST, str(cache)]
+        command = [sys.executable, "-m", "scanbench.host", str(theirs.fileno()), HOST, str(cache)]
         self.process = subprocess.Popen(command, pass_fds=[theirs.fileno()])
         theirs.close()
         self.messages: list[object] = []

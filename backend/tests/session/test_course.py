@@ -1,6 +1,6 @@
 """The course of a run: targets, rests, and what is late."""
 
-from scanbench.session.host.course import MAX_SPEED, Course
+from scanbench.host.pacer import MAX_SPEED, Course
 
 INTERVAL = 10_000_000
 

@@ -6,7 +6,7 @@ import sys
 _WITHOUT_LLVM = """
 import sys
 sys.modules["llvmlite"] = None
-from scanbench.session.host.build import find_engines
+from scanbench.host.build import find_engines
 engines = find_engines(None)
 print(engines.tiers, "|", engines.message)
 """

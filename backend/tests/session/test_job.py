@@ -20,6 +20,7 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reaction.reaction import Reaction
+from scanbench.host.zygote import JOB
 from scanbench.program.program import Program
 from scanbench.recording.blocks import Codec
 from scanbench.recording.recording import Recording
@@ -32,7 +33,6 @@ from scanbench.runtime.programs import Loaded, NoProgram, Shelf
 from scanbench.runtime.write import Write
 from scanbench.session import job as job_process
 from scanbench.session import starting
-from scanbench.session.nursery import JOB
 from scanbench.session.starting import NoStart, reaction_in
 from scanbench.wire.codec import ENTRIES, Splitter, pack, pack_body, unpack
 from scanbench.wire.host import Sources
@@ -57,7 +57,7 @@ class Job:
         self._sock, theirs = socket.socketpair()
         with theirs:
             fd = theirs.fileno()
-            command = [sys.executable, "-m", "scanbench.session.host", str(fd), JOB, str(cache)]
+            command = [sys.executable, "-m", "scanbench.host", str(fd), JOB, str(cache)]
             self.process = subprocess.Popen(command, pass_fds=(fd,))
         self._answers = self._sock.makefile("rb")
 
@@ -344,7 +344,7 @@ def test_it_ends_with_its_parent(tmp_path: Path) -> None:
     code = (
         "import os, socket, subprocess, sys\n"
         "ours, theirs = socket.socketpair()\n"
-        "command = [sys.executable, '-m', 'scanbench.session.host', str(theirs.fileno()), 'scanbench.session.job:serve', sys.argv[1]]\n"
+        "command = [sys.executable, '-m', 'scanbench.host', str(theirs.fileno()), 'scanbench.session.job:serve', sys.argv[1]]\n"
         "process = subprocess.Popen(command, pass_fds=(theirs.fileno(),))\n"
         "ours.sendall(sys.stdin.buffer.read())\n"
         "ours.recv(1)\n"

@@ -3,8 +3,8 @@
 import os
 from pathlib import Path
 
+from scanbench.host.load import NO_LOAD, Loads
 from scanbench.runtime.clock import monotonic_ns
-from scanbench.session.load import NO_LOAD, Loads
 
 
 def test_a_process_that_works_has_a_load() -> None:

@@ -1,6 +1,6 @@
 """What the browser is told of a variable that is watched."""
 
-from scanbench.session.host.lookup import watch_item
+from scanbench.host.lookup import watch_item
 from tests.check.test_sites import program_of
 
 SOURCE = """\

@@ -8,9 +8,9 @@ from pathlib import Path
 
 import pytest
 
+from scanbench.host.run_files import run_path
 from scanbench.plcmodel.load import model_directory
 from scanbench.runtime.restart import Restart
-from scanbench.session.runs import run_path
 from scanbench.session.workbench import Workbench
 from scanbench.store.records import HistoryRow, NotFound
 from scanbench.store.store import Store

@@ -8,10 +8,10 @@ from pathlib import Path
 
 import pytest
 
+from scanbench.host.zygote import nursery
 from scanbench.runtime.forces import Force
 from scanbench.runtime.write import Write
 from scanbench.session.instance import Instance, Remembered
-from scanbench.session.nursery import nursery
 from scanbench.store.records import Limits
 from scanbench.wire import host as protocol
 from scanbench.wire.host import Driven, HostState

@@ -13,8 +13,8 @@ from time import monotonic, sleep
 
 import pytest
 
+from scanbench.host.zygote import HostProcess, NoProcess, Nursery
 from scanbench.session.instance import Instance, Remembered
-from scanbench.session.nursery import HostProcess, NoProcess, Nursery
 from scanbench.store.records import Limits
 from scanbench.wire import host as protocol
 from scanbench.wire.codec import Splitter, pack
@@ -176,7 +176,7 @@ def test_a_frozen_nursery_is_given_up(tmp_path: Path) -> None:
 _PARENT = """
 import socket, sys, time
 from pathlib import Path
-from scanbench.session.nursery import nursery
+from scanbench.host.zygote import nursery
 from tests.session.test_nursery import Talk
 from scanbench.wire import host as protocol
 talks = [Talk(nursery(), Path(sys.argv[1]), number) for number in range(2)]

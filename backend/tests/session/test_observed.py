@@ -1,8 +1,8 @@
 """Observed code in a host: of the statements that run, whatever was checked since."""
 
+from scanbench.host.build import Builder
 from scanbench.program.program import Program
 from scanbench.runtime.programs import Loaded
-from scanbench.session.host.build import Builder
 from scanbench.symbols.sites import sites_of
 from scanbench.wire.host import Sources
 

@@ -12,6 +12,7 @@ from hypothesis import strategies as st
 
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reference import ErrorRef
+from scanbench.host.link import Link
 from scanbench.runtime.command import Command, Entry, Patch, Plan, Restarted
 from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.modes import SetMode
@@ -20,7 +21,6 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.trap import TrapInfo, Trapped
 from scanbench.runtime.write import Write
-from scanbench.session.host.link import Link
 from scanbench.session.instance import Remembered
 from scanbench.session.watches import Watches
 from scanbench.store.records import Limits

@@ -11,15 +11,15 @@ from scanbench.engines.cache import BlobCache
 from scanbench.engines.native import worker
 from scanbench.engines.native.parts import Part
 from scanbench.engines.native.worker import WorkerDied
+from scanbench.host import program_cache as known
+from scanbench.host import tiers as tiers_module
+from scanbench.host.build import Builder, Built, find_model
+from scanbench.host.swaps import Recode
 from scanbench.runtime.command import Entry
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import Loaded, Shelf
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
-from scanbench.session import known
-from scanbench.session.host import tiers as tiers_module
-from scanbench.session.host.build import Builder, Built, find_model
-from scanbench.session.host.swaps import Recode
 from scanbench.wire.host import Sources
 
 BLOCK = (

@@ -10,9 +10,9 @@ from typing import cast
 import numpy as np
 import pytest
 
+from scanbench.host.link import Link
+from scanbench.host.traces import Traces
 from scanbench.recording.timeline import Timeline
-from scanbench.session.host.link import Link
-from scanbench.session.host.traces import Traces
 from scanbench.session.tracing import Tracing
 from scanbench.store.records import Json
 from scanbench.taps.spool import Spool, read_pages, write_pages

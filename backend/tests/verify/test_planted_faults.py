@@ -7,6 +7,7 @@ import pytest
 from scanbench.check.build import check_sources
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
+from scanbench.host.run_files import sources_in
 from scanbench.plcmodel.load import model_named
 from scanbench.program.program import Program
 from scanbench.recording.blocks import KeptProgram
@@ -14,7 +15,6 @@ from scanbench.recording.headless import run_headless
 from scanbench.recording.recording import Recording
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
-from scanbench.session.runs import sources_in
 from scanbench.verify.contract import Row
 from scanbench.verify.ranges import parse_range
 from scanbench.verify.verifier import Verifier

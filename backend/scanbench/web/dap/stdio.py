@@ -12,7 +12,7 @@ from contextlib import suppress
 
 from pydantic import ValidationError
 
-from scanbench.session.nursery import nursery
+from scanbench.host.zygote import nursery
 from scanbench.web.dap import shapes
 from scanbench.web.dap.answers import fault, refusal
 from scanbench.web.dap.conversation import Conversation

@@ -4,7 +4,7 @@ import os
 from contextlib import suppress
 from functools import cache
 
-from scanbench.session.nursery import NoProcess, nursery
+from scanbench.host.zygote import NoProcess, nursery
 
 
 def prepare() -> None:

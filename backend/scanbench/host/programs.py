@@ -4,9 +4,9 @@ import threading
 from collections.abc import Callable, Mapping
 
 from scanbench.engines.engine import Engine
+from scanbench.host.build import Builder, BuildFailed
 from scanbench.program.program import Program
 from scanbench.runtime.programs import Loaded, NoProgram
-from scanbench.session.host.build import Builder, BuildFailed
 from scanbench.wire.host import Sources, SourcesOf, WantSources
 
 _KEPT = 3

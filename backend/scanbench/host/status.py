@@ -3,6 +3,7 @@
 from scanbench.debug.debugger import Debugger
 from scanbench.debug.halt import Halt as Stopped
 from scanbench.faults.inject import ACTIVE
+from scanbench.host.pacer import Course
 from scanbench.program.program import TrapKind
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Entry, Swapped
@@ -10,7 +11,6 @@ from scanbench.runtime.forces import FORCED
 from scanbench.runtime.header import Halt, Mode
 from scanbench.runtime.journal import Fold
 from scanbench.runtime.resource import Resource
-from scanbench.session.host.course import Course
 from scanbench.wire.host import HostState
 
 

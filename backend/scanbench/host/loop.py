@@ -14,6 +14,17 @@ from scanbench.check.typed.condition import Condition, compile_condition
 from scanbench.engines.engine import Reason
 from scanbench.faults.carried import why_not_carried
 from scanbench.faults.inject import ACTIVE, Active
+from scanbench.host.covering import Covering
+from scanbench.host.debugcode import Debuggable, Probed
+from scanbench.host.debugging import Debugging
+from scanbench.host.link import Link
+from scanbench.host.observed import Observable
+from scanbench.host.pacer import MAX_SPEED, Course
+from scanbench.host.programs import HostPrograms
+from scanbench.host.run_files import run_limit
+from scanbench.host.services import Services
+from scanbench.host.swaps import BuildRefused, Copied, Optimising, Recode, Swap
+from scanbench.host.traces import Traces
 from scanbench.program.program import Program
 from scanbench.recording.timeline import PAST, Timeline
 from scanbench.runtime.command import Entry, Refusal
@@ -21,17 +32,6 @@ from scanbench.runtime.header import Mode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.resource import Resource, not_kept
 from scanbench.runtime.rights import Right, may
-from scanbench.session.host.course import MAX_SPEED, Course
-from scanbench.session.host.covering import Covering
-from scanbench.session.host.debugcode import Debuggable, Probed
-from scanbench.session.host.debugging import Debugging
-from scanbench.session.host.link import Link
-from scanbench.session.host.observed import Observable
-from scanbench.session.host.services import Services
-from scanbench.session.host.shelf import HostPrograms
-from scanbench.session.host.swaps import BuildRefused, Copied, Optimising, Recode, Swap
-from scanbench.session.host.traces import Traces
-from scanbench.session.runs import run_limit
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import host as protocol
 from scanbench.wire.codec import BadMessage, pack_body, unpack

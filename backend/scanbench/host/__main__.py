@@ -1,11 +1,11 @@
-"""`python -m scanbench.session.host FD ENTRY [CACHE]`: a process that is not forked. The server started it; see `entry.py`."""
+"""`python -m scanbench.host FD ENTRY [CACHE]`: a process that is not forked. The server started it; see `entry.py`."""
 
 import os
 import socket
 import sys
 from pathlib import Path
 
-from scanbench.session.host.entry import entry
+from scanbench.host.entry import entry
 
 if __name__ == "__main__":
     cache = Path(sys.argv[3]) if len(sys.argv) > 3 else None

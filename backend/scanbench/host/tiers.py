@@ -15,9 +15,9 @@ from scanbench.engines.native import jit
 from scanbench.engines.native.compiler import FAST, Build, Compiler
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.native.worker import WorkerDied, optimised
+from scanbench.host.program_cache import keep_code, recall_code
+from scanbench.host.swaps import Recode
 from scanbench.program.program import Program
-from scanbench.session.host.swaps import Recode
-from scanbench.session.known import keep_code, recall_code
 
 log = logging.getLogger("scanbench")
 

@@ -11,15 +11,15 @@ from scanbench.check.incremental import Checks
 from scanbench.engines.available import flavours, no_machine_code
 from scanbench.engines.cache import BlobCache
 from scanbench.engines.engine import Engine
+from scanbench.host.program_cache import key_of, recall
 from scanbench.plcmodel.load import NoSuchModel, load_all, model_directory, model_named
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem, Severity
 from scanbench.program.program import Program
-from scanbench.session.known import key_of, recall
 from scanbench.wire.host import Sources
 
 if TYPE_CHECKING:
-    from scanbench.session.host.tiers import Tiers
+    from scanbench.host.tiers import Tiers
 
 
 class BuildFailed(Exception):
@@ -38,7 +38,7 @@ def find_engines(cache: BlobCache | None) -> Engines:
     """Native where LLVM is there, else the reference engine."""
     if why := no_machine_code():
         return Engines(None, f"LLVM is missing ({why}): the slow reference engine runs the program")
-    from scanbench.session.host.tiers import Tiers
+    from scanbench.host.tiers import Tiers
 
     return Engines(Tiers(cache), "")
 

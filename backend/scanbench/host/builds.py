@@ -5,15 +5,15 @@ import threading
 from collections.abc import Callable
 
 from scanbench.engines.probe import Probe
+from scanbench.host.build import Builder
+from scanbench.host.debugcode import Debuggable, Probed, probed
+from scanbench.host.limits import MemoryLimit
+from scanbench.host.link import Link
+from scanbench.host.loop import Loop
+from scanbench.host.observed import Observable
+from scanbench.host.swaps import BuildRefused, Swap
 from scanbench.runtime.migrate_image import NEW, REMOVED, Change, changes
 from scanbench.runtime.programs import Loaded
-from scanbench.session.host.build import Builder
-from scanbench.session.host.debugcode import Debuggable, Probed, probed
-from scanbench.session.host.limits import MemoryLimit
-from scanbench.session.host.link import Link
-from scanbench.session.host.loop import Loop
-from scanbench.session.host.observed import Observable
-from scanbench.session.host.swaps import BuildRefused, Swap
 from scanbench.wire import host as protocol
 
 log = logging.getLogger("scanbench")

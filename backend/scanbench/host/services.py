@@ -8,17 +8,17 @@ from scanbench.faults.arm import ARMED, armed_faults
 from scanbench.faults.disturb.disturb import DISTURBED, disturbances
 from scanbench.faults.inject import ACTIVE
 from scanbench.faults.preview import preview
+from scanbench.host.link import Link
+from scanbench.host.lookup import watch_item
+from scanbench.host.marks import marks_of
+from scanbench.host.pacer import Course
+from scanbench.host.status import host_state
+from scanbench.host.swaps import Optimising
 from scanbench.recording.recording import RecordingInfo
 from scanbench.recording.timeline import PAST, Timeline
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.forces import FORCED, Force, ForcedValue, forced_values
 from scanbench.runtime.resource import Resource
-from scanbench.session.host.course import Course
-from scanbench.session.host.link import Link
-from scanbench.session.host.lookup import watch_item
-from scanbench.session.host.marks import marks_of
-from scanbench.session.host.status import host_state
-from scanbench.session.host.swaps import Optimising
 from scanbench.symbols.symbols import Symbol
 from scanbench.symbols.violations import Violations, read_violations
 from scanbench.taps.watch import WatchPlan

@@ -5,10 +5,10 @@ import threading
 from dataclasses import replace
 from queue import SimpleQueue
 
+from scanbench.host.link import Link
 from scanbench.program.program import Program
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.clock import monotonic_ns
-from scanbench.session.host.link import Link
 from scanbench.taps.trace import MAX_BYTES, MAX_TRACES, BadTrace, Trace, total_bytes
 from scanbench.taps.trace_buffer import PAGE, TooMany
 from scanbench.wire import host as protocol

@@ -1,4 +1,4 @@
-"""The nursery: `python -m scanbench.session.host.forking FD ENTRY...` imports everything once, and forks a process for every request.
+"""The nursery: `python -m scanbench.host.forking FD ENTRY...` imports everything once, and forks a process for every request.
 
 A request on the socket FD is the entry of the new process and the directory of the cache, with the new process's own socket; the
 reply is the number of the process, or why there is none. It ends when the server closes the socket, or is gone.
@@ -21,10 +21,10 @@ import msgpack  # type: ignore[import-untyped]
 
 from scanbench.check.incremental import Checks
 from scanbench.engines.lifeline import end_with_parent
+from scanbench.host.build import Builder, all_models
+from scanbench.host.entry import Serve, entry
+from scanbench.host.program_cache import key_of
 from scanbench.plcmodel.load import NoModels
-from scanbench.session.host.build import Builder, all_models
-from scanbench.session.host.entry import Serve, entry
-from scanbench.session.known import key_of
 from scanbench.wire.host import Sources
 
 _LARGEST_REQUEST = 65536

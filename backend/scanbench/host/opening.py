@@ -7,6 +7,11 @@ from pathlib import Path
 from scanbench.faults.detect import Detection
 from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.faults.schedule import Schedule
+from scanbench.host.build import Builder, BuildFailed
+from scanbench.host.link import Link
+from scanbench.host.loop import Loop
+from scanbench.host.programs import HostPrograms
+from scanbench.host.run_files import run_limit, sources_in
 from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.format import RunFileError
 from scanbench.recording.timeline import Timeline
@@ -16,11 +21,6 @@ from scanbench.runtime.command import Refusal
 from scanbench.runtime.joined import Joined
 from scanbench.runtime.resource import is_no_space
 from scanbench.runtime.set_clock import SetClock
-from scanbench.session.host.build import Builder, BuildFailed
-from scanbench.session.host.link import Link
-from scanbench.session.host.loop import Loop
-from scanbench.session.host.shelf import HostPrograms
-from scanbench.session.runs import run_limit, sources_in
 from scanbench.wire import host as protocol
 from scanbench.wire.codec import ENTRIES, pack_body
 

@@ -11,13 +11,13 @@ from pathlib import Path
 from scanbench.engines.lifeline import end_with_parent
 from scanbench.faults.arm import Arm
 from scanbench.faults.shapes import Start, Wanted
-from scanbench.session.host.build import Builder, BuildFailed
-from scanbench.session.host.builds import Builds
-from scanbench.session.host.limits import MemoryLimit, limit_files
-from scanbench.session.host.link import Link
-from scanbench.session.host.lookup import look_up
-from scanbench.session.host.loop import Loop
-from scanbench.session.host.opening import NoSpace, open_loop
+from scanbench.host.build import Builder, BuildFailed
+from scanbench.host.builds import Builds
+from scanbench.host.limits import MemoryLimit, limit_files
+from scanbench.host.link import Link
+from scanbench.host.lookup import look_up
+from scanbench.host.loop import Loop
+from scanbench.host.opening import NoSpace, open_loop
 from scanbench.wire import host as protocol
 from scanbench.wire.traces import ReadTrace
 

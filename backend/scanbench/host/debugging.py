@@ -14,15 +14,15 @@ from scanbench.debug.scene import NoFrame, Scene, at
 from scanbench.debug.scopes import scopes, variables
 from scanbench.debug.set_value import set_value
 from scanbench.engines.interpreter.evaluate import NoValue
+from scanbench.host.covering import Covering
+from scanbench.host.debugcode import Debuggable
+from scanbench.host.link import Link
+from scanbench.host.log_throttle import Saying
 from scanbench.program.program import Program
 from scanbench.recording.timeline import PAST, Timeline
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.resource import Resource
-from scanbench.session.host.covering import Covering
-from scanbench.session.host.debugcode import Debuggable
-from scanbench.session.host.link import Link
-from scanbench.session.host.saying import Saying
 from scanbench.symbols.sites import Sites, sites_of
 from scanbench.symbols.symbols import UnknownPath
 from scanbench.wire import debugging as debug_protocol

@@ -19,7 +19,7 @@ from pathlib import Path
 
 import msgpack  # type: ignore[import-untyped]
 
-HOST, JOB = "scanbench.session.host.host:serve", "scanbench.session.job:serve"
+HOST, JOB = "scanbench.host.host:serve", "scanbench.session.job:serve"
 """Entries of the processes: of one PLC; of jobs."""
 _PR_SET_CHILD_SUBREAPER = 36
 _LARGEST_REPLY = 4096
@@ -166,7 +166,7 @@ class Nursery:
             _adopt_orphans()
             ours, theirs = socket.socketpair(socket.AF_UNIX, socket.SOCK_SEQPACKET)
             with theirs:
-                command = [sys.executable, "-m", "scanbench.session.host.forking", str(theirs.fileno()), HOST, JOB]
+                command = [sys.executable, "-m", "scanbench.host.forking", str(theirs.fileno()), HOST, JOB]
                 try:
                     self._process = subprocess.Popen(
                         command, pass_fds=(theirs.fileno(),), stdin=subprocess.DEVNULL, env=os.environ | _THRIFT
@@ -209,7 +209,7 @@ def _adopt_orphans() -> None:
 def _single(sock: socket.socket, cache: Path | None, entry: str) -> _Single:
     fd = sock.fileno()
     kept = [str(cache)] if cache is not None else []
-    command = [sys.executable, "-m", "scanbench.session.host", str(fd), entry, *kept]
+    command = [sys.executable, "-m", "scanbench.host", str(fd), entry, *kept]
     return _Single(subprocess.Popen(command, pass_fds=(fd,), stdin=subprocess.DEVNULL))
 
 

@@ -2,10 +2,10 @@
 
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.faults.inject import Generate
+from scanbench.host.link import Link
 from scanbench.problems import Span
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Entry
-from scanbench.session.host.link import Link
 from scanbench.wire.debugging import LogpointSaid
 
 _AT_ONCE = 100
