@@ -27,6 +27,7 @@ from scanbench.engines.native.probed import ProbedBuilds
 from scanbench.history.reading import Reading
 from scanbench.history.writer import find_writer
 from scanbench.host.run_files import sources_in
+from scanbench.jobs.starting import checked_program, model_of
 from scanbench.plcmodel.load import model_named
 from scanbench.program.program import Program
 from scanbench.recording.blocks import KeptProgram
@@ -36,7 +37,6 @@ from scanbench.runtime.programs import Loaded, Shelf
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
 from scanbench.session.from_disk import program_files, project_model, read_text
-from scanbench.session.starting import checked_program, model_of
 from scanbench.verify.contract import Row
 from scanbench.verify.engines import native
 from scanbench.verify.ranges import parse_range

@@ -13,11 +13,11 @@ from scanbench.history.divergence import find_divergence
 from scanbench.history.engines import past_engines, programs_of
 from scanbench.history.reading import NoReading, Reading
 from scanbench.host.run_files import sources_in
+from scanbench.jobs.starting import checked_program
 from scanbench.program.program import Program
 from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.format import RunFileError
 from scanbench.runtime.programs import NoProgram
-from scanbench.session.starting import checked_program
 from scanbench.wire.codec import ENTRIES
 
 _SHOWN = 40

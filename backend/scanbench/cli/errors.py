@@ -30,6 +30,7 @@ from scanbench.faults.reaction.react import Point
 from scanbench.faults.reaction.reaction import WINDOW
 from scanbench.faults.reaction.sweep import Cell, sweep
 from scanbench.faults.reference import find_error
+from scanbench.jobs.starting import NoStart, checked_program, model_of, point_in
 from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_text
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import extended
@@ -53,7 +54,6 @@ from scanbench.runtime.command import Refusal
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram
 from scanbench.session.from_disk import DEFAULT_MODEL
-from scanbench.session.starting import NoStart, checked_program, model_of, point_in
 from scanbench.wire.codec import ENTRIES
 from scanbench.wire.host import Sources
 

@@ -18,6 +18,7 @@ from scanbench.engines.native.observed import ObservedBuilds
 from scanbench.faults.detect import Detection
 from scanbench.faults.schedule import Schedule
 from scanbench.host.run_files import RUN_SUFFIX, sources_in, sources_of
+from scanbench.jobs.starting import checked_program, model_of
 from scanbench.program.program import Program
 from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.format import RunFileError, is_run_file
@@ -25,7 +26,6 @@ from scanbench.recording.headless import HeadlessRun, run_headless
 from scanbench.recording.recording import Recording
 from scanbench.reports.report import Source
 from scanbench.runtime.programs import NoProgram
-from scanbench.session.starting import checked_program, model_of
 from scanbench.verify.contract import Range, ScanVerified
 from scanbench.verify.engines import Make
 from scanbench.verify.trace.bind import check

@@ -19,7 +19,7 @@ from pathlib import Path
 
 import msgpack  # type: ignore[import-untyped]
 
-HOST, JOB = "scanbench.host.host:serve", "scanbench.session.job:serve"
+HOST, JOB = "scanbench.host.host:serve", "scanbench.jobs.process:serve"
 """Entries of the processes: of one PLC; of jobs."""
 _PR_SET_CHILD_SUBREAPER = 36
 _LARGEST_REPLY = 4096

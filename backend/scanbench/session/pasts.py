@@ -6,8 +6,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from scanbench.history.contract import Changes, RerunChange, Writer
+from scanbench.jobs.client import ANSWER_S, DIED, SLOW, Job, answered
 from scanbench.runtime.clock import fresh_token
-from scanbench.session.jobs import ANSWER_S, DIED, SLOW, Job, answered
 from scanbench.session.session import Session
 from scanbench.store.records import NotFound
 from scanbench.wire.events import ComparisonChanged, Event, RerunChanged

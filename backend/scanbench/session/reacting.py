@@ -6,7 +6,7 @@ from dataclasses import dataclass
 from pathlib import Path
 
 from scanbench.faults.reaction.reaction import WINDOW, Reaction
-from scanbench.session.reactions import Reactions
+from scanbench.jobs.reactions import Reactions
 
 _STANDS = ("fatal", "trapped", "stopped", "off", "failed")
 """States in which no scan comes until somebody does something: what a program did until now is all it will do."""

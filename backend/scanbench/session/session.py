@@ -12,6 +12,7 @@ from scanbench.faults.history import ErrorRow, History, Swept
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.reference import ErrorRef
 from scanbench.host.load import Load, Loads
+from scanbench.jobs.reactions import Reactions
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import model_for
 from scanbench.runtime.clock import wall_time
@@ -23,7 +24,6 @@ from scanbench.session.instance import Instance, Remembered
 from scanbench.session.keeper import Keeper
 from scanbench.session.marks import Marks
 from scanbench.session.reacting import Raised, Reacting
-from scanbench.session.reactions import Reactions
 from scanbench.session.tracing import Tracing
 from scanbench.session.watches import Watches
 from scanbench.store.records import InstanceRow, Json, NotFound

@@ -9,10 +9,10 @@ from tempfile import TemporaryDirectory
 from scanbench.host.load import Loads
 from scanbench.host.run_files import run_path
 from scanbench.host.zygote import nursery
+from scanbench.jobs.reactions import Reactions
 from scanbench.plcmodel.model import Model
 from scanbench.session.instance import Remembered
 from scanbench.session.keeper import Keeper
-from scanbench.session.reactions import Reactions
 from scanbench.session.session import Session
 from scanbench.store.store import Store
 from scanbench.wire.host import Driven, Sources

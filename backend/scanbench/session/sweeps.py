@@ -14,12 +14,12 @@ from scanbench.faults.inject import Generate
 from scanbench.faults.reaction.compare import Outcome, SweepChange, compare
 from scanbench.faults.reaction.reaction import FINDINGS, Reaction, Verdict
 from scanbench.faults.reference import ErrorRef, find_error
+from scanbench.jobs.client import DIED, Job
 from scanbench.plcmodel.catalogue import path_text
 from scanbench.plcmodel.model import Model
 from scanbench.reports.reaction_json import from_json, to_json
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Refusal
-from scanbench.session.jobs import DIED, Job
 from scanbench.session.session import Session
 from scanbench.session.states import NOW, States
 from scanbench.store.records import AcceptedRow, CellRow, NotFound, SweepRow, SweepStatus, SweptError

@@ -7,11 +7,11 @@ from pathlib import Path
 
 from scanbench.engines.cache import BlobCache
 from scanbench.host.program_cache import key_of, recall
+from scanbench.jobs.starting import checked_program, model_of
 from scanbench.program.program import Program
 from scanbench.runtime.clock import fresh_token, monotonic_ns
 from scanbench.runtime.programs import NoProgram
 from scanbench.session.session import Session
-from scanbench.session.starting import checked_program, model_of
 from scanbench.store.records import MappingRow, NotFound
 from scanbench.store.store import Store
 from scanbench.verify.trace.bind import check

@@ -9,8 +9,8 @@ from pathlib import Path
 from typing import cast
 
 from scanbench.engines.sample import MAX_SIGNALS
+from scanbench.jobs.client import DIED, Job
 from scanbench.runtime.clock import fresh_token
-from scanbench.session.jobs import DIED, Job
 from scanbench.session.session import Session
 from scanbench.store.records import Json, KeptRow
 from scanbench.store.store import Store

@@ -10,8 +10,8 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Literal
 
+from scanbench.jobs.client import ANSWER_S, DIED, SLOW, Job
 from scanbench.reports.report import stretched
-from scanbench.session.jobs import ANSWER_S, DIED, SLOW, Job
 from scanbench.session.session import Session
 from scanbench.session.verify_rows import Rows
 from scanbench.verify.contract import Memory

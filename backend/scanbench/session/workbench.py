@@ -13,17 +13,17 @@ from scanbench import __version__
 from scanbench.host.load import Loads
 from scanbench.host.run_files import discard, discard_all, fresh_path, run_path, sources_and_damage, sweep
 from scanbench.host.zygote import nursery
+from scanbench.jobs.checker import Checker
+from scanbench.jobs.reactions import Reactions
 from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.recording.format import RunFileError
 from scanbench.runtime.clock import monotonic_ns
-from scanbench.session.builds import Checker
 from scanbench.session.instance import Remembered
 from scanbench.session.keeper import Keeper, breakpoint_of, line_of, row_of
 from scanbench.session.missing import stand_in, why_missing
 from scanbench.session.pasts import Pasts
 from scanbench.session.projects import Projects
-from scanbench.session.reactions import Reactions
 from scanbench.session.records import Records
 from scanbench.session.samples import samples
 from scanbench.session.session import LOG_LINES, Session

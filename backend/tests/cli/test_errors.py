@@ -11,7 +11,7 @@ import pytest
 from typer.testing import CliRunner
 
 from scanbench.cli.commands import app
-from scanbench.session import starting
+from scanbench.jobs import starting
 from scanbench.wire.host import Sources
 
 ERRORS = import_module("scanbench.cli.errors")  # of the package, `errors` is the command

@@ -7,7 +7,7 @@ from collections.abc import Awaitable, Callable
 
 import pytest
 
-from scanbench.session.builds import Checker
+from scanbench.jobs.checker import Checker
 from scanbench.wire.refused import Unavailable
 from tests.runtime.bench import model
 from tests.session.test_nursery import runs, until

@@ -21,6 +21,9 @@ from scanbench.faults.detect import Detection
 from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.host.zygote import JOB
+from scanbench.jobs import process as job_process
+from scanbench.jobs import starting
+from scanbench.jobs.starting import NoStart, reaction_in
 from scanbench.program.program import Program
 from scanbench.recording.blocks import Codec
 from scanbench.recording.recording import Recording
@@ -31,9 +34,6 @@ from scanbench.runtime.modes import SetMode
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.programs import Loaded, NoProgram, Shelf
 from scanbench.runtime.write import Write
-from scanbench.session import job as job_process
-from scanbench.session import starting
-from scanbench.session.starting import NoStart, reaction_in
 from scanbench.wire.codec import ENTRIES, Splitter, pack, pack_body, unpack
 from scanbench.wire.host import Sources
 from scanbench.wire.jobs import CellFound, FindReaction, JobDone, Reacted, RunSweep, StartPoint, Trying
@@ -344,7 +344,7 @@ def test_it_ends_with_its_parent(tmp_path: Path) -> None:
     code = (
         "import os, socket, subprocess, sys\n"
         "ours, theirs = socket.socketpair()\n"
-        "command = [sys.executable, '-m', 'scanbench.host', str(theirs.fileno()), 'scanbench.session.job:serve', sys.argv[1]]\n"
+        "command = [sys.executable, '-m', 'scanbench.host', str(theirs.fileno()), 'scanbench.jobs.process:serve', sys.argv[1]]\n"
         "process = subprocess.Popen(command, pass_fds=(theirs.fileno(),))\n"
         "ours.sendall(sys.stdin.buffer.read())\n"
         "ours.recv(1)\n"

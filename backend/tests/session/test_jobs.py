@@ -4,7 +4,7 @@ import asyncio
 
 import pytest
 
-from scanbench.session.jobs import answered
+from scanbench.jobs.client import answered
 
 
 def test_a_question_behind_others_waits_for_them() -> None:

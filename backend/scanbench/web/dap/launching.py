@@ -6,10 +6,10 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from scanbench.check.build import check_sources
+from scanbench.jobs.checker import INTERVAL_NS
 from scanbench.plcmodel.load import NoModels, NoSuchModel, model_named
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem, Severity
-from scanbench.session.builds import INTERVAL_NS
 from scanbench.session.from_disk import DEFAULT_MODEL, program_files, project_model, read_text
 from scanbench.session.solo import Solo
 from scanbench.session.user_cache import user_cache

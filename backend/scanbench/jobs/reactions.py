@@ -4,7 +4,7 @@ import asyncio
 from pathlib import Path
 
 from scanbench.faults.reaction.reaction import Reaction
-from scanbench.session.jobs import ANSWER_S, DIED, SLOW, Job, answered
+from scanbench.jobs.client import ANSWER_S, DIED, SLOW, Job, answered
 from scanbench.wire import jobs as job_protocol
 
 IDLE_S = 60.0

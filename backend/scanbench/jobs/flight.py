@@ -13,6 +13,7 @@ from scanbench.check.typed.condition import BadCondition, Signal, compile_signal
 from scanbench.engines.engine import Engine
 from scanbench.engines.sample import HEAD_WORDS, Sampling
 from scanbench.host.run_files import sources_in
+from scanbench.jobs.starting import NoStart, ProgramOf
 from scanbench.program.program import Program
 from scanbench.program.types import BOOL, Elementary
 from scanbench.recording.blocks import KeptProgram
@@ -23,7 +24,6 @@ from scanbench.recording.timeline import NOT_AS_RECORDED, KeptPrograms, open_at
 from scanbench.runtime.command import Entry, Swapped
 from scanbench.runtime.programs import Loaded, NoProgram
 from scanbench.runtime.resource import Resource
-from scanbench.session.starting import NoStart, ProgramOf
 from scanbench.taps.spool import write_pages
 from scanbench.taps.trace import TraceSignal, described
 from scanbench.taps.trace_buffer import TraceBuffer, Words, row_bytes

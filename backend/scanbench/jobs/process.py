@@ -20,13 +20,14 @@ from scanbench.faults.reaction.observed import ObservedPrograms
 from scanbench.faults.reaction.react import Point
 from scanbench.faults.reaction.sweep import sweep
 from scanbench.host.program_cache import key_of, recall
+from scanbench.jobs import history as past_job
+from scanbench.jobs import verification as verify_job
+from scanbench.jobs.flight import BadSignal, fly
+from scanbench.jobs.starting import NoStart, checked_program, model_of, point_in, reaction_in
 from scanbench.program.program import Program
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram
-from scanbench.session import past_job, verify_job
-from scanbench.session.flight import BadSignal, fly
-from scanbench.session.starting import NoStart, checked_program, model_of, point_in, reaction_in
 from scanbench.wire import verification as verify_protocol
 from scanbench.wire.codec import BadMessage, Splitter, pack
 from scanbench.wire.host import Sources

@@ -5,6 +5,7 @@ from pathlib import Path
 
 from scanbench.engines.cache import BlobCache
 from scanbench.host.run_files import sources_in
+from scanbench.jobs.starting import NoStart, ProgramOf
 from scanbench.program.program import Program
 from scanbench.recording.blocks import KeptProgram
 from scanbench.recording.format import RunFileError
@@ -12,7 +13,6 @@ from scanbench.reports.report import stretched
 from scanbench.reports.value_text import value_text
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.programs import NoProgram
-from scanbench.session.starting import NoStart, ProgramOf
 from scanbench.verify.contract import BadRange, Column, Row, ScanVerified
 from scanbench.verify.engines import native
 from scanbench.verify.trace.mapping import BadMapping

@@ -14,11 +14,11 @@ from scanbench.history.reading import NoReading, Reading
 from scanbench.history.rerun import rerun
 from scanbench.history.writer import find_writer
 from scanbench.host.run_files import sources_in
+from scanbench.jobs.starting import NoStart, ProgramOf
 from scanbench.recording.format import RunFileError
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.joined import Joined
 from scanbench.runtime.programs import NoProgram
-from scanbench.session.starting import NoStart, ProgramOf
 from scanbench.wire.codec import ENTRIES
 from scanbench.wire.verification import (
     NOW,
