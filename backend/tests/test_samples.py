@@ -5,7 +5,7 @@ import pytest
 from scanbench.check.build import check_sources
 from scanbench.engines.pair import PairEngine
 from scanbench.recording.headless import HeadlessRun, run_headless
-from scanbench.session.samples import Sample, samples
+from scanbench.server.samples import Sample, samples
 from tests.caseformat import MODELS
 
 SAMPLES = {sample.name: sample for sample in samples()}

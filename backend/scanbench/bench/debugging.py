@@ -33,7 +33,7 @@ from scanbench.engines.probe import Probe
 from scanbench.plcmodel.load import model_named
 from scanbench.program.program import Pou, Program
 from scanbench.program.types import Elementary, Kind, Record
-from scanbench.session.samples import samples
+from scanbench.server.samples import samples
 from scanbench.symbols.sites import Sites
 
 T = TypeVar("T")

@@ -24,8 +24,8 @@ from scanbench.host.load import Loads
 from scanbench.host.program_cache import keep, key_of
 from scanbench.host.run_files import run_path
 from scanbench.host.zygote import nursery
+from scanbench.server.samples import samples
 from scanbench.session.instance import Instance, Remembered
-from scanbench.session.samples import samples
 from scanbench.store.records import Limits
 from scanbench.wire import host as protocol
 from scanbench.wire.events import PlcState

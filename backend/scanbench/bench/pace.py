@@ -22,7 +22,7 @@ from scanbench.runtime.command import Refusal
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
-from scanbench.session.samples import samples
+from scanbench.server.samples import samples
 
 SAMPLE = "Conveyor"
 PERIODS_MS = (1, 10)

@@ -36,7 +36,7 @@ from scanbench.recording.recording import Recording
 from scanbench.runtime.programs import Loaded, Shelf
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
-from scanbench.session.from_disk import program_files, project_model, read_text
+from scanbench.server.from_disk import program_files, project_model, read_text
 from scanbench.verify.contract import Row
 from scanbench.verify.engines import native
 from scanbench.verify.ranges import parse_range

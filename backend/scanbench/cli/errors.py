@@ -53,7 +53,7 @@ from scanbench.runtime.clock import iso, wall_time
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram
-from scanbench.session.from_disk import DEFAULT_MODEL
+from scanbench.server.from_disk import DEFAULT_MODEL
 from scanbench.wire.codec import ENTRIES
 from scanbench.wire.host import Sources
 

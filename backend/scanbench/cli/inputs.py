@@ -12,7 +12,7 @@ from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem
 from scanbench.recording.format import Damaged
 from scanbench.recording.recording import Recording
-from scanbench.session.from_disk import DEFAULT_MODEL, program_files, project_model, read_text
+from scanbench.server.from_disk import DEFAULT_MODEL, program_files, project_model, read_text
 from scanbench.wire.refused import Refused
 
 DAMAGED = 4

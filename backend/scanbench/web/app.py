@@ -13,7 +13,7 @@ from starlette.types import ASGIApp
 
 from scanbench import __version__
 from scanbench.runtime.resource import is_no_space
-from scanbench.session.workbench import Workbench
+from scanbench.server.workbench import Workbench
 from scanbench.store.records import Conflict, ListConflict, NameTaken, NotFound, NotStorable, StoreError
 from scanbench.web import messages as wire
 from scanbench.web import (

@@ -5,7 +5,7 @@ from typing import Annotated
 from fastapi import Depends, Request, WebSocket
 
 from scanbench.plcmodel.document import SIZE_LIMIT
-from scanbench.session.workbench import Workbench
+from scanbench.server.workbench import Workbench
 from scanbench.wire.refused import Refused
 
 

@@ -7,8 +7,8 @@ from fastapi.responses import FileResponse
 from starlette.background import BackgroundTask
 
 from scanbench import __version__
+from scanbench.server.workbench import Workbench
 from scanbench.session.session import Session
-from scanbench.session.workbench import Workbench
 from scanbench.store.records import Limits, NotFound
 from scanbench.web import messages as wire
 from scanbench.web import translate

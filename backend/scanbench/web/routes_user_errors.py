@@ -8,7 +8,7 @@ from fastapi import APIRouter, Request, Response
 
 from scanbench.plcmodel import drafts as plc
 from scanbench.plcmodel.check_drafts import DraftProblem
-from scanbench.session import user_errors
+from scanbench.server import user_errors
 from scanbench.web import messages as shared
 from scanbench.web import messages_user_errors as wire
 from scanbench.web.auth import user_of

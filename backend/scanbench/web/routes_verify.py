@@ -8,7 +8,7 @@ from fastapi import APIRouter, Query, Request
 from fastapi.responses import Response
 
 from scanbench.faults.disturb.disturb import Calm
-from scanbench.session.verifications import Exported
+from scanbench.server.verifications import Exported
 from scanbench.verify.trace.read import MAX_BYTES
 from scanbench.web import messages_verify as wire
 from scanbench.web import translate_verify

@@ -11,7 +11,7 @@ from starlette.types import ASGIApp
 
 from scanbench.engines.lifeline import end_children
 from scanbench.plcmodel.load import NoModels
-from scanbench.session.workbench import Workbench
+from scanbench.server.workbench import Workbench
 from scanbench.store.database import database_url
 from scanbench.store.records import StoreError
 from scanbench.store.store import Store

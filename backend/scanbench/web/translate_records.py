@@ -4,7 +4,7 @@ from datetime import datetime
 
 from scanbench.reports import record as kept
 from scanbench.runtime.clock import iso
-from scanbench.session.records import HistoryVersion
+from scanbench.server.test_records import HistoryVersion
 from scanbench.store import records as store
 from scanbench.web import messages_records as wire
 from scanbench.web import translate_errors

@@ -1,7 +1,7 @@
 """Traces and their records -> wire shapes, and back. Nothing is decided here."""
 
 from scanbench.runtime.clock import iso
-from scanbench.session.trace_records import TraceRecord
+from scanbench.server.trace_records import TraceRecord
 from scanbench.taps import trace as tap
 from scanbench.web import messages_trace as wire
 from scanbench.wire import events

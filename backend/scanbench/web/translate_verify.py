@@ -3,9 +3,9 @@
 from scanbench.faults.disturb.definition import Disturbance
 from scanbench.faults.disturb.disturb import Disturb, DisturbanceInfo
 from scanbench.runtime.clock import iso
-from scanbench.session.trace_files import Checked, TraceFile, mapping_of
-from scanbench.session.verifications import Kept
-from scanbench.session.verify_rows import RowsPage
+from scanbench.server.uploads import Checked, TraceFile, mapping_of
+from scanbench.server.verifications import Kept
+from scanbench.server.verify_rows import RowsPage
 from scanbench.store.records import MappingRow
 from scanbench.verify import contract as verified
 from scanbench.verify.trace.mapping import ColumnMap, TraceMapping

@@ -11,7 +11,7 @@ import pytest
 from scanbench.host.run_files import run_path
 from scanbench.plcmodel.load import model_directory
 from scanbench.runtime.restart import Restart
-from scanbench.session.workbench import Workbench
+from scanbench.server.workbench import Workbench
 from scanbench.store.records import HistoryRow, NotFound
 from scanbench.store.store import Store
 from scanbench.wire.refused import Refused

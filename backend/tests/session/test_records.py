@@ -16,9 +16,9 @@ from scanbench.plcmodel.model import Model
 from scanbench.reports import record as record_room
 from scanbench.reports.record import TestRecord
 from scanbench.reports.record_xml import to_xml
-from scanbench.session import records
+from scanbench.server import test_records as records
+from scanbench.server.test_records import Records
 from scanbench.session.keeper import Keeper
-from scanbench.session.records import Records
 from scanbench.session.session import Session
 from scanbench.store.records import CellRow, LogRow, SweptError
 from scanbench.store.store import Store

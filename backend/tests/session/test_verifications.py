@@ -6,9 +6,9 @@ from typing import Literal, cast
 
 import pytest
 
-from scanbench.session import verifications
+from scanbench.server import verifications
+from scanbench.server.verifications import Verifications
 from scanbench.session.session import Session
-from scanbench.session.verifications import Verifications
 from scanbench.store.store import Store
 from scanbench.verify.contract import Range
 from scanbench.wire.events import Event, VerificationStatus, VerifyWish

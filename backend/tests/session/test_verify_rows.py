@@ -2,8 +2,8 @@
 
 import pytest
 
-from scanbench.session import verify_rows
-from scanbench.session.verify_rows import Rows
+from scanbench.server import verify_rows
+from scanbench.server.verify_rows import Rows
 from scanbench.verify.contract import Column, Mismatch, Output, Row
 from scanbench.wire.codec import pack_body
 from scanbench.wire.verification import PackedRow, ScansVerified

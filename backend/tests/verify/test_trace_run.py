@@ -12,7 +12,7 @@ from scanbench.program.program import Program
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
-from scanbench.session.samples import Sample, samples
+from scanbench.server.samples import Sample, samples
 from scanbench.symbols.symbols import resolve
 from scanbench.symbols.values import format_value
 from scanbench.verify.contract import BadRange, Mismatch, Row

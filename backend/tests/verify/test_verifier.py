@@ -23,7 +23,7 @@ from scanbench.runtime.programs import Loaded, Shelf
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
-from scanbench.session.samples import Sample, samples
+from scanbench.server.samples import Sample, samples
 from scanbench.verify.contract import Range
 from scanbench.verify.engines import native, reference
 from scanbench.verify.verifier import BadEdit, Unverifiable, Verifier

@@ -12,7 +12,7 @@ from scanbench.runtime.command import Refusal
 from scanbench.runtime.programs import Loaded
 from scanbench.runtime.resource import Resource
 from scanbench.runtime.write import Write
-from scanbench.session.samples import samples
+from scanbench.server.samples import samples
 from scanbench.symbols.symbols import members
 from scanbench.taps.trace import Trace, TraceDefinition
 from scanbench.taps.trace_csv import to_csv

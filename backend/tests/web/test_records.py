@@ -9,7 +9,7 @@ import pytest
 from lxml import etree
 
 from scanbench.reports.record import RecordHead, TestRecord
-from scanbench.session.workbench import Workbench
+from scanbench.server.workbench import Workbench
 from scanbench.web import routes_records
 from tests.web.server import Browser, Server
 

@@ -10,7 +10,7 @@ from pathlib import Path
 import httpx
 import pytest
 
-from scanbench.session.workbench import Workbench
+from scanbench.server.workbench import Workbench
 from scanbench.store.records import StoreError
 from scanbench.web import messages, messages_errors, messages_records, messages_user_errors, openapi
 from scanbench.web.app import bare_app

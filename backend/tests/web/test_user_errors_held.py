@@ -10,8 +10,8 @@ import pytest
 from starlette.requests import Request
 
 from scanbench.plcmodel.model import Model
-from scanbench.session import user_errors
-from scanbench.session.workbench import Workbench
+from scanbench.server import user_errors
+from scanbench.server.workbench import Workbench
 from scanbench.store.records import FileRow, NotFound
 from scanbench.web import messages_user_errors as wire
 from scanbench.web import routes_user_errors as routes

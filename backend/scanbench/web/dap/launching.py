@@ -10,9 +10,9 @@ from scanbench.jobs.checker import INTERVAL_NS
 from scanbench.plcmodel.load import NoModels, NoSuchModel, model_named
 from scanbench.plcmodel.model import Model
 from scanbench.problems import Problem, Severity
-from scanbench.session.from_disk import DEFAULT_MODEL, program_files, project_model, read_text
-from scanbench.session.solo import Solo
-from scanbench.session.user_cache import user_cache
+from scanbench.server.from_disk import DEFAULT_MODEL, program_files, project_model, read_text
+from scanbench.server.solo import Solo
+from scanbench.server.user_cache import user_cache
 from scanbench.syntax.literals import duration
 from scanbench.web.dap import shapes
 from scanbench.web.dap.debuggee import Debuggee

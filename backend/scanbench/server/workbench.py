@@ -19,20 +19,20 @@ from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.recording.format import RunFileError
 from scanbench.runtime.clock import monotonic_ns
+from scanbench.server.history import Pasts
+from scanbench.server.missing import stand_in, why_missing
+from scanbench.server.projects import Projects
+from scanbench.server.samples import samples
+from scanbench.server.states import States
+from scanbench.server.sweeps import Sweeps
+from scanbench.server.test_records import Records
+from scanbench.server.trace_records import TraceRecords
+from scanbench.server.uploads import TraceFiles
+from scanbench.server.verifications import Verifications
+from scanbench.server.watch_lists import WatchLists
 from scanbench.session.instance import Remembered
 from scanbench.session.keeper import Keeper, breakpoint_of, line_of, row_of
-from scanbench.session.missing import stand_in, why_missing
-from scanbench.session.pasts import Pasts
-from scanbench.session.projects import Projects
-from scanbench.session.records import Records
-from scanbench.session.samples import samples
 from scanbench.session.session import LOG_LINES, Session
-from scanbench.session.states import States
-from scanbench.session.sweeps import Sweeps
-from scanbench.session.trace_files import TraceFiles
-from scanbench.session.trace_records import TraceRecords
-from scanbench.session.verifications import Verifications
-from scanbench.session.watch_lists import WatchLists
 from scanbench.store.records import InstanceRow, Limits, NotFound, ProjectRow
 from scanbench.store.store import Store
 from scanbench.wire.host import Driven

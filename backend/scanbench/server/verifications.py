@@ -11,10 +11,10 @@ from scanbench.reports.report_html import to_html
 from scanbench.reports.report_json import to_json
 from scanbench.reports.table_csv import to_csv
 from scanbench.runtime.clock import iso, monotonic_ns, wall_time
+from scanbench.server.uploads import TraceFile
+from scanbench.server.verification import TraceSource, Verification
+from scanbench.server.verify_rows import Rows, RowsPage
 from scanbench.session.session import Session
-from scanbench.session.trace_files import TraceFile
-from scanbench.session.verification import TraceSource, Verification
-from scanbench.session.verify_rows import Rows, RowsPage
 from scanbench.store.records import Json, KeptRow, NotFound
 from scanbench.store.store import Store
 from scanbench.verify.contract import Memory, Range

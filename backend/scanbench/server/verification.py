@@ -12,8 +12,8 @@ from typing import Literal
 
 from scanbench.jobs.client import ANSWER_S, DIED, SLOW, Job
 from scanbench.reports.report import stretched
+from scanbench.server.verify_rows import Rows
 from scanbench.session.session import Session
-from scanbench.session.verify_rows import Rows
 from scanbench.verify.contract import Memory
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import host as protocol

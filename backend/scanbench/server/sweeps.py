@@ -20,8 +20,8 @@ from scanbench.plcmodel.model import Model
 from scanbench.reports.reaction_json import from_json, to_json
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Refusal
+from scanbench.server.states import NOW, States
 from scanbench.session.session import Session
-from scanbench.session.states import NOW, States
 from scanbench.store.records import AcceptedRow, CellRow, NotFound, SweepRow, SweepStatus, SweptError
 from scanbench.store.store import Store
 from scanbench.wire.events import SweepChanged

@@ -10,7 +10,7 @@ from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import USER_ERRORS, document_of, with_user_errors
 from scanbench.plcmodel.write_catalogue import write_catalogue
 from scanbench.problems import Problem
-from scanbench.session.projects import Projects
+from scanbench.server.projects import Projects
 from scanbench.store.records import NotFound
 from scanbench.wire.refused import Refused
 
