@@ -12,8 +12,8 @@ from scanbench.host.zygote import nursery
 from scanbench.jobs.reactions import Reactions
 from scanbench.plcmodel.model import Model
 from scanbench.session.instance import Remembered
-from scanbench.session.keeper import Keeper
 from scanbench.session.session import Session
+from scanbench.session.write_behind import Keeper
 from scanbench.store.store import Store
 from scanbench.wire.host import Driven, Sources
 from scanbench.wire.refused import Refused

@@ -31,8 +31,8 @@ from scanbench.server.uploads import TraceFiles
 from scanbench.server.verifications import Verifications
 from scanbench.server.watch_lists import WatchLists
 from scanbench.session.instance import Remembered
-from scanbench.session.keeper import Keeper, breakpoint_of, line_of, row_of
 from scanbench.session.session import LOG_LINES, Session
+from scanbench.session.write_behind import Keeper, breakpoint_of, line_of, row_of
 from scanbench.store.records import InstanceRow, Limits, NotFound, ProjectRow
 from scanbench.store.store import Store
 from scanbench.wire.host import Driven

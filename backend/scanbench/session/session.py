@@ -21,11 +21,11 @@ from scanbench.runtime.forces import Force, ForcedValue
 from scanbench.runtime.write import Write
 from scanbench.session.debugging import Debugging
 from scanbench.session.instance import Instance, Remembered
-from scanbench.session.keeper import Keeper
 from scanbench.session.marks import Marks
 from scanbench.session.reacting import Raised, Reacting
 from scanbench.session.tracing import Tracing
 from scanbench.session.watches import Watches
+from scanbench.session.write_behind import Keeper
 from scanbench.store.records import InstanceRow, Json, NotFound
 from scanbench.symbols.violations import Violations
 from scanbench.wire import debugging as debug_protocol

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from scanbench.faults.history import ErrorRow
-from scanbench.session.keeper import LOG_KEPT, LOG_TRIMMED_EVERY, Keeper
+from scanbench.session.write_behind import LOG_KEPT, LOG_TRIMMED_EVERY, Keeper
 from scanbench.store.records import HistoryRow, LogRow, StoreError
 from scanbench.store.store import Store
 from scanbench.wire.events import LogEntry
@@ -187,7 +187,7 @@ def test_a_row_that_cannot_be_written_takes_nothing_with_it(
 def test_what_the_database_refuses_is_written_when_it_can_be(
     store: Slow, instance: int, caplog: pytest.LogCaptureFixture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("scanbench.session.keeper.AGAIN_S", 0.01)
+    monkeypatch.setattr("scanbench.session.write_behind.AGAIN_S", 0.01)
     add, full, written = Store.add_log, True, threading.Event()
 
     def refuse(self: Store, instance: int, lines: Sequence[LogRow], keep: int | None = None) -> None:
@@ -219,7 +219,7 @@ def test_what_the_database_refuses_is_written_when_it_can_be(
 def test_what_was_written_before_the_database_refused_is_not_written_again(
     store: Slow, instance: int, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("scanbench.session.keeper.AGAIN_S", 0.01)
+    monkeypatch.setattr("scanbench.session.write_behind.AGAIN_S", 0.01)
     add, batches, whole = Store.add_log, 0, threading.Event()
 
     def refuse(self: Store, instance: int, lines: Sequence[LogRow], keep: int | None = None) -> None:
