@@ -2,7 +2,7 @@
 
 Every watched value of up to 8 bytes is a row of one gather: eight byte indices, a shift (bits of an area) and a mask.
 In-outs lead elsewhere at every call, so their rows are set anew before each gather when their slots changed. The bytes
-of a frame are described in `web/frames.py`.
+of a frame are described in `web/socket/frames.py`.
 """
 
 import struct

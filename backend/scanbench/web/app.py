@@ -16,28 +16,26 @@ from scanbench.runtime.resource import is_no_space
 from scanbench.server.workbench import Workbench
 from scanbench.store.records import Conflict, ListConflict, NameTaken, NotFound, NotStorable, StoreError
 from scanbench.web import messages as wire
-from scanbench.web import (
-    routes_binding,
-    routes_dap,
-    routes_debug,
-    routes_errors,
-    routes_instances,
-    routes_models,
-    routes_past,
-    routes_projects,
-    routes_records,
-    routes_sweeps,
-    routes_traces,
-    routes_user_errors,
-    routes_values,
-    routes_verify,
-    routes_watch,
-    translate,
-)
+from scanbench.web import translate
 from scanbench.web.auth import Gate, Guard
 from scanbench.web.built_files import BuiltFiles
 from scanbench.web.headers import NoStore
 from scanbench.web.pages import frontend_directory, not_built_page
+from scanbench.web.routes import binding as routes_binding
+from scanbench.web.routes import debug as routes_debug
+from scanbench.web.routes import errors as routes_errors
+from scanbench.web.routes import instances as routes_instances
+from scanbench.web.routes import models as routes_models
+from scanbench.web.routes import past as routes_past
+from scanbench.web.routes import projects as routes_projects
+from scanbench.web.routes import records as routes_records
+from scanbench.web.routes import sweeps as routes_sweeps
+from scanbench.web.routes import traces as routes_traces
+from scanbench.web.routes import user_errors as routes_user_errors
+from scanbench.web.routes import values as routes_values
+from scanbench.web.routes import verify as routes_verify
+from scanbench.web.routes import watch as routes_watch
+from scanbench.web.socket import dap as routes_dap
 from scanbench.wire.refused import Refused, Unavailable
 
 _STATUS: dict[type[Exception], int] = {

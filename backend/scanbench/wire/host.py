@@ -344,7 +344,7 @@ class PreviewedErrors:
 
 @dataclass(frozen=True, slots=True)
 class Frame:
-    """A value frame (`web/frames.py`), for all subscribers or for one."""
+    """A value frame (`web/socket/frames.py`), for all subscribers or for one."""
 
     data: bytes
     live_scan: int

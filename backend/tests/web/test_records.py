@@ -10,7 +10,7 @@ from lxml import etree
 
 from scanbench.reports.record import RecordHead, TestRecord
 from scanbench.server.workbench import Workbench
-from scanbench.web import routes_records
+from scanbench.web.routes import records as routes_records
 from tests.web.server import Browser, Server
 
 MODEL = "CJ1M-CPU63"

@@ -14,7 +14,7 @@ from scanbench.server import user_errors
 from scanbench.server.workbench import Workbench
 from scanbench.store.records import FileRow, NotFound
 from scanbench.web import messages_user_errors as wire
-from scanbench.web import routes_user_errors as routes
+from scanbench.web.routes import user_errors as routes
 from tests.caseformat import MODELS
 
 

@@ -4,7 +4,7 @@ import asyncio
 
 import pytest
 
-from scanbench.web.waiting import Waiting
+from scanbench.web.socket.waiting import Waiting
 
 
 def test_texts_come_out_in_order() -> None:

@@ -1,4 +1,4 @@
-/** Disturbances of an instance: the routes of `web/routes_verify.py`. */
+/** Disturbances of an instance: the routes of `web/routes/verify.py`. */
 import { json } from "./rest";
 import type { CommandResult, NewDisturbance } from "./types";
 

@@ -1,4 +1,4 @@
-/** Questions about the past of a run: the routes of `web/routes_past.py`. */
+/** Questions about the past of a run: the routes of `web/routes/past.py`. */
 import { json, request } from "./rest";
 import type { Comparison, LastWriter, NewRerun, Rerun, RunChanges } from "./types";
 

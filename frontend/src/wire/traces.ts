@@ -1,4 +1,4 @@
-/** Traces of an instance, their samples, and records of them: the routes of `web/routes_traces.py`. */
+/** Traces of an instance, their samples, and records of them: the routes of `web/routes/traces.py`. */
 import { blob, bytes, json, request } from "./rest";
 import type { DefineTrace, Flight, TraceInfo, TraceRecordInfo } from "./types";
 

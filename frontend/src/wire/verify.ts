@@ -1,4 +1,4 @@
-/** Verifications of an instance, their rows, and what was kept of them: the routes of `web/routes_verify.py`. */
+/** Verifications of an instance, their rows, and what was kept of them: the routes of `web/routes/verify.py`. */
 import { blob, json, request } from "./rest";
 import type {
   DriveVerification,

@@ -13,7 +13,7 @@ from scanbench.web.dap.conversation import Conversation
 from scanbench.web.dap.shapes import Body
 from scanbench.web.messages_base import Id
 from scanbench.web.reach import SocketBench
-from scanbench.web.waiting import Waiting
+from scanbench.web.socket.waiting import Waiting
 
 router = APIRouter(prefix="/api", tags=["debug"])
 

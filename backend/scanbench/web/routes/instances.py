@@ -16,7 +16,7 @@ from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id, Scan, Version
 from scanbench.web.messages_errors import ErrorHistoryRow
 from scanbench.web.reach import Bench, SocketBench
-from scanbench.web.socket import Client
+from scanbench.web.socket.socket import Client
 from scanbench.wire.refused import Refused
 
 router = APIRouter(prefix="/api", tags=["instances"])

@@ -28,7 +28,7 @@ from scanbench.web import messages_errors as simulator
 from scanbench.web import translate, translate_debug, translate_errors, translate_verify
 from scanbench.web.dap.attaching import ForBrowser
 from scanbench.web.dap.conversation import Conversation
-from scanbench.web.waiting import Waiting
+from scanbench.web.socket.waiting import Waiting
 from scanbench.wire import events
 from scanbench.wire.events import Event, User
 from scanbench.wire.host import Ack
