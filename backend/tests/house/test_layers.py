@@ -9,7 +9,8 @@ import pytest
 
 BACKEND = Path(__file__).parents[2]
 ROOMS = (
-    "cli web session verify comm store taps faults debug runtime engines check syntax plcmodel problems garbage".split()
+    "cli web server session comm jobs host wire reports history verify store taps faults debug recording runtime engines check symbols"
+    " program syntax plcmodel problems garbage".split()
 )
 INNER = ["engines.interpreter", "engines.native", "runtime.clock"]
 
@@ -46,7 +47,10 @@ def test_an_empty_house_keeps_every_contract(house: Path) -> None:
         ("runtime", "import scanbench.taps", "imports run downward"),
         ("engines", "import scanbench.runtime", "imports run downward"),
         ("taps", "import scanbench.faults", "imports run downward"),
-        ("store", "import scanbench.comm", "imports run downward"),
+        ("store", "import scanbench.verify", "imports run downward"),
+        ("runtime", "import scanbench.recording", "imports run downward"),
+        ("session", "import scanbench.comm", "imports run downward"),
+        ("host", "import scanbench.jobs", "imports run downward"),
         ("syntax", "import scanbench.plcmodel", "imports run downward"),
         ("engines/native", "import scanbench.engines.interpreter", "share no code generation"),
         ("engines/native", "import llvmlite.binding", "llvmlite only in"),
