@@ -9,6 +9,7 @@ import "./ui/grid.css";
 import "./app/shell.css";
 import "./app/dock.css";
 import "./panels/panels.css";
+import "./ui/forced.css";
 
 connectStores();
 void start();

@@ -174,7 +174,8 @@ export const english = {
   "errors.start.pick": "Choose an error,",
   "errors.start.pick.rest": "or tick several or a whole group, then Generate.",
   "errors.start.see": "Reaction",
-  "errors.start.see.rest": "tells then what the program did: reacted, read without effect, or never read.",
+  "errors.start.see.rest":
+    "tells then what the program did: reacted, only stored it, read it without effect, did not reach the place that reads it, or never reads it.",
   "errors.start.title": "Nothing raised yet",
   "errors.user": "User-defined",
   "fatal.before": "Scan before",
@@ -282,8 +283,9 @@ export const english = {
   "explorer.plant": "Plant",
   "explorer.program": "Programs",
   "explorer.type": "Types",
+  "failed.hopeless": "The PLC cannot be started.",
   "failed.start": "Start again",
-  "failed.title": "The PLC cannot be started.",
+  "failed.title": "The PLC failed.",
   "fatal.about":
     "Stopped in scan {scan}. Outputs are off, also where memory is held. Next: clear it, then choose MONITOR or RUN.",
   "fatal.clear": "Clear error",
@@ -712,7 +714,7 @@ export const english = {
   "past.live": "Return to live",
   "past.readonly": "The PLC waits at its live scan. To change something here, branch.",
   "past.title": "Scan {scan} of {live}: the past,",
-  "permit.failed": "The PLC cannot be started: build a corrected program, or begin a new run.",
+  "permit.failed": "The PLC failed: start it again, build a corrected program, or begin a new run.",
   "permit.model": "The PLC cannot be started: its model is missing. The banner above says what to do.",
   "permit.no_space":
     "The PLC waits for space on the disk, and nothing can be changed. Make room: it goes on by itself.",

@@ -207,5 +207,8 @@ export const verifyEnglish = {
   "verify.holds": "waits for the verification: Go on",
   "verify.kept": "Kept as {name}",
   "verify.writer.none": "Choose a variable of the row",
+  "verify.title.line": "{of}, line {line}",
+  "verify.title.lines": "{of}, lines {first} to {last}",
+  "verify.title.whole": "the whole scan",
   "verify.whole": "Verify whole program",
 } as const;

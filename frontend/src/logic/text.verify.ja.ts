@@ -208,5 +208,8 @@ export const verifyJapanese: Record<keyof typeof verifyEnglish, string> = {
   "verify.holds": "検証の「次へ」を待っています",
   "verify.kept": "{name} として保存しました",
   "verify.writer.none": "行の変数を選んでください",
+  "verify.title.line": "{of}、{line} 行目",
+  "verify.title.lines": "{of}、{first}～{last} 行",
+  "verify.title.whole": "スキャン全体",
   "verify.whole": "プログラム全体を検証",
 };

@@ -1,5 +1,6 @@
 import { describe, expect, it } from "vitest";
 import type { VerifyColumn, VerifyRow } from "../wire/types";
+import { setLanguage } from "./text";
 import {
   differsIn,
   firstDifferingUnit,
@@ -10,6 +11,7 @@ import {
   resultOf,
   scanTyped,
   stretchLines,
+  titleOf,
   variableOf,
   writtenBefore,
 } from "./verify";
@@ -159,4 +161,13 @@ describe("variables of a row", () => {
     const written = row({ outputs: { speed: { ...both, monitor: "02" } }, differences: [differs({})] });
     expect(firstDifferingUnit(written, [input, output], "recorded")).toBe(output);
   });
+});
+
+it("what was verified is said in the language of the page", () => {
+  const said = () =>
+    ["the whole scan", "Belt, lines 14 to 20", "Belt.run, line 3", "Belt"].map((title) => titleOf({ title }));
+  expect(said()).toEqual(["the whole scan", "Belt, lines 14 to 20", "Belt.run, line 3", "Belt"]);
+  setLanguage("ja");
+  expect(said()).toEqual(["スキャン全体", "Belt、14～20 行", "Belt.run、3 行目", "Belt"]);
+  setLanguage("en");
 });

@@ -1,11 +1,22 @@
 /** Rows of a verification: what differs in them, and the way from difference to difference. */
 import type { VerificationInfo, VerifyDifference, VerifyOutput, VerifyRow } from "../wire/types";
 import { grouped } from "./numbers";
+import { t } from "./text";
 import type { Unit } from "./verifyColumns";
 
 /** A' as it is shown: on edited inputs where the monitor ran on them. */
 export function resultOf(output: VerifyOutput, memory: VerificationInfo["memory"]): string | null {
   return memory === "set" && output.set !== null ? output.set : output.monitor;
+}
+
+/** What was verified, in the words of the page. */
+export function titleOf({ title }: Pick<VerificationInfo, "title">): string {
+  if (title === "the whole scan") return t("verify.title.whole");
+  const [, of, first, last] = /^(.*), lines? (\d+)(?: to (\d+))?$/.exec(title) ?? [];
+  if (of === undefined || first === undefined) return title;
+  return last === undefined
+    ? t("verify.title.line", { of, line: first })
+    : t("verify.title.lines", { of, first, last });
 }
 
 export const isEdited = (row: VerifyRow) => Object.values(row.inputs).some(({ set }) => set !== null);

@@ -31,7 +31,8 @@ function FailedBanner({ state }: { state: InstanceState }) {
     <div className="banner fatal" role="alert">
       <Icon name="error" />
       <span className="grow">
-        <b>{t("failed.title")}</b> <span className="muted">{refused || state.message}</span>
+        <b>{t(hopeless ? "failed.hopeless" : "failed.title")}</b>{" "}
+        <span className="muted">{refused || state.message}</span>
       </span>
       {instance && !hopeless && (
         <button

@@ -130,7 +130,10 @@ export function Track({ run, interval }: Props) {
       </div>
       {past && position <= axis.to && <span className="tl-after" style={{ left: at(position) }} />}
       <span className="head-line live" style={{ left: at(whole.to) }} hidden={!past || axis.to < whole.to}>
-        <span className="l">{t("timeline.live.head", { scan: grouped(whole.to) })}</span>
+        {/* Where the labels would lie over each other, the live one gives way. */}
+        <span className="l" hidden={(placeOf(whole.to, axis) - placeOf(position, axis)) * width < 1.5 * LABEL}>
+          {t("timeline.live.head", { scan: grouped(whole.to) })}
+        </span>
       </span>
       <span
         className={`head-line ${past ? "past" : "now"}`}
@@ -215,10 +218,13 @@ function Ribbon({ run, width }: { run: RunOnAxis; width: number }) {
   );
 }
 
+/** About so wide is the number of a scan. */
+const LABEL = 44;
+
 /** Labels at the edges stand beside their line instead of across it, so that they are not cut. */
 function edgeOf(x: number, width: number): string {
-  if (x < 44) return "atleft";
-  return x > width - 44 ? "atright" : "";
+  if (x < LABEL) return "atleft";
+  return x > width - LABEL ? "atright" : "";
 }
 
 function useWidth(element: { current: HTMLElement | null }): number {

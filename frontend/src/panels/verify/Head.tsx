@@ -1,7 +1,7 @@
 import { useState } from "react";
 import { grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
-import { isGoing } from "../../logic/verify";
+import { isGoing, titleOf } from "../../logic/verify";
 import { useBench } from "../../store/bench";
 import { askDisturb } from "../../store/disturb";
 import { useForbidden } from "../../store/plc";
@@ -107,7 +107,7 @@ function What({ shown }: { shown: ShownVerification | null }) {
       <span className="two">
         <span className="cut">
           {info && <span className="muted">{t(shown?.record ? "verify.record" : "verify.range")} </span>}
-          <b>{info ? (shown?.record?.name ?? info.title) : t("verify.none")}</b>
+          <b>{info ? (shown?.record?.name ?? titleOf(info)) : t("verify.none")}</b>
         </span>
         <span className="cut">
           {info ? <Sides shown={shown as ShownVerification} name={name} /> : t("verify.none.about")}

@@ -83,6 +83,13 @@ type How = Pick<Props, "memory" | "source" | "formats" | "editing">;
 function cellOf(row: VerifyRow, track: Track, how: How): Cell {
   switch (track.kind) {
     case "mark":
+      // The note may be far to the right: that nothing is said of this row is seen where a difference would be.
+      if (!row.compared && row.differences.length === 0)
+        return {
+          look: "gut faint",
+          shown: <Icon name="minus" small />,
+          title: row.note || t("verify.notcompared"),
+        };
       return {
         look: "gut",
         shown: row.differences.length > 0 && <Icon name="differs" className="diffc" />,

@@ -1,6 +1,7 @@
 import { type KeyboardEvent, useState } from "react";
 import { dayTime, grouped } from "../../logic/numbers";
 import { t } from "../../logic/text";
+import { titleOf } from "../../logic/verify";
 import { useBench } from "../../store/bench";
 import { messageOf } from "../../store/documents";
 import {
@@ -169,8 +170,8 @@ function RecordLine({ record, onDelete }: { record: VerificationRecord; onDelete
           {name}
         </button>
       </th>
-      <td className="cut" title={info.title}>
-        {info.title}
+      <td className="cut" title={titleOf(info)}>
+        {titleOf(info)}
       </td>
       <td className="cut" title={`${info.source === "trace" ? info.trace : instance}, ${versionOf(program_version)}`}>
         {info.source === "trace" ? info.trace : instance}, {versionOf(program_version)}
