@@ -14,8 +14,8 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from tests.debug.test_walks import BUILDS
 from tests.debug.walking import STATIONS, MakeDebug, Walker
+from tests.recording.recorded import to_program
 from tests.runtime.bench import value
-from tests.runtime.recorded import to_program
 
 TASKS = """FUNCTION_BLOCK Count
 VAR n : DINT; END_VAR

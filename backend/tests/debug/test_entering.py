@@ -14,8 +14,8 @@ from scanbench.wire.codec import ENTRIES
 from tests.debug.test_breakpoints import data, line
 from tests.debug.test_walks import BUILDS
 from tests.debug.walking import STATIONS, Walker
+from tests.recording.recorded import of_file
 from tests.runtime.bench import value
-from tests.runtime.recorded import of_file
 
 SETS = """PROGRAM Main
 VAR n, x, y : INT; END_VAR

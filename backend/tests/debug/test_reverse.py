@@ -11,8 +11,8 @@ from scanbench.recording import checkpoints
 from scanbench.runtime.write import Write
 from tests.debug.test_walks import BUILDS
 from tests.debug.walking import STATIONS, Counted, Walker
+from tests.recording.recorded import COUNTER, SECOND, to_program
 from tests.runtime.bench import value
-from tests.runtime.recorded import COUNTER, SECOND, to_program
 
 SELDOM = STATIONS.replace("VAR n, i,", "VAR rare, n, i,").replace(
     "  motor :=", "  IF n MOD 700 = 0 THEN\n    rare := 7;\n    list[4] := n;\n  END_IF;\n  motor :="

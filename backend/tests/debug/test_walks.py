@@ -16,7 +16,7 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
 from tests.debug.walking import MakeDebug, Walker
-from tests.runtime.recorded import of_file, of_file_native
+from tests.recording.recorded import of_file, of_file_native
 
 BUILDS = DebugBuilds()
 ENGINES = pytest.mark.parametrize("make", [debug_engine, BUILDS.engine], ids=["reference", "native"])

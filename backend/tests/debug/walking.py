@@ -14,7 +14,7 @@ from scanbench.faults.inject import Generate
 from scanbench.problems import Span
 from scanbench.program.program import Program
 from scanbench.runtime.command import Command, Entry, Refusal
-from tests.runtime.recorded import begun
+from tests.recording.recorded import begun
 
 MakeDebug = Callable[[Program, bytearray], DebugEngine]
 

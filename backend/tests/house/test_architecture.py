@@ -22,4 +22,6 @@ def test_it_is_there(path: str, name: str) -> None:
     assert file is not None, f"{path} is no file"
     text = file.read_text("utf-8")
     for part in name.split(".") if name else ():
-        assert re.search(rf"\b(?:def|class|function|const) {part}\b|^{part} = ", text, re.M), f"{path} has no {part}"
+        assert re.search(rf"\b(?:def|class|function|const) {part}\b|^{part} = ", text, re.MULTILINE), (
+            f"{path} has no {part}"
+        )

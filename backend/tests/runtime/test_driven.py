@@ -11,7 +11,7 @@ from scanbench.recording.format import RunFile
 from scanbench.recording.recording import Recording
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
-from tests.runtime.recorded import advance, begun, resumed, tidy
+from tests.recording.recorded import advance, begun, resumed, tidy
 
 
 def driven(path: Path) -> bytes:

@@ -19,8 +19,8 @@ from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
+from tests.recording.recorded import SECOND, advance, begun, of_file, of_file_native, resumed, to_program
 from tests.runtime.bench import ENGINES, value
-from tests.runtime.recorded import SECOND, advance, begun, of_file, of_file_native, resumed, to_program
 
 
 def halt(timeline: Timeline, count: int) -> None:

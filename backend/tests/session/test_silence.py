@@ -14,7 +14,7 @@ from scanbench.session.instance import Instance, Patience, Remembered
 from scanbench.store.records import Limits
 from scanbench.wire.events import PlcState
 from scanbench.wire.refused import Unavailable
-from tests.session.test_nursery import PATIENCE_S, runs, sources
+from tests.host.test_zygote import PATIENCE_S, runs, sources
 
 QUICK = Patience(look_s=0.1, looks=3, grace_s=0.2)
 

@@ -24,8 +24,8 @@ from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.forces import FORCED, Force
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
+from tests.recording.recorded import SECOND, advance, begun, of_file, of_file_native, resumed, tidy, to_program
 from tests.runtime.bench import value
-from tests.runtime.recorded import SECOND, advance, begun, of_file, of_file_native, resumed, tidy, to_program
 
 SCANS = 60
 
@@ -160,7 +160,7 @@ from pathlib import Path
 from scanbench.recording import checkpoints
 from scanbench.runtime.command import Refusal, Entry
 from scanbench.runtime.write import Write
-from tests.runtime.recorded import advance, begun, resumed
+from tests.recording.recorded import advance, begun, resumed
 checkpoints.EVERY_NS = 0
 path = Path(sys.argv[1])
 timeline = begun(path)
@@ -335,7 +335,7 @@ import sys
 from pathlib import Path
 from scanbench.recording.replay_file import replay_file
 from scanbench.wire.codec import ENTRIES
-from tests.runtime.recorded import of_file_native
+from tests.recording.recorded import of_file_native
 print(replay_file(Path(sys.argv[1]), of_file_native, ENTRIES).hash)
 """
 RECORD = """
@@ -344,7 +344,7 @@ from pathlib import Path
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.runtime.write import Write
 from scanbench.runtime.forces import Force
-from tests.runtime.recorded import SECOND, advance, begun, to_program
+from tests.recording.recorded import SECOND, advance, begun, to_program
 timeline = begun(Path(sys.argv[1]), engine=NativeEngine)
 for scans, command in ((300_000, Write("Ada", "Main.n", "5")), (1, Force("Bob", "Main.d", "7")), (299_999, None)):
     advance(timeline, scans)

@@ -20,8 +20,8 @@ from scanbench.runtime.command import Entry, Patch, Plan, Swapped
 from scanbench.runtime.program_change import ProgramChange
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
+from tests.recording.recorded import COUNTER, advance, begun, of_file, resumed
 from tests.runtime.bench import program
-from tests.runtime.recorded import COUNTER, advance, begun, of_file, resumed
 
 AT = datetime(2026, 1, 1, tzinfo=UTC)
 Blocks = list[tuple[Kind, int, bytes]]

@@ -15,7 +15,7 @@ from scanbench.recording.timeline import Timeline
 from scanbench.recording.worker import Errands
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.write import Write
-from tests.runtime.recorded import advance, begun, resumed, tidy
+from tests.recording.recorded import advance, begun, resumed, tidy
 
 
 @pytest.fixture

@@ -12,8 +12,8 @@ from scanbench.history.reading import NoReading, Reading
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
-from tests.runtime.recorded import advance, begun, of_file, to_program
-from tests.verify.test_writer import LINE
+from tests.history.test_writer import LINE
+from tests.recording.recorded import advance, begun, of_file, to_program
 
 
 def _between(path: Path, first: int, last: int, until: int) -> Changes:

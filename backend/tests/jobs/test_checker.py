@@ -9,8 +9,8 @@ import pytest
 
 from scanbench.jobs.checker import Checker
 from scanbench.wire.refused import Unavailable
+from tests.host.test_zygote import runs, until
 from tests.runtime.bench import model
-from tests.session.test_nursery import runs, until
 
 FILES = {"main.st": "PROGRAM Main\n  x := 1;\nEND_PROGRAM\n"}
 PLC = model("CJ1M-CPU63")

@@ -12,8 +12,8 @@ from scanbench.recording.replay_file import replay_file
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.resource import Resource
 from scanbench.wire.codec import ENTRIES
-from tests.runtime.recorded import spare
-from tests.runtime.variants import agenda, records, variants, write
+from tests.recording.recorded import spare
+from tests.recording.variants import agenda, records, variants, write
 
 MOST = 10_000
 """Scans: a few more than the file has are no harm."""

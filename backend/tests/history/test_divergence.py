@@ -17,8 +17,8 @@ from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
-from tests.runtime.recorded import advance, begun, of_file, of_file_native, to_program
-from tests.verify.test_writer import _texts
+from tests.history.test_writer import _texts
+from tests.recording.recorded import advance, begun, of_file, of_file_native, to_program
 
 SOURCE = """
 FUNCTION_BLOCK Belt

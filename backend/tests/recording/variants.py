@@ -28,7 +28,7 @@ from scanbench.runtime.forces import Force
 from scanbench.runtime.joined import Joined
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
-from tests.runtime.recorded import COUNTER, advance, spare
+from tests.recording.recorded import COUNTER, advance, spare
 
 BATTERY, UNIT = (ErrorRef("battery-error"),), (ErrorRef("cpu-bus-unit-error", (("unit", "3"),)),)
 EXTREME = (0, 65_535, 1 << 53, (1 << 64) - 1)

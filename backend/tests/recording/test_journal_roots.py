@@ -21,9 +21,9 @@ from scanbench.runtime.programs import Programs
 from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
+from tests.recording.recorded import SourcePrograms, advance, of_file, tidy
 from tests.runtime.bench import ENGINES
 from tests.runtime.random_runs import live, random_steps, shelf
-from tests.runtime.recorded import SourcePrograms, advance, of_file, tidy
 
 A, B, C = (ErrorRef(id) for id in ("battery-error", "memory-error", "io-bus-error"))
 

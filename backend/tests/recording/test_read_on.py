@@ -13,8 +13,8 @@ from scanbench.recording.recording import Recording, Replaced
 from scanbench.runtime.command import Entry
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
-from tests.runtime.recorded import SECOND, advance, begun, to_program
-from tests.runtime.test_recording import whole_run
+from tests.recording.recorded import SECOND, advance, begun, to_program
+from tests.recording.test_recording import whole_run
 
 
 def _opened(path: Path) -> Recording:

@@ -24,7 +24,7 @@ from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.symbols.symbols import resolve
 from scanbench.wire.codec import ENTRIES
-from tests.runtime.recorded import SourcePrograms, advance, begun, of_file, of_file_native, to_program
+from tests.recording.recorded import SourcePrograms, advance, begun, of_file, of_file_native, to_program
 
 LINE = """
 TYPE Pair : STRUCT a, b : INT; END_STRUCT END_TYPE

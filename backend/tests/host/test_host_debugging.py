@@ -11,7 +11,7 @@ from scanbench.runtime.write import Write
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import host as protocol
 from scanbench.wire.host import Driven
-from tests.session.child import Child
+from tests.host.child import Child
 
 STATIONS = """FUNCTION_BLOCK Station
 VAR_INPUT up : DINT; END_VAR

@@ -28,8 +28,7 @@ from scanbench.runtime.resource import Resource
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
-from tests.runtime.bench import value
-from tests.runtime.recorded import (
+from tests.recording.recorded import (
     COUNTER,
     SECOND,
     THIRD,
@@ -43,6 +42,7 @@ from tests.runtime.recorded import (
     tidy,
     to_program,
 )
+from tests.runtime.bench import value
 
 
 @dataclass(frozen=True)

@@ -177,7 +177,7 @@ _PARENT = """
 import socket, sys, time
 from pathlib import Path
 from scanbench.host.zygote import nursery
-from tests.session.test_nursery import Talk
+from tests.host.test_zygote import Talk
 from scanbench.wire import host as protocol
 talks = [Talk(nursery(), Path(sys.argv[1]), number) for number in range(2)]
 for talk in talks:

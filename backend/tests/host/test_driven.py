@@ -11,7 +11,7 @@ import pytest
 from scanbench.runtime.forces import Force
 from scanbench.wire import host as protocol
 from scanbench.wire.host import Driven, HostState
-from tests.session.child import Child
+from tests.host.child import Child
 
 COUNTING = "PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"
 Ended = Callable[[Child], None]

@@ -1,7 +1,7 @@
 """What the browser is told of a variable that is watched."""
 
 from scanbench.host.lookup import watch_item
-from tests.check.test_sites import program_of
+from tests.symbols.test_sites import program_of
 
 SOURCE = """\
 TYPE Level: INT (0..500); Tank: STRUCT level: Level; END_STRUCT; END_TYPE

@@ -15,7 +15,7 @@ from scanbench.session.instance import Instance, Remembered
 from scanbench.store.records import Limits
 from scanbench.wire import host as protocol
 from scanbench.wire.host import Driven, HostState
-from tests.session.child import Child
+from tests.host.child import Child
 
 COUNTING = "PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"
 NO_LIMIT = resource.RLIM_INFINITY

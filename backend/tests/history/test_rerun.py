@@ -20,8 +20,8 @@ from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.write import Write
 from scanbench.wire.codec import ENTRIES
+from tests.recording.recorded import SourcePrograms, advance, of_file
 from tests.runtime.bench import value
-from tests.runtime.recorded import SourcePrograms, advance, of_file
 
 BATTERY, SETUP = "battery-error", "plc-setup-error"
 SOURCE = """
