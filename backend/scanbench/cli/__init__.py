@@ -3,9 +3,14 @@
 import signal
 import sys
 
+from scanbench import __version__
+
 
 def main() -> None:
     """Entry point of the installed command."""
+    if sys.argv[1:] == ["--version"]:  # at once: commands take a second or two to be imported
+        print(f"scanbench {__version__}")
+        return
     if sys.argv[1:2] == ["dap"] and "--help" not in sys.argv:
         from scanbench.web.dap.streams import prepare
 

@@ -19,6 +19,7 @@ app = typer.Typer(
     add_completion=False,
     rich_markup_mode=None,
     pretty_exceptions_enable=False,
+    context_settings={"help_option_names": ["-h", "--help"]},
     help="A bench for debugging PLC programs (IEC 61131-3) on virtual PLCs of real models.",
 )
 for command in (serve, check, run, verify, replay, diff, dap):

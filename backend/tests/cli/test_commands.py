@@ -245,3 +245,12 @@ def test_violations_are_printed_with_their_places_and_not_by_the_hundred(tmp_pat
     assert text[20].startswith("subrange: 10 more places, 60 violations in all")
     found = json.loads(scanbench("run", str(path), "--scans", "2", "--json").stdout)
     assert (len(found["violations"]), found["violations_dropped"]) == (30, 0)
+
+
+@pytest.mark.parametrize(
+    "command", [[str(SCANBENCH)], [sys.executable, "-m", "scanbench"]], ids=["installed", "module"]
+)
+def test_the_command_can_be_called_in_both_ways(command: list[str]) -> None:
+    said = subprocess.run([*command, "check", "-h"], capture_output=True, text=True, timeout=120, check=False)
+    assert said.returncode == 0, said.stderr
+    assert "check [OPTIONS]" in said.stdout

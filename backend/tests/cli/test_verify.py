@@ -197,7 +197,7 @@ def test_a_trace_that_cannot_be_used_is_refused_with_row_and_column(project: Pat
     assert f"{trace}:4: column wanted: " in result.stderr
     missing = scanbench("verify", str(project), "--trace", str(tmp_path / "none.csv"))
     assert missing.returncode == 2
-    assert "none.csv cannot be read" in missing.stderr
+    assert "none.csv does not exist" in missing.stderr
 
 
 @pytest.mark.parametrize(
