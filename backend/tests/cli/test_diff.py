@@ -97,7 +97,7 @@ def test_files_that_cannot_be_compared(program: str, tmp_path: Path) -> None:
     one = record(program, tmp_path / "a.scanrun")
     missing = call("diff", one, str(tmp_path / "none.scanrun"))
     assert missing.exit_code == 2
-    assert "none.scanrun cannot be read" in missing.stderr
+    assert "none.scanrun does not exist" in missing.stderr
     none = call("diff", program, one)
     assert none.exit_code == 2
     assert "main.st is not a run file" in none.stderr
