@@ -1,4 +1,4 @@
-"""A thousand random programs on both engines; the same ones on every run. `make fuzz N=100000` takes others, and more."""
+"""Three hundred random programs on both engines; the same ones on every run. `make fuzz N=100000` takes others, and more."""
 
 import pytest
 
@@ -6,10 +6,10 @@ from tests.programs import INGREDIENTS, conditions, generate
 from tests.programs.compare import checked, compare, levels
 from tests.programs.reduce import reduced
 
-PROGRAMS = 1000
+PROGRAMS = 300
 CONDITIONS = 200
 """Programs that a random condition is evaluated on."""
-BY_VALUE = 150
+BY_VALUE = 100
 """Programs whose blocks take their in-outs by value."""
 BATCH = 50
 MOST_REFUSED = BATCH // 5

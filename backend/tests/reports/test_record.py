@@ -314,7 +314,7 @@ def records(draw: st.DrawFn) -> TestRecord:
     return TestRecord(head, tuple(errors), (sweep,), tuple(log))
 
 
-@settings(max_examples=150, deadline=None)
+@settings(max_examples=50, deadline=None)
 @given(records())
 def test_what_is_written_is_read_again(record: TestRecord) -> None:
     assert from_xml(to_xml(record)) == record
