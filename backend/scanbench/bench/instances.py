@@ -1,7 +1,7 @@
 """Many virtual PLCs on one machine: whether they hold their pace, what each costs, and how soon a new one scans.
 
 `python -m scanbench.bench.instances [--count N] [--interval T] [--seconds N]`: without a count 200 of the conveyor sample at
-10 ms, then 50 at 1 ms. All is as in the server, without the web: hosts from the nursery, runs recorded, nobody watching.
+10 ms, then 50 at 1 ms. All is as in the server, without the web: hosts from the zygote, runs recorded, nobody watching.
 """
 
 import argparse
@@ -23,7 +23,7 @@ from scanbench.host.build import find_model
 from scanbench.host.load import Loads
 from scanbench.host.program_cache import keep, key_of
 from scanbench.host.run_files import run_path
-from scanbench.host.zygote import nursery
+from scanbench.host.zygote import zygote
 from scanbench.server.samples import samples
 from scanbench.session.instance import Instance, Remembered
 from scanbench.store.records import Limits
@@ -148,7 +148,7 @@ async def _running(
     """All of them at their pace; how long the first one took with an empty cache, and the others."""
     plcs: list[_Plc] = []
     try:
-        nursery().start()
+        zygote().start()
         await _warmed(directory, sources)
         plcs.append(_Plc(0, sources, directory))
         cold_ms = await plcs[0].first_scan_ms()
@@ -171,7 +171,7 @@ def _rate(plc: _Plc, scan: int, heard: float) -> float:
 
 
 async def _warmed(directory: Path, sources: protocol.Sources) -> None:
-    """Waits until the nursery has everything imported: a host of it answers."""
+    """Waits until the zygote has everything imported: a host of it answers."""
     with tempfile.TemporaryDirectory(dir=directory) as name:
         plc = _Plc(0, sources, Path(name))
         try:

@@ -17,7 +17,7 @@ from scanbench.engines.interpreter.evaluate import NoValue
 from scanbench.host.covering import Covering
 from scanbench.host.debugcode import Debuggable
 from scanbench.host.link import Link
-from scanbench.host.log_throttle import Saying
+from scanbench.host.log_throttle import LogThrottle
 from scanbench.program.program import Program
 from scanbench.recording.timeline import PAST, Timeline
 from scanbench.runtime.clock import monotonic_ns
@@ -39,8 +39,8 @@ class Debugging:
 
     def __init__(self, timeline: Timeline, link: Link, covering: Covering) -> None:
         self._timeline, self._link, self._covering = timeline, link, covering
-        self.saying = Saying(link)
-        self.debugger = Debugger(timeline, self.saying)
+        self.log_throttle = LogThrottle(link)
+        self.debugger = Debugger(timeline, self.log_throttle)
         self.submit: Submitted = self.debugger.submit
         self.build: Callable[[], None] = lambda: None
         """Begins to build debugged code, whose `Debuggable` comes to `on_ready`."""
@@ -220,7 +220,7 @@ class Debugging:
         if now < self._told_at:
             return
         self._told_at = now + _COUNTED_NS
-        self.saying.catch_up()
+        self.log_throttle.catch_up()
         if self.debugger.changed:
             self.debugger.changed = False
             self._link.post(debug_protocol.BreakpointsAre(None, self.debugger.verdicts))

@@ -1,4 +1,4 @@
-"""The nursery: `python -m scanbench.host.forking FD ENTRY...` imports everything once, and forks a process for every request.
+"""The zygote: `python -m scanbench.host.forking FD ENTRY...` imports everything once, and forks a process for every request.
 
 A request on the socket FD is the entry of the new process and the directory of the cache, with the new process's own socket; the
 reply is the number of the process, or why there is none. It ends when the server closes the socket, or is gone.

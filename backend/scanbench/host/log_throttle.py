@@ -13,7 +13,7 @@ _AT_ONCE = 100
 _STRETCH_NS = 500_000_000
 
 
-class Saying:
+class LogThrottle:
     """`debug.Told` of a host."""
 
     def __init__(self, link: Link) -> None:

@@ -19,7 +19,7 @@ from scanbench.host.debugcode import Debuggable, Probed
 from scanbench.host.debugging import Debugging
 from scanbench.host.link import Link
 from scanbench.host.observed import Observable
-from scanbench.host.pacer import MAX_SPEED, Course
+from scanbench.host.pacer import MAX_SPEED, Pacer
 from scanbench.host.programs import HostPrograms
 from scanbench.host.run_files import run_limit
 from scanbench.host.services import Services
@@ -53,13 +53,13 @@ class Loop:
         self._tick = True
         self._quit = self._rested = False
         self._kept = driven = start.driven or driven_of(timeline)
-        self._course = Course(self.resource.program.interval_ns, driven.speed, driven.paused, start.cpu_percent)
+        self._pacer = Pacer(self.resource.program.interval_ns, driven.speed, driven.paused, start.cpu_percent)
         self._go_on(driven)
         self.debugging = Debugging(timeline, link, Covering(timeline, programs.sources))
         self._debugger = self.debugging.debugger
         if driven.halted:
             self._debugger.stand("it was halted in this scan when its process ended")
-        self._services = Services(timeline, self._course, link, note, tiers, programs.sources, self._debugger)
+        self._services = Services(timeline, self._pacer, link, note, tiers, programs.sources, self._debugger)
         self.traces = Traces(timeline, link)
 
     @property
@@ -75,15 +75,15 @@ class Loop:
         if driven.condition is not None:
             compiled = compile_condition(self.resource.program, driven.condition)
             if not isinstance(compiled, Condition):
-                self._course.lose(f"paused: the program has no meaning for {driven.condition}")
+                self._pacer.lose(f"paused: the program has no meaning for {driven.condition}")
                 return
             condition = compiled
         left = None if driven.end is None else driven.end - scan
         if left is not None and left <= 0:
-            self._course.lose(f"stopped at scan {scan}, as asked for")
+            self._pacer.lose(f"stopped at scan {scan}, as asked for")
             return
         self.timeline.stop_when(condition)
-        self._course.run_on(scan, left, condition)
+        self._pacer.run_on(scan, left, condition)
 
     # ---- from other threads ---------------------------------------------------------------------------------------
 
@@ -146,13 +146,13 @@ class Loop:
                 self._wake.wait()
                 self._wake.clear()
                 self._rested = True
-            elif rest := self._course.rest_s:
+            elif rest := self._pacer.rest_s:
                 self._wake.wait(rest)
                 self._wake.clear()
             else:
                 if self._rested:  # what was missed meanwhile is not late
                     self._rested = False
-                    self._course.set_pace(self.resource.program.interval_ns)
+                    self._pacer.set_pace(self.resource.program.interval_ns)
                 self._run()
         self._note_driven()
         self.timeline.close()
@@ -160,7 +160,7 @@ class Loop:
     def _stands(self) -> bool:
         """Whether there is nothing to run, or nothing may: what it does by itself could not be kept."""
         halted = self._debugger.halt is not None or bool(self.timeline.recording.trouble)
-        return self.timeline.past or halted or not self.resource.runnable or self._course.paused
+        return self.timeline.past or halted or not self.resource.runnable or self._pacer.paused
 
     def _served(self) -> bool:
         """Serves what was given; false after `Quit`."""
@@ -169,17 +169,17 @@ class Loop:
         return not self._quit
 
     def _run(self) -> None:
-        resource, course = self.resource, self._course
+        resource, pacer = self.resource, self._pacer
         first, busy = resource.header.scan, resource.measured.busy_ns
-        stop = self._debugger.run(course.scans, course.pace)
+        stop = self._debugger.run(pacer.scans, pacer.pace)
         self.traces.drain()
         scan = resource.header.scan
-        course.ran(scan - first, stop.reason is Reason.CONDITION, scan)
-        if course.paused:
+        pacer.ran(scan - first, stop.reason is Reason.CONDITION, scan)
+        if pacer.paused:
             self.timeline.stop_when(None)
-        if course.paused or stop.reason is Reason.HALTED:
+        if pacer.paused or stop.reason is Reason.HALTED:
             self._tick = True
-        course.worked(resource.measured.busy_ns - busy)
+        pacer.worked(resource.measured.busy_ns - busy)
 
     def _serve(self, message: object) -> None:
         match message:
@@ -205,7 +205,7 @@ class Loop:
                 self._ack(message.ref, False, message.message)
             case protocol.SetLimits():
                 self.timeline.recording.set_limit(run_limit(message.run_mib))
-                self._course.cpu_percent = message.cpu_percent
+                self._pacer.cpu_percent = message.cpu_percent
             case DefineTrace() | DriveTrace():
                 self.traces.serve(message)
             case protocol.Quit():
@@ -237,10 +237,10 @@ class Loop:
 
     def _driven(self) -> protocol.Driven:
         """How the PLC is driven now. A step that is under way ends in a halt."""
-        course, condition = self._course, self._course.condition
+        pacer, condition = self._pacer, self._pacer.condition
         halted = self._debugger.stands or self._debugger.stepping
         text = condition.text if condition is not None else None
-        return protocol.Driven(course.speed, course.paused, course.end, text, halted)
+        return protocol.Driven(pacer.speed, pacer.paused, pacer.end, text, halted)
 
     def _keep(self, driven: protocol.Driven) -> Refusal | None:
         """Keeps how the PLC is to be driven, before it is."""
@@ -265,15 +265,15 @@ class Loop:
         return Refusal(f"no space: {trouble}. Make room on the disk, then try again") if trouble else None
 
     def _drive(self, drive: protocol.Drive) -> None:
-        said = self._drive_action(drive, self._course.speed if drive.speed is None else drive.speed)
+        said = self._drive_action(drive, self._pacer.speed if drive.speed is None else drive.speed)
         if isinstance(said, Refusal):
             self._answer(drive.ref, said, "")
             return
-        if drive.speed is not None and drive.speed != self._course.speed:
-            self._course.speed = drive.speed
-            self._course.set_pace(self.resource.program.interval_ns)
+        if drive.speed is not None and drive.speed != self._pacer.speed:
+            self._pacer.speed = drive.speed
+            self._pacer.set_pace(self.resource.program.interval_ns)
         self.timeline.note()  # a scan that was run by hand is there again after whatever comes
-        speed = "as fast as possible" if self._course.speed == MAX_SPEED else f"speed x{self._course.speed:g}"
+        speed = "as fast as possible" if self._pacer.speed == MAX_SPEED else f"speed x{self._pacer.speed:g}"
         self._ack(drive.ref, True, f"{said}, {speed}" if said else speed)
 
     def _drive_action(self, drive: protocol.Drive, speed: float) -> str | Refusal:
@@ -283,7 +283,7 @@ class Loop:
             refusal = self._keep(protocol.Driven(speed, paused=True, halted=self._debugger.stands))
             if refusal is not None:
                 return refusal
-            self._course.pause()
+            self._pacer.pause()
             self._debugger.forget_step()
             return "pause"
         if self.timeline.past:
@@ -307,10 +307,10 @@ class Loop:
         if refusal is not None:
             return refusal
         self.timeline.stop_when(condition)
-        self._course.run_on(self.resource.header.scan, drive.scans, condition)
+        self._pacer.run_on(self.resource.header.scan, drive.scans, condition)
         if self._debugger.halt is not None:
             self._debugger.step("continue", drive.author)
-        return f"continue: {self._course.target}" if self._course.target else "continue"
+        return f"continue: {self._pacer.target}" if self._pacer.target else "continue"
 
     def _scan_on(self) -> Refusal | None:
         """One scan on in the past."""
@@ -325,13 +325,13 @@ class Loop:
         """One scan, whatever knocks meanwhile; from a halt to the first statement of the next one."""
         if self._debugger.halt is not None:
             return self._debugger.step("scan", author) or "one scan"
-        self._course.pause()
+        self._pacer.pause()
         self.timeline.stop_when(None)
         scan = self.resource.header.scan
         while self.resource.runnable and self.resource.header.scan == scan:
             if self._debugger.run(1).reason in (Reason.TRAP, Reason.HALTED):
                 break
-        self._course.set_pace(self.resource.program.interval_ns)
+        self._pacer.set_pace(self.resource.program.interval_ns)
         return "one scan"
 
     # ---- the debugger ---------------------------------------------------------------------------------------------
@@ -367,7 +367,7 @@ class Loop:
 
     def _step(self, step: debug_protocol.Step) -> None:
         """A step of a PLC that runs halts it first, at its next statement."""
-        debugger, course = self._debugger, self._course
+        debugger, pacer = self._debugger, self._pacer
         runs = not self._stands()
         action = step.action
         if action not in ("back", "reverse") and not self.timeline.past:
@@ -378,7 +378,7 @@ class Loop:
                 return
         if action in ("back", "reverse"):
             if runs:
-                course.pause()
+                pacer.pause()
                 debugger.forget_step()
             self._services.past_by = self._services.past_by or step.author
         elif action == "continue" and runs:
@@ -389,7 +389,7 @@ class Loop:
         program = self.resource.program
         refusal = debugger.step(action, step.author, step.file, step.line, step.path)
         if refusal is None and not self.timeline.past:
-            course.go()
+            pacer.go()
         self._shown_moved(program)
         self._answer(step.ref, refusal, action)
 
@@ -400,7 +400,7 @@ class Loop:
         if travel.scan is None:
             self.timeline.return_live()
             self._services.past_by = ""
-            self._course.set_pace(self.resource.program.interval_ns)
+            self._pacer.set_pace(self.resource.program.interval_ns)
             refusal = None
         else:
             refusal = self.timeline.goto(travel.scan, travel.count)
@@ -440,12 +440,12 @@ class Loop:
 
     def _moved(self) -> None:
         """Another program runs: its places, pace and conditions are others."""
-        self._course.set_pace(self.resource.program.interval_ns)
-        condition = self._course.condition
+        self._pacer.set_pace(self.resource.program.interval_ns)
+        condition = self._pacer.condition
         if condition is not None and self.timeline.condition is None:
-            self._course.lose(f"paused: the new program has no meaning for {condition.text}")
+            self._pacer.lose(f"paused: the new program has no meaning for {condition.text}")
         else:
-            self._course.condition = self.timeline.condition
+            self._pacer.condition = self.timeline.condition
         self.programs.drop_idle(self.timeline.version, self.timeline.live_version)
         self._services.moved()
         self.debugging.moved()

@@ -1,4 +1,4 @@
-"""The course of a run: its pace, and where it was asked to stop."""
+"""The pace of a run, and where it was asked to stop."""
 
 from collections import deque
 
@@ -11,7 +11,7 @@ _FOREVER = 1 << 40
 _WINDOW_NS = 5_000_000_000
 
 
-class Course:
+class Pacer:
     """Speed, pause, single scans, and a target. Known to the loop's thread alone."""
 
     def __init__(self, interval_ns: int, speed: float, paused: bool, cpu_percent: int | None) -> None:

@@ -11,7 +11,7 @@ from scanbench.faults.preview import preview
 from scanbench.host.link import Link
 from scanbench.host.lookup import watch_item
 from scanbench.host.marks import marks_of
-from scanbench.host.pacer import Course
+from scanbench.host.pacer import Pacer
 from scanbench.host.status import host_state
 from scanbench.host.swaps import Optimising
 from scanbench.recording.recording import RecordingInfo
@@ -38,10 +38,10 @@ class Services:
     """Reads the image in the seam; never writes it."""
 
     def __init__(
-        self, timeline: Timeline, course: Course, link: Link, note: str, tiers: Optimising | None,
+        self, timeline: Timeline, pacer: Pacer, link: Link, note: str, tiers: Optimising | None,
         sources: Callable[[int], protocol.Sources], debugger: Debugger,
     ) -> None:  # fmt: skip
-        self._timeline, self._course, self._link, self._note, self._tiers = timeline, course, link, note, tiers
+        self._timeline, self._pacer, self._link, self._note, self._tiers = timeline, pacer, link, note, tiers
         self._debugger = debugger
         self._sources, self._version_told = sources, timeline.live_version
         self.past_by = ""
@@ -77,8 +77,8 @@ class Services:
     @property
     def state(self) -> protocol.HostState:
         """The state now."""
-        note = self._course.reached or self._note or self._tier_note(monotonic_ns())
-        return host_state(self._timeline, self._course, self.past_by, note, self._debugger)
+        note = self._pacer.reached or self._note or self._tier_note(monotonic_ns())
+        return host_state(self._timeline, self._pacer, self.past_by, note, self._debugger)
 
     @property
     def previous_version(self) -> int | None:
@@ -134,13 +134,13 @@ class Services:
         """Tells what changed; when the parent does not keep up, it is told what changed until then once it does."""
         now = monotonic_ns()
         if self._link.backlogged:
-            self._course.look()
+            self._pacer.look()
             if now >= self._counted_at:
                 self._counted_at = now + COUNTING_NS
                 self._timeline.note()
             return
         self.entered()
-        self._course.look()
+        self._pacer.look()
         header = self._resource.header
         if len(self._plan):
             frame = self._plan.sample(self._resource.memory, header.scan, self._time_ns)
@@ -217,7 +217,7 @@ class Services:
     def _differs(self, state: protocol.HostState) -> bool:
         """Whether more than counters changed: people wait for that, and in a pause for every scan."""
         last = self._last_state
-        if last is None or self._course.paused or self._timeline.past or state.halt is not None:
+        if last is None or self._pacer.paused or self._timeline.past or state.halt is not None:
             return True
         counted = replace(
             last, scan=state.scan, live_scan=state.live_scan, time_ns=state.time_ns, cycle_us=state.cycle_us,

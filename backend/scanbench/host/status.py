@@ -3,7 +3,7 @@
 from scanbench.debug.debugger import Debugger
 from scanbench.debug.halt import Halt as Stopped
 from scanbench.faults.inject import ACTIVE
-from scanbench.host.pacer import Course
+from scanbench.host.pacer import Pacer
 from scanbench.program.program import TrapKind
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Entry, Swapped
@@ -29,11 +29,11 @@ def previous_version(timeline: Timeline) -> int | None:
     return versions[-2] if len(versions) > 1 else None
 
 
-def host_state(timeline: Timeline, course: Course, past_by: str, note: str, debugger: Debugger) -> HostState:
+def host_state(timeline: Timeline, pacer: Pacer, past_by: str, note: str, debugger: Debugger) -> HostState:
     """What the top bar shows. `note` stands where nothing more pressing is to be said."""
     resource = timeline.resource
     header = resource.header
-    state, message = _state(resource, course.paused, note)
+    state, message = _state(resource, pacer.paused, note)
     if state == "running" and timeline.recording.trouble:
         state = "no_space"
         message = (
@@ -52,18 +52,18 @@ def host_state(timeline: Timeline, course: Course, past_by: str, note: str, debu
         time_ns=header.next_clock_ns(resource.program.interval_ns),
         interval_ns=resource.program.interval_ns,
         cycle_us=round(resource.measured.cycle_us, 2),
-        speed=course.speed,
-        paused=course.paused,
+        speed=pacer.speed,
+        paused=pacer.paused,
         trap=resource.trap,
         forces=len(resource.journal.derived(FORCED)),
         version=timeline.version,
         live_scan=timeline.live_scan,
         past_by=past_by,
-        target=course.target,
+        target=pacer.target,
         previous_version=previous_version(timeline),
-        late_percent=round(course.late_percent, 2),
-        late_us=round(course.pace.late_ns / max(1, course.pace.scans) / 1000, 1),
-        worst_us=round(course.pace.worst_ns / 1000, 1),
+        late_percent=round(pacer.late_percent, 2),
+        late_us=round(pacer.pace.late_ns / max(1, pacer.pace.scans) / 1000, 1),
+        worst_us=round(pacer.pace.worst_ns / 1000, 1),
         halt=halt,
         flavour=debugger.flavour,
     )

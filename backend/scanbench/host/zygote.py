@@ -1,8 +1,8 @@
 """Where the processes of virtual PLCs, and job processes, come from: forked from one process that has everything imported, in milliseconds.
 
-The nursery (`host/forking.py`) forks twice, and the server adopts the grandchild as its own child: so the server learns
-how it ended, the kernel ends it with the server, and it does not notice when the nursery is gone: the next one is born in a
-new nursery. Where forking is not to be had, every host is a Python of its own.
+The zygote (`host/forking.py`) forks twice, and the server adopts the grandchild as its own child: so the server learns
+how it ended, the kernel ends it with the server, and it does not notice when the zygote is gone: the next one is born in a
+new zygote. Where forking is not to be had, every host is a Python of its own.
 """
 
 import ctypes
@@ -92,8 +92,8 @@ class _Single:
 Process = HostProcess | _Single
 
 
-class Nursery:
-    """Starts hosts. Thread-safe; a nursery that died, or does not answer, is replaced by the next `spawn`."""
+class Zygote:
+    """Starts hosts. Thread-safe; a zygote that died, or does not answer, is replaced by the next `spawn`."""
 
     def __init__(self, reply_s: float = 60.0, grace_s: float = 3.0) -> None:
         """`reply_s` is how long it may take to fork, the start of Python included."""
@@ -120,7 +120,7 @@ class Nursery:
             return _single(sock, cache, entry)
         request = msgpack.packb((entry, str(cache) if cache is not None else None))
         with self._lock:
-            reply = self._asked(request, sock) or self._asked(request, sock)  # again, in a new nursery
+            reply = self._asked(request, sock) or self._asked(request, sock)  # again, in a new zygote
         if not reply:
             raise NoProcess(
                 "no process could be started: the one that hosts are forked from has ended twice. See the log"
@@ -145,7 +145,7 @@ class Nursery:
             self._lock.release()
 
     def _asked(self, request: bytes, sock: socket.socket) -> bytes:
-        """The reply, empty when the nursery is gone."""
+        """The reply, empty when the zygote is gone."""
         channel = self._connected()
         channel.settimeout(self.reply_s)
         try:
@@ -191,9 +191,9 @@ class Nursery:
 
 
 @cache
-def nursery() -> Nursery:
-    """The nursery of this process."""
-    return Nursery()
+def zygote() -> Zygote:
+    """The zygote of this process."""
+    return Zygote()
 
 
 def _can_fork() -> bool:

@@ -7,7 +7,7 @@ from collections.abc import Callable
 from pathlib import Path
 from typing import TypeVar
 
-from scanbench.host.zygote import JOB, NoProcess, Process, nursery
+from scanbench.host.zygote import JOB, NoProcess, Process, zygote
 from scanbench.wire.codec import LENGTH, BadMessage, body_length, pack, unpack
 
 log = logging.getLogger("scanbench")
@@ -69,7 +69,7 @@ class Job:
         ours, theirs = socket.socketpair()
         try:
             with theirs:
-                self._process = process = await asyncio.to_thread(nursery().spawn, theirs, cache, JOB)
+                self._process = process = await asyncio.to_thread(zygote().spawn, theirs, cache, JOB)
         except NoProcess:
             ours.close()
             log.exception("a job process could not be started")

@@ -11,7 +11,7 @@ from scanbench.runtime.command import Entry, Swapped
 from scanbench.runtime.journal import AnyFold
 
 
-def heritage(entries: Sequence[Entry], folds: Iterable[AnyFold]) -> tuple[int, ...]:
+def journal_roots(entries: Sequence[Entry], folds: Iterable[AnyFold]) -> tuple[int, ...]:
     """Which of these entries have to stay: every fold comes to the same over them."""
     traces = [_Trace.of(fold, entries) for fold in folds]
     kept = {index for index, entry in enumerate(entries) if isinstance(entry.plan.effect, Swapped)}

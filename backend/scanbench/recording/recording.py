@@ -40,7 +40,7 @@ from scanbench.recording.smaller import (
     write_copy,
 )
 from scanbench.recording.thinning import Checkpoint
-from scanbench.recording.worker import Errands
+from scanbench.recording.worker import Worker
 from scanbench.runtime.clock import iso, wall_time
 from scanbench.runtime.command import Entry
 from scanbench.runtime.header import Mode, fresh_image
@@ -122,7 +122,7 @@ class Recording:
         self._thinning: _Thinning | None = None
         self._reader: Reader | None = None
         """Of a file that is only read."""
-        self._errands = Errands("recording", self._sync)
+        self._worker = Worker("recording", self._sync)
 
     @classmethod
     def begin(
@@ -178,7 +178,7 @@ class Recording:
         """Writes what is owed, finishes what its thread was given, and closes the file."""
         with suppress(OSError):
             self._pay()
-        self._errands.close()
+        self._worker.close()
         with suppress(OSError):
             os.fdatasync(self._file.fd)
         if self._thinning is not None and self._thinning.made is not None:
@@ -187,7 +187,7 @@ class Recording:
 
     def wait(self) -> None:
         """Until its thread has done all that it was given."""
-        self._errands.wait()
+        self._worker.wait()
 
     def set_limit(self, limit: int) -> None:
         """Another bound for the file."""
@@ -302,7 +302,7 @@ class Recording:
             raise
         self.trouble = ""
         self.last_scan = max(self.last_scan, scan)
-        self._errands.sync_soon()
+        self._worker.sync_soon()
         return block
 
     def _sync(self) -> None:
@@ -369,7 +369,7 @@ class Recording:
                 failed = error
             on_done(failed)
 
-        self._errands.give(write)
+        self._worker.give(write)
 
     def _seen(self) -> Seen:
         return Seen(self._file, self._file.end, self.about, tuple(self.checkpoints), self._written)
@@ -404,12 +404,12 @@ class Recording:
             finally:
                 thinning.done = True
 
-        self._errands.give(make)
+        self._worker.give(make)
 
     def _replace(self, made: Smaller) -> Trim | None:
         """The smaller file takes the place of the old one. Where that fails nothing is lost, and it is tried again later."""
         old, new, key = self._file, made.rewritten.file, self._key
-        gone = made.cut - len(made.heritage)
+        gone = made.cut - len(made.roots)
         try:
             made.rewritten.follow(old.end)
             checkpoints = [
@@ -430,9 +430,9 @@ class Recording:
         self._key = replace(key, block=moved) if key is not None and moved is not None else None
         self._written -= gone
         self._file, self.about = new, made.about
-        self._errands.give(old.close)
-        self._errands.sync_soon()
-        return Trim(made.heritage, made.cut) if made.cut else None
+        self._worker.give(old.close)
+        self._worker.sync_soon()
+        return Trim(made.roots, made.cut) if made.cut else None
 
 
 def _aside(path: Path) -> Path:

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from scanbench.recording.blocks import About, Codec, keyframe
 from scanbench.recording.format import Block, Kind, RunFile, RunFileError
-from scanbench.recording.journal_roots import heritage
+from scanbench.recording.journal_roots import journal_roots
 from scanbench.recording.rewriting import Rewritten, rewrite
 from scanbench.recording.thinning import Checkpoint, plan_thinning
 
@@ -50,11 +50,11 @@ class Seen:
 
 @dataclass(frozen=True, slots=True)
 class Smaller:
-    """A smaller file, and what is not in it: of the entries in front of `cut` only `heritage` are left."""
+    """A smaller file, and what is not in it: of the entries in front of `cut` only `roots` are left."""
 
     rewritten: Rewritten
     about: About
-    heritage: tuple[int, ...]
+    roots: tuple[int, ...]
     cut: int
 
 
@@ -79,7 +79,7 @@ def make_smaller(seen: Seen, limit: int, codec: Codec) -> Smaller | None:
     )
     try:
         if cut is not None:
-            kept = _heritage(file, cut, codec)
+            kept = _roots(file, cut, codec)
         made = rewrite(file, seen.end, part_of(file.path), about.packed(), keep)
     except (OSError, RunFileError, MemoryError):
         return None
@@ -93,10 +93,10 @@ def make_smaller(seen: Seen, limit: int, codec: Codec) -> Smaller | None:
     return Smaller(made, about, kept, cut.entries if cut is not None else 0)
 
 
-def _heritage(file: RunFile, cut: Checkpoint, codec: Codec) -> tuple[int, ...]:
+def _roots(file: RunFile, cut: Checkpoint, codec: Codec) -> tuple[int, ...]:
     """Which of the entries in front of the cut stay."""
     blocks = (block for block in file.walk(cut.block.offset) if block.kind is Kind.ENTRY)
-    return heritage([codec.unpack(file.payload(block)) for block in blocks], codec.folds)
+    return journal_roots([codec.unpack(file.payload(block)) for block in blocks], codec.folds)
 
 
 @dataclass(frozen=True, slots=True)

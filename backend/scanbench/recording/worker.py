@@ -12,7 +12,7 @@ SYNC_NS = 1_000_000_000
 log = logging.getLogger("scanbench")
 
 
-class Errands:
+class Worker:
     """Jobs one behind the other, and a sync now and then. The thread begins when there is something to do first."""
 
     def __init__(self, name: str, sync: Callable[[], None]) -> None:

@@ -8,12 +8,12 @@ from tempfile import TemporaryDirectory
 
 from scanbench.host.load import Loads
 from scanbench.host.run_files import run_path
-from scanbench.host.zygote import nursery
+from scanbench.host.zygote import zygote
 from scanbench.jobs.reactions import Reactions
 from scanbench.plcmodel.model import Model
 from scanbench.session.instance import Remembered
 from scanbench.session.session import Session
-from scanbench.session.write_behind import Keeper
+from scanbench.session.write_behind import WriteBehind
 from scanbench.store.store import Store
 from scanbench.wire.host import Driven, Sources
 from scanbench.wire.refused import Refused
@@ -24,9 +24,11 @@ _STANDS = ("paused", "halted", "stopped", "trapped", "fatal")
 class Solo:
     """One session, with everything around it. `start`, use, `close`."""
 
-    def __init__(self, session: Session, store: Store, keeper: Keeper, reactions: Reactions, close: Callable[[], None]):
+    def __init__(
+        self, session: Session, store: Store, write_behind: WriteBehind, reactions: Reactions, close: Callable[[], None]
+    ):
         self.session = session
-        self._store, self._keeper, self._reactions, self._remove = store, keeper, reactions, close
+        self._store, self._write_behind, self._reactions, self._remove = store, write_behind, reactions, close
 
     @staticmethod
     async def start(name: str, sources: Sources, model: Model, speed: float, cache: Path | None = None) -> "Solo":
@@ -34,8 +36,8 @@ class Solo:
         `cache`; without one it is gone with the PLC."""
         solo = await asyncio.to_thread(Solo._make, name, sources, model, speed, cache)
         try:
-            solo._keeper.start()
-            await asyncio.to_thread(nursery().start)
+            solo._write_behind.start()
+            await asyncio.to_thread(zygote().start)
             solo.session.start()
             await solo.standing()
         except BaseException:
@@ -51,16 +53,16 @@ class Solo:
         try:
             store = Store(f"sqlite:///{data / 'scanbench.db'}")
             row = store.create_instance(store.create_project(name, model.name).id, name)
-            keeper, reactions = Keeper(store), Reactions(cache)
+            write_behind, reactions = WriteBehind(store), Reactions(cache)
             memory = Remembered(name, sources, run_path(data, row.id), row.limits, Driven(speed, paused=True))
             session = Session(
-                row, model, memory, keeper, rows=(), lines=(), loads=Loads(), reactions=reactions, breakpoints=(),
+                row, model, memory, write_behind, rows=(), lines=(), loads=Loads(), reactions=reactions, breakpoints=(),
                 traces={}, cache=cache,
             )  # fmt: skip
         except BaseException:
             folder.cleanup()
             raise
-        return Solo(session, store, keeper, reactions, folder.cleanup)
+        return Solo(session, store, write_behind, reactions, folder.cleanup)
 
     async def standing(self) -> None:
         """Waits until the PLC is there and stands; `Refused` when it cannot be there."""
@@ -73,7 +75,7 @@ class Solo:
         """Ends the PLC; nothing is left of it."""
         await self.session.stop()
         await self._reactions.close()
-        await self._keeper.close()
+        await self._write_behind.close()
         await asyncio.to_thread(self._store.close)
         with suppress(OSError):
             await asyncio.to_thread(self._remove)

@@ -21,7 +21,7 @@ from scanbench.reports.record_read import from_xml
 from scanbench.reports.record_text import Language, RecordLine
 from scanbench.runtime.clock import wall_time
 from scanbench.session.session import Session
-from scanbench.session.write_behind import Keeper
+from scanbench.session.write_behind import WriteBehind
 from scanbench.store.records import BuildRow, NotFound, RecordInfo, RecordRow, SweepRow
 from scanbench.store.store import Store
 from scanbench.wire.refused import Refused
@@ -51,9 +51,9 @@ class HistoryVersion:
 class Records:
     """What was tested, for all PLCs."""
 
-    def __init__(self, store: Store, keeper: Keeper, tool: str) -> None:
+    def __init__(self, store: Store, write_behind: WriteBehind, tool: str) -> None:
         """`tool` is named in what is written."""
-        self._store, self._keeper, self._tool = store, keeper, tool
+        self._store, self._write_behind, self._tool = store, write_behind, tool
 
     async def versions(self, session: Session) -> list[HistoryVersion]:
         """The versions with a history, the newest first."""
@@ -73,7 +73,7 @@ class Records:
         """The record of a version, or of the one that runs."""
         version = session.history_version if version is None else version
         rows, model, build = await self._of_version(session, version)
-        await self._keeper.flush()
+        await self._write_behind.flush()
 
         def make() -> TestRecord:
             project = self._store.project(session.project_id)

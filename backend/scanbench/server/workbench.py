@@ -12,7 +12,7 @@ from pathlib import Path
 from scanbench import __version__
 from scanbench.host.load import Loads
 from scanbench.host.run_files import discard, discard_all, fresh_path, run_path, sources_and_damage, sweep
-from scanbench.host.zygote import nursery
+from scanbench.host.zygote import zygote
 from scanbench.jobs.checker import Checker
 from scanbench.jobs.reactions import Reactions
 from scanbench.plcmodel.load import load_all, model_directory
@@ -32,7 +32,7 @@ from scanbench.server.verifications import Verifications
 from scanbench.server.watch_lists import WatchLists
 from scanbench.session.instance import Remembered
 from scanbench.session.session import LOG_LINES, Session
-from scanbench.session.write_behind import Keeper, breakpoint_of, line_of, row_of
+from scanbench.session.write_behind import WriteBehind, breakpoint_of, line_of, row_of
 from scanbench.store.records import InstanceRow, Limits, NotFound, ProjectRow
 from scanbench.store.store import Store
 from scanbench.wire.host import Driven
@@ -54,13 +54,13 @@ class Workbench:
             log.error("%s", problem)
         self.models: Mapping[str, Model] = {model.name: model for model in models}
         self._checker = Checker(self._cache)
-        self._keeper = Keeper(store)
+        self._write_behind = WriteBehind(store)
         self._sessions: dict[int, Session] = {}
         self._loads, self._looked_at = Loads(), 0
         self._warming: asyncio.Task[None] | None = None
         self.projects = Projects(store, self.models, self._checker, self._sessions_of)
         self._reactions = Reactions(self._cache)
-        self.records = Records(store, self._keeper, f"Scanbench {__version__}")
+        self.records = Records(store, self._write_behind, f"Scanbench {__version__}")
         self.watch_lists = WatchLists(store, self._sessions_of)
         self.states = States(store, data / "states")
         self.trace_records = TraceRecords(store, data / "traces", self._cache)
@@ -73,9 +73,9 @@ class Workbench:
 
     async def start(self) -> None:
         """Opens what the store holds, or the samples on the first start, and runs every instance."""
-        self._keeper.start()
+        self._write_behind.start()
         await asyncio.to_thread(sweep, self._runs)
-        await asyncio.to_thread(nursery().start)
+        await asyncio.to_thread(zygote().start)
         await asyncio.to_thread(self.states.tidy)
         await asyncio.to_thread(self.trace_records.tidy)
         await asyncio.to_thread(self.verifications.tidy)
@@ -111,10 +111,10 @@ class Workbench:
         await asyncio.gather(
             *(session.stop() for session in self._sessions.values()),
             self._checker.close(),
-            asyncio.to_thread(nursery().close),  # a process that is on its way does not come any more
+            asyncio.to_thread(zygote().close),  # a process that is on its way does not come any more
         )
         await self._reactions.close()
-        await self._keeper.close()
+        await self._write_behind.close()
 
     async def delete_project(self, id: int) -> None:
         """Deletes a project that no PLC runs, with its sweeps and states."""
@@ -259,7 +259,7 @@ class Workbench:
         await self.verifications.forget_instance(id)
         await self.pasts.forget_instance(id)
         await session.stop()
-        await self._keeper.flush()
+        await self._write_behind.flush()
         await asyncio.to_thread(self._store.delete_instance, id)
         await asyncio.to_thread(discard_all, self._runs, id)
 
@@ -282,7 +282,7 @@ class Workbench:
         breakpoints = [each for each in kept if each is not None]
         traces = await asyncio.to_thread(self._store.traces, row.id)
         session = Session(
-            row, model, memory, self._keeper, rows, lines, self._loads, self._reactions, breakpoints, self._cache, traces,
+            row, model, memory, self._write_behind, rows, lines, self._loads, self._reactions, breakpoints, self._cache, traces,
             why_not,
         )  # fmt: skip
         self._sessions[row.id] = session

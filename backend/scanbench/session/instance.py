@@ -16,7 +16,7 @@ from pathlib import Path
 
 from scanbench.faults.reference import ErrorRef
 from scanbench.host.run_files import bring_back, set_aside
-from scanbench.host.zygote import NoProcess, Process, nursery
+from scanbench.host.zygote import NoProcess, Process, zygote
 from scanbench.runtime.clock import monotonic_ns
 from scanbench.runtime.command import Command
 from scanbench.runtime.forces import ForcedValue
@@ -201,7 +201,7 @@ class Instance:
         ours, theirs = socket.socketpair()
         try:
             with theirs:
-                self._process = process = await asyncio.to_thread(nursery().spawn, theirs, self._cache)
+                self._process = process = await asyncio.to_thread(zygote().spawn, theirs, self._cache)
         except NoProcess as error:
             ours.close()
             return str(error)

@@ -25,7 +25,7 @@ from scanbench.session.marks import Marks
 from scanbench.session.reacting import Raised, Reacting
 from scanbench.session.tracing import Tracing
 from scanbench.session.watches import Watches
-from scanbench.session.write_behind import Keeper
+from scanbench.session.write_behind import WriteBehind
 from scanbench.store.records import InstanceRow, Json, NotFound
 from scanbench.symbols.violations import Violations
 from scanbench.wire import debugging as debug_protocol
@@ -49,7 +49,7 @@ class Session:
     """Everything that one instance is to the rest of the server."""
 
     def __init__(
-        self, row: InstanceRow, model: Model, memory: Remembered, keeper: Keeper,
+        self, row: InstanceRow, model: Model, memory: Remembered, write_behind: WriteBehind,
         rows: Sequence[ErrorRow], lines: Sequence[LogEntry], loads: Loads, reactions: Reactions,
         breakpoints: Sequence[Breakpoint], cache: Path | None = None, traces: Mapping[int, Json] | None = None,
         why_not: str = "",
@@ -57,7 +57,7 @@ class Session:
         """`model` is the device; the project's own errors come with the program that runs. `why_not`: why this never runs."""
         self.row, self._device = row, model
         self._loads = loads
-        self._keeper = keeper
+        self._write_behind = write_behind
         self._history = History(model_for(model, memory.sources.files), memory.sources.version, rows)
         self._lines = list(lines)[-LOG_LINES:]
         self._subscribers: dict[int, Subscriber] = {}
@@ -79,9 +79,11 @@ class Session:
         self._instance = Instance(memory, self._on_state, self._on_message, cache, why_not=why_not)
         self._last_state = self._instance.state
         self.debugging = Debugging(
-            self._instance.debug, self._publish, partial(keeper.keep_breakpoints, row.id), breakpoints
+            self._instance.debug, self._publish, partial(write_behind.keep_breakpoints, row.id), breakpoints
         )
-        self.tracing = Tracing(self._instance.ask, self._publish, partial(keeper.keep_traces, row.id), traces or {})
+        self.tracing = Tracing(
+            self._instance.ask, self._publish, partial(write_behind.keep_traces, row.id), traces or {}
+        )
         self._halted = 0
         self._resending: asyncio.Task[None] | None = None
 
@@ -572,7 +574,7 @@ class Session:
 
     def _publish_rows(self, rows: Sequence[ErrorRow], fresh: bool = False) -> None:
         """Keeps and tells what changed; `fresh`: another version runs, whose rows are all others."""
-        self._keeper.keep_rows(self.id, rows)
+        self._write_behind.keep_rows(self.id, rows)
         now = self._history.rows if fresh else [row for row in rows if row.program_version == self._history.version]
         if now and not self._past_rows:
             self._tell_rows(now)
@@ -583,7 +585,7 @@ class Session:
     def _add_line(self, line: LogEntry) -> None:
         self._lines.append(line)
         del self._lines[:-LOG_LINES]
-        self._keeper.keep_line(self.id, line, self._history.version)
+        self._write_behind.keep_line(self.id, line, self._history.version)
         self._publish(events.Logged((line,)))
 
     def listen(self, listener: Callable[[Event], None]) -> None:

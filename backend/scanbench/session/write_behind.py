@@ -33,7 +33,7 @@ _Traces = dict[int, Mapping[int, Json]]
 _T = TypeVar("_T")
 
 
-class Keeper:
+class WriteBehind:
     """One task that writes what has changed since its last turn, over and over."""
 
     def __init__(self, store: Store) -> None:

@@ -21,7 +21,7 @@ from scanbench.faults.reference import ErrorRef
 from scanbench.faults.schedule import Schedule
 from scanbench.faults.shapes import Shape, Start, Wanted, lasts
 from scanbench.recording.headless import HeadlessRun, run_headless
-from scanbench.recording.journal_roots import heritage
+from scanbench.recording.journal_roots import journal_roots
 from scanbench.recording.replay import replay
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.modes import SetMode
@@ -405,7 +405,7 @@ def test_of_a_long_run_little_has_to_stay_in_the_journal() -> None:
     )  # fmt: skip
     for cut in (len(run.entries), 700, 501, 8, 5):
         entries = run.entries[:cut]
-        kept = heritage(entries, ENTRIES.folds)
+        kept = journal_roots(entries, ENTRIES.folds)
         assert len(kept) <= 6
         for fold in ENTRIES.folds:
             assert fold.over(entries[index] for index in kept) == fold.over(entries)

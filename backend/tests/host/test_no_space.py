@@ -8,7 +8,7 @@ from pathlib import Path
 
 import pytest
 
-from scanbench.host.zygote import nursery
+from scanbench.host.zygote import zygote
 from scanbench.runtime.forces import Force
 from scanbench.runtime.write import Write
 from scanbench.session.instance import Instance, Remembered
@@ -89,8 +89,8 @@ def test_a_plc_begins_when_there_is_room(tmp_path: Path, monkeypatch: pytest.Mon
         sources = protocol.Sources("GENERIC-IEC", {"main.st": COUNTING}, 1_000_000, 1)
         run = tmp_path / "line.run"
         instance = Instance(Remembered("line", sources, run, Limits()), on_state, lambda _: None, tmp_path / "cache")
-        await asyncio.to_thread(nursery().start)
-        pid = nursery().pid
+        await asyncio.to_thread(zygote().start)
+        pid = zygote().pid
         assert pid is not None
         room(pid, 100)
         try:

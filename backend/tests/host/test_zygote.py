@@ -13,7 +13,7 @@ from time import monotonic, sleep
 
 import pytest
 
-from scanbench.host.zygote import HostProcess, NoProcess, Nursery
+from scanbench.host.zygote import HostProcess, NoProcess, Zygote
 from scanbench.session.instance import Instance, Remembered
 from scanbench.store.records import Limits
 from scanbench.wire import host as protocol
@@ -32,10 +32,10 @@ def sources(text: str = COUNTING) -> protocol.Sources:
 class Talk:
     """The parent's end of a host."""
 
-    def __init__(self, nursery: Nursery, directory: Path, number: int = 0) -> None:
+    def __init__(self, zygote: Zygote, directory: Path, number: int = 0) -> None:
         ours, theirs = socket.socketpair()
         with theirs:
-            self.process = nursery.spawn(theirs, directory / "cache")
+            self.process = zygote.spawn(theirs, directory / "cache")
         self.sock, self._splitter = ours, Splitter()
         self._run = directory / f"{number}.run"
         self._read: list[object] = []
@@ -65,22 +65,22 @@ class Talk:
 
 
 @contextmanager
-def hosts(directory: Path, count: int) -> Iterator[tuple[Nursery, list[Talk]]]:
+def hosts(directory: Path, count: int) -> Iterator[tuple[Zygote, list[Talk]]]:
     """So many PLCs that run."""
-    nursery = Nursery()
+    zygote = Zygote()
     talks: list[Talk] = []
     try:
         for number in range(count):
-            talks.append(Talk(nursery, directory, number))
+            talks.append(Talk(zygote, directory, number))
             talks[-1].start()
         assert all(isinstance(talk.hear(protocol.Ready), protocol.Ready) for talk in talks)
-        yield nursery, talks
+        yield zygote, talks
     finally:
         for talk in talks:
             talk.sock.close()
             talk.process.kill()
             talk.process.wait()
-        nursery.close()
+        zygote.close()
 
 
 def runs(pid: int) -> bool:
@@ -106,13 +106,13 @@ def test_a_host_ends_when_it_is_told_to(tmp_path: Path) -> None:
 
 
 def test_a_host_says_that_it_is_there_also_before_its_plc_runs(tmp_path: Path) -> None:
-    nursery = Nursery()
-    talk = Talk(nursery, tmp_path)
+    zygote = Zygote()
+    talk = Talk(zygote, tmp_path)
     talk.say(protocol.Ping())
     assert isinstance(talk.hear(protocol.Pong), protocol.Pong)
     talk.sock.close()
     talk.process.wait(PATIENCE_S)
-    nursery.close()
+    zygote.close()
 
 
 def test_a_host_ends_when_nobody_speaks_to_it_any_more(tmp_path: Path) -> None:
@@ -122,13 +122,13 @@ def test_a_host_ends_when_nobody_speaks_to_it_any_more(tmp_path: Path) -> None:
 
 
 def test_a_killed_host_is_noticed_and_the_only_one(tmp_path: Path) -> None:
-    with hosts(tmp_path, 3) as (nursery, (first, second, third)):
+    with hosts(tmp_path, 3) as (zygote, (first, second, third)):
         os.kill(second.process.pid, signal.SIGKILL)
         assert second.hear(protocol.StartFailed) is None  # the end: nobody else has its socket
         assert second.process.wait(PATIENCE_S) == -signal.SIGKILL
         assert first.answers()
         assert third.answers()
-        again = Talk(nursery, tmp_path, 4)
+        again = Talk(zygote, tmp_path, 4)
         again.start()
         assert again.answers()
         again.sock.close()
@@ -136,54 +136,54 @@ def test_a_killed_host_is_noticed_and_the_only_one(tmp_path: Path) -> None:
 
 
 def test_hosts_survive_their_nursery(tmp_path: Path) -> None:
-    with hosts(tmp_path, 2) as (nursery, talks):
-        killed = nursery.pid
+    with hosts(tmp_path, 2) as (zygote, talks):
+        killed = zygote.pid
         assert killed is not None
         os.kill(killed, signal.SIGKILL)
         until(lambda: not runs(killed))
         assert all(talk.answers() for talk in talks)
-        born_later = Talk(nursery, tmp_path, 7)
+        born_later = Talk(zygote, tmp_path, 7)
         born_later.start()
         assert born_later.answers()
-        assert nursery.pid != killed
+        assert zygote.pid != killed
         born_later.process.kill()
         assert born_later.process.wait() == -signal.SIGKILL
         born_later.sock.close()
 
 
 def test_a_frozen_nursery_is_given_up(tmp_path: Path) -> None:
-    nursery = Nursery(grace_s=0.1)
-    nursery.start()
-    Talk(nursery, tmp_path).sock.close()
-    frozen = nursery.pid
+    zygote = Zygote(grace_s=0.1)
+    zygote.start()
+    Talk(zygote, tmp_path).sock.close()
+    frozen = zygote.pid
     assert frozen is not None
     os.kill(frozen, signal.SIGSTOP)
-    patience, nursery.reply_s = nursery.reply_s, 0.01
+    patience, zygote.reply_s = zygote.reply_s, 0.01
     ours, theirs = socket.socketpair()
     with ours, theirs, pytest.raises(NoProcess):
-        nursery.spawn(theirs, None)
-    nursery.reply_s = patience
-    talk = Talk(nursery, tmp_path, 1)
+        zygote.spawn(theirs, None)
+    zygote.reply_s = patience
+    talk = Talk(zygote, tmp_path, 1)
     talk.start()
     assert talk.answers()
     talk.sock.close()
     assert not runs(frozen)
-    assert nursery.pid is not None
-    os.kill(nursery.pid, signal.SIGSTOP)
-    nursery.close()
+    assert zygote.pid is not None
+    os.kill(zygote.pid, signal.SIGSTOP)
+    zygote.close()
 
 
 _PARENT = """
 import socket, sys, time
 from pathlib import Path
-from scanbench.host.zygote import nursery
+from scanbench.host.zygote import zygote
 from tests.host.test_zygote import Talk
 from scanbench.wire import host as protocol
-talks = [Talk(nursery(), Path(sys.argv[1]), number) for number in range(2)]
+talks = [Talk(zygote(), Path(sys.argv[1]), number) for number in range(2)]
 for talk in talks:
     talk.start()
     talk.hear(protocol.Ready)
-print(nursery().pid, *(talk.process.pid for talk in talks), flush=True)
+print(zygote().pid, *(talk.process.pid for talk in talks), flush=True)
 time.sleep(600)
 """
 
@@ -205,26 +205,26 @@ def sockets(pid: int) -> set[str]:
 
 
 def test_siblings_share_no_socket(tmp_path: Path) -> None:
-    with hosts(tmp_path, 3) as (nursery, talks):
-        assert nursery.pid is not None
-        of_nursery = sockets(nursery.pid)
-        assert len(of_nursery) == 1
+    with hosts(tmp_path, 3) as (zygote, talks):
+        assert zygote.pid is not None
+        of_zygote = sockets(zygote.pid)
+        assert len(of_zygote) == 1
         of_hosts = [sockets(talk.process.pid) for talk in talks]
         assert [len(each) for each in of_hosts] == [1, 1, 1]
-        assert len(set().union(of_nursery, *of_hosts)) == 4
+        assert len(set().union(of_zygote, *of_hosts)) == 4
 
 
 def test_a_nursery_that_cannot_start_says_so(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    nursery = Nursery()
+    zygote = Zygote()
     monkeypatch.setattr(sys, "executable", str(tmp_path / "no python"))
     ours, theirs = socket.socketpair()
     with ours, theirs, pytest.raises(NoProcess, match="no process could be started"):
-        nursery.spawn(theirs, None)
+        zygote.spawn(theirs, None)
     monkeypatch.undo()
-    nursery.start()
-    assert nursery.pid is not None
-    nursery.close()
-    assert nursery.pid is None
+    zygote.start()
+    assert zygote.pid is not None
+    zygote.close()
+    assert zygote.pid is None
 
 
 def test_waiting_for_a_process_has_an_end(tmp_path: Path) -> None:
@@ -246,27 +246,27 @@ def test_somebody_elses_child_is_gone() -> None:
 
 
 def test_out_of_memory_is_said(tmp_path: Path) -> None:
-    nursery = Nursery()
-    talk = Talk(nursery, tmp_path)
+    zygote = Zygote()
+    talk = Talk(zygote, tmp_path)
     talk.start(LARGE.format(8_000_000), memory_mib=64)
     failed = talk.hear(protocol.StartFailed)
     assert isinstance(failed, protocol.StartFailed)
     assert failed.message.startswith("out of memory: limit 64 MiB")
     assert talk.process.wait(PATIENCE_S) == 1
     talk.sock.close()
-    nursery.close()
+    zygote.close()
 
 
 def test_a_small_program_needs_little_memory(tmp_path: Path) -> None:
-    nursery = Nursery()
-    talk = Talk(nursery, tmp_path)
+    zygote = Zygote()
+    talk = Talk(zygote, tmp_path)
     talk.start(memory_mib=64)
     assert isinstance(talk.hear(protocol.Ready), protocol.Ready)
     assert talk.answers()
     talk.say(protocol.Quit())
     assert talk.process.wait(PATIENCE_S) == 0
     talk.sock.close()
-    nursery.close()
+    zygote.close()
 
 
 def test_a_plc_that_is_out_of_memory_is_not_started_again_before_somebody_switches_it_on(tmp_path: Path) -> None:

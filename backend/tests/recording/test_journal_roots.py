@@ -11,7 +11,7 @@ from scanbench.faults.inject import ACTIVE, Generate, Recover
 from scanbench.faults.reference import ErrorRef
 from scanbench.recording import checkpoints
 from scanbench.recording.blocks import KeptProgram
-from scanbench.recording.journal_roots import heritage
+from scanbench.recording.journal_roots import journal_roots
 from scanbench.recording.recording import Recording
 from scanbench.recording.timeline import Timeline
 from scanbench.runtime.command import Command, Effect, Entry, Plan, Restarted, Swapped
@@ -74,7 +74,7 @@ CASES: list[tuple[list[Command | Effect], list[int]]] = [
 @pytest.mark.parametrize(("commands", "expected"), CASES)
 def test_what_holds_stays(commands: list[Command | Effect], expected: list[int]) -> None:
     entries = journal(*commands)
-    assert list(heritage(entries, ENTRIES.folds)) == expected
+    assert list(journal_roots(entries, ENTRIES.folds)) == expected
     _comes_to_the_same(entries)
 
 
@@ -91,11 +91,11 @@ def test_a_fold_that_needs_more_than_the_first_and_the_last_gets_it() -> None:
 
     entries = journal(*(Write("Ada", "D0", "1") for _ in range(10)))
     fold: Fold[Mapping[str, int]] = Fold({}, step)
-    assert list(heritage(entries, [fold])) == [1, 2, 4, 5, 7, 8]
+    assert list(journal_roots(entries, [fold])) == [1, 2, 4, 5, 7, 8]
 
 
 def _comes_to_the_same(entries: list[Entry]) -> None:
-    kept = heritage(entries, ENTRIES.folds)
+    kept = journal_roots(entries, ENTRIES.folds)
     left = Journal(entries[index] for index in kept)
     whole = Journal(entries)
     assert list(left.derived(FORCED).items()) == list(whole.derived(FORCED).items())

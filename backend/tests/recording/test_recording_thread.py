@@ -12,7 +12,7 @@ from scanbench.recording import checkpoints, smaller
 from scanbench.recording import format as runfile
 from scanbench.recording.blocks import Codec
 from scanbench.recording.timeline import Timeline
-from scanbench.recording.worker import Errands
+from scanbench.recording.worker import Worker
 from scanbench.runtime.command import Entry, Refusal
 from scanbench.runtime.write import Write
 from tests.recording.recorded import advance, begun, resumed, tidy
@@ -101,7 +101,7 @@ def test_the_run_goes_on_while_a_copy_is_written(tmp_path: Path, monkeypatch: py
     _grow(timeline, 50)
     states = {timeline.live_scan: timeline.resource.state}
     gate, answers, threads = threading.Event(), list[Refusal | None](), list[threading.Thread]()
-    timeline.recording._errands.give(lambda: (gate.wait(), None)[1])
+    timeline.recording._worker.give(lambda: (gate.wait(), None)[1])
 
     def done(refusal: Refusal | None) -> None:
         answers.append(refusal)
@@ -147,7 +147,7 @@ def test_what_is_made_when_a_recording_ends_is_taken_away(tmp_path: Path, monkey
     monkeypatch.setattr(checkpoints, "EVERY_NS", 0)
     timeline = begun(tmp_path / "run", limit=60_000)
     gate = threading.Event()
-    timeline.recording._errands.give(lambda: (gate.wait(), None)[1])
+    timeline.recording._worker.give(lambda: (gate.wait(), None)[1])
     _grow(timeline, 300)
     made: list[smaller.Smaller | None] = []
 
@@ -164,20 +164,20 @@ def test_what_is_made_when_a_recording_ends_is_taken_away(tmp_path: Path, monkey
 
 def test_errands_are_done_in_order_and_synced_in_the_end() -> None:
     done: list[object] = []
-    errands = Errands("test", lambda: done.append("sync"))
-    errands.wait()
-    errands.give(lambda: done.append(1))
+    worker = Worker("test", lambda: done.append("sync"))
+    worker.wait()
+    worker.give(lambda: done.append(1))
 
     def wrong() -> None:
         raise ZeroDivisionError
 
-    errands.give(wrong)
-    errands.give(lambda: done.append(2))
-    errands.wait()
+    worker.give(wrong)
+    worker.give(lambda: done.append(2))
+    worker.wait()
     assert done == [1, 2]
     for _ in range(100):
-        errands.sync_soon()
-    errands.close()
+        worker.sync_soon()
+    worker.close()
     assert done[:2] == [1, 2]
     assert set(done[2:]) == {"sync"}
     assert len(done) < 10

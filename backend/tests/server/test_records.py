@@ -19,7 +19,7 @@ from scanbench.reports.record_xml import to_xml
 from scanbench.server import test_records as records
 from scanbench.server.test_records import Records
 from scanbench.session.session import Session
-from scanbench.session.write_behind import Keeper
+from scanbench.session.write_behind import WriteBehind
 from scanbench.store.records import CellRow, LogRow, SweptError
 from scanbench.store.store import Store
 from scanbench.wire.refused import Refused
@@ -65,11 +65,11 @@ def plc(store: Store) -> Plc:
 
 @asynccontextmanager
 async def opened(store: Store) -> AsyncIterator[Records]:
-    keeper = Keeper(store)
+    write_behind = WriteBehind(store)
     try:
-        yield Records(store, keeper, "Scanbench 0.1")
+        yield Records(store, write_behind, "Scanbench 0.1")
     finally:
-        await keeper.close()
+        await write_behind.close()
 
 
 def made(store: Store, plc: Plc) -> TestRecord:

@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from scanbench.faults.history import ErrorRow
-from scanbench.session.write_behind import LOG_KEPT, LOG_TRIMMED_EVERY, Keeper
+from scanbench.session.write_behind import LOG_KEPT, LOG_TRIMMED_EVERY, WriteBehind
 from scanbench.store.records import HistoryRow, LogRow, StoreError
 from scanbench.store.store import Store
 from scanbench.wire.events import LogEntry
@@ -57,13 +57,13 @@ def instance(store: Slow) -> int:
 
 
 @asynccontextmanager
-async def keeping(store: Store) -> AsyncIterator[Keeper]:
-    keeper = Keeper(store)
-    keeper.start()
+async def keeping(store: Store) -> AsyncIterator[WriteBehind]:
+    write_behind = WriteBehind(store)
+    write_behind.start()
     try:
-        yield keeper
+        yield write_behind
     finally:
-        await keeper.close()
+        await write_behind.close()
 
 
 def line(text: str) -> LogEntry:
@@ -76,16 +76,16 @@ def texts(store: Store, instance: int) -> list[str]:
 
 def test_what_a_slow_database_cannot_follow_is_one_batch(store: Slow, instance: int) -> None:
     async def story() -> None:
-        async with keeping(store) as keeper:
+        async with keeping(store) as write_behind:
             store.may.clear()
-            keeper.keep_rows(instance, [ROW])
+            write_behind.keep_rows(instance, [ROW])
             await asyncio.to_thread(store.begun.wait, 60)
             for count in range(2, 30_001):
-                keeper.keep_rows(instance, [replace(ROW, count=count)])
-                keeper.keep_line(instance, line(f"line {count}"), 3)
-            keeper.keep_rows(instance, [replace(ROW, id="fal", count=2), replace(ROW, program_version=4)])
+                write_behind.keep_rows(instance, [replace(ROW, count=count)])
+                write_behind.keep_line(instance, line(f"line {count}"), 3)
+            write_behind.keep_rows(instance, [replace(ROW, id="fal", count=2), replace(ROW, program_version=4)])
             store.may.set()
-            await keeper.flush()
+            await write_behind.flush()
             assert store.rows == [1, 3]
             assert store.lines == [LOG_KEPT]
             told = {(row.error, row.program_version): row.count for row in store.history(instance)}
@@ -97,18 +97,18 @@ def test_what_a_slow_database_cannot_follow_is_one_batch(store: Slow, instance: 
 
 def test_waiting_ends_while_more_and_more_comes(store: Slow, instance: int) -> None:
     async def story() -> None:
-        async with keeping(store) as keeper:
+        async with keeping(store) as write_behind:
             over = False
 
             async def chatter() -> None:
                 while not over:
-                    keeper.keep_rows(instance, [ROW])
+                    write_behind.keep_rows(instance, [ROW])
                     await asyncio.sleep(0)
 
             task = asyncio.get_running_loop().create_task(chatter())
             for number in range(5):
-                keeper.keep_line(instance, line(f"mark {number}"), 3)
-                await keeper.flush()
+                write_behind.keep_line(instance, line(f"mark {number}"), 3)
+                await write_behind.flush()
                 assert f"mark {number}" in texts(store, instance)
             over = True
             await task
@@ -118,12 +118,12 @@ def test_waiting_ends_while_more_and_more_comes(store: Slow, instance: int) -> N
 
 def test_the_end_writes_the_rest(store: Slow, instance: int) -> None:
     async def story() -> None:
-        async with keeping(store) as keeper:
-            keeper.keep_rows(instance, [ROW])
-            keeper.keep_line(instance, line("last"), 3)
+        async with keeping(store) as write_behind:
+            write_behind.keep_rows(instance, [ROW])
+            write_behind.keep_line(instance, line("last"), 3)
         assert texts(store, instance) == ["last"]
         assert [row.count for row in store.history(instance)] == [1]
-        await keeper.flush()  # nothing writes any more, and nobody waits for it
+        await write_behind.flush()  # nothing writes any more, and nobody waits for it
 
     asyncio.run(story())
 
@@ -131,13 +131,13 @@ def test_the_end_writes_the_rest(store: Slow, instance: int) -> None:
 def test_old_lines_go(store: Slow, instance: int) -> None:
     async def story() -> None:
         store.add_log(instance, [LogRow(NOON, 1, "ada", "error", f"old {number}") for number in range(LOG_KEPT)])
-        async with keeping(store) as keeper:
-            keeper.keep_line(instance, line("first"), 3)
-            await keeper.flush()
+        async with keeping(store) as write_behind:
+            write_behind.keep_line(instance, line("first"), 3)
+            await write_behind.flush()
             assert len(texts(store, instance)) == LOG_KEPT
             for _ in range(LOG_TRIMMED_EVERY + 1):
-                keeper.keep_line(instance, line("more"), 3)
-            await keeper.flush()
+                write_behind.keep_line(instance, line("more"), 3)
+            await write_behind.flush()
             assert len(texts(store, instance)) == LOG_KEPT
             assert texts(store, instance)[0] == f"old {LOG_TRIMMED_EVERY + 2}"
 
@@ -150,11 +150,11 @@ def test_an_instance_that_is_gone_takes_nothing_with_it(
     async def story() -> None:
         gone = store.create_instance(store.create_project("q", "CJ1M-CPU63").id, "j").id
         store.delete_instance(gone)
-        async with keeping(store) as keeper:
+        async with keeping(store) as write_behind:
             for id in (gone, instance):
-                keeper.keep_rows(id, [ROW])
-                keeper.keep_line(id, line("here"), 3)
-            await keeper.flush()
+                write_behind.keep_rows(id, [ROW])
+                write_behind.keep_line(id, line("here"), 3)
+            await write_behind.flush()
         assert texts(store, instance) == ["here"]
         assert len(store.history(instance)) == 1
         said = [record.getMessage() for record in caplog.records]
@@ -172,9 +172,9 @@ def test_a_row_that_cannot_be_written_takes_nothing_with_it(
     async def story() -> None:
         rows = [replace(ROW, id=f"error-{number}") for number in range(9)]
         rows[5] = replace(rows[5], generated_at=NOON.replace(tzinfo=None))
-        async with keeping(store) as keeper:
-            keeper.keep_rows(instance, rows)
-            await keeper.flush()
+        async with keeping(store) as write_behind:
+            write_behind.keep_rows(instance, rows)
+            await write_behind.flush()
         assert [row.error for row in store.history(instance)] == [
             f"error-{number}" for number in range(9) if number != 5
         ]
@@ -200,11 +200,11 @@ def test_what_the_database_refuses_is_written_when_it_can_be(
 
     async def story() -> None:
         nonlocal full
-        async with keeping(store) as keeper:
+        async with keeping(store) as write_behind:
             for number in range(3):
-                keeper.keep_rows(instance, [replace(ROW, count=number)])
-                keeper.keep_line(instance, line(f"line {number}"), 3)
-                await keeper.flush()
+                write_behind.keep_rows(instance, [replace(ROW, count=number)])
+                write_behind.keep_line(instance, line(f"line {number}"), 3)
+                await write_behind.flush()
             assert texts(store, instance) == []
             full = False
             await asyncio.to_thread(written.wait, 60)  # nobody asks for it
@@ -234,10 +234,10 @@ def test_what_was_written_before_the_database_refused_is_not_written_again(
     monkeypatch.setattr(Store, "add_log", refuse)
 
     async def story() -> None:
-        async with keeping(store) as keeper:
+        async with keeping(store) as write_behind:
             for number in range(8):
                 bad = replace(line(f"line {number}"), at=NOON.replace(tzinfo=None) if number == 5 else NOON)
-                keeper.keep_line(instance, bad, 3)
+                write_behind.keep_line(instance, bad, 3)
             await asyncio.to_thread(whole.wait, 60)
         assert texts(store, instance) == [f"line {number}" for number in range(8) if number != 5]
 

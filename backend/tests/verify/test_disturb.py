@@ -21,7 +21,7 @@ from scanbench.faults.disturb.disturb import (
 from scanbench.faults.disturb.fire import Corrupt, Flip, Hold, Unfired, Unhold
 from scanbench.faults.disturb.schedule import DisturbanceSchedule
 from scanbench.recording.headless import HeadlessRun, run_headless
-from scanbench.recording.journal_roots import heritage
+from scanbench.recording.journal_roots import journal_roots
 from scanbench.recording.replay import replay
 from scanbench.runtime.command import Command, Entry, Refusal
 from scanbench.runtime.forces import Force, Release, read_table
@@ -445,7 +445,7 @@ def test_a_journal_may_forget_what_lies_between(engine: EngineFactory) -> None:
     )  # fmt: skip
     entries = list(result.entries)
     for cut in range(0, len(entries), 7):
-        kept = heritage(entries[:cut], ENTRIES.folds)
+        kept = journal_roots(entries[:cut], ENTRIES.folds)
         assert len(kept) <= 14
         for fold in (DISTURBED, HELD):
             assert fold.over(entries[index] for index in kept) == fold.over(entries[:cut])

@@ -85,7 +85,7 @@ def test_a_server_ends_with_all_its_children_also_frozen_ones(tmp_path: Path) ->
         instance = server.instance("frozen", "CJ1M-CPU63", main=SOURCE)
         until(lambda: server.state(instance)["state"] == "running", 30)
         pids = children(server.process.pid)
-        assert len(pids) >= 5  # the samples and this one, the checker, the nursery
+        assert len(pids) >= 5  # the samples and this one, the checker, the zygote
         for pid in pids:
             os.kill(pid, signal.SIGSTOP)
         server.process.terminate()

@@ -12,7 +12,7 @@ from contextlib import suppress
 
 from pydantic import ValidationError
 
-from scanbench.host.zygote import nursery
+from scanbench.host.zygote import zygote
 from scanbench.web.dap import shapes
 from scanbench.web.dap.answers import fault, refusal
 from scanbench.web.dap.conversation import Conversation
@@ -174,7 +174,7 @@ class Front:
             self._stay(message, f"attach failed: {error}")
         else:
             self._attaching = None
-            self._begin(asyncio.to_thread(nursery().close))  # nothing is launched any more
+            self._begin(asyncio.to_thread(zygote().close))  # nothing is launched any more
             await self._remote.begin(self._initialize)
             await self._remote.forward(message)
             await self._forward()

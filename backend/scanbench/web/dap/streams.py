@@ -4,14 +4,14 @@ import os
 from contextlib import suppress
 from functools import cache
 
-from scanbench.host.zygote import NoProcess, nursery
+from scanbench.host.zygote import NoProcess, zygote
 
 
 def prepare() -> None:
     """An editor waits: the process that a PLC is forked from loads while this one does."""
     own_streams()
     with suppress(NoProcess):  # `launch` says so
-        nursery().start()
+        zygote().start()
 
 
 @cache
