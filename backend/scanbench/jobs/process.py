@@ -1,6 +1,6 @@
 """The job process: reactions, sweeps, records of earlier scans, verifications, questions about the past; so that neither the server nor a PLC has to wait for them.
 
-Forked from the zygote; see `job_protocol.py`. Whatever goes wrong with a request is told in its answer.
+Forked from the zygote; see `wire/jobs.py`. Whatever goes wrong with a request is told in its answer.
 """
 
 import logging

@@ -1,4 +1,4 @@
-"""What the blocks of a run file mean (`runfile.py` has their bytes), and how they are read.
+"""What the blocks of a run file mean (`format.py` has their bytes), and how they are read.
 
 ABOUT      first: JSON of `About`
 PROGRAM    u32 version, digest (64 characters), the sources as they were given; before whatever needs the program

@@ -1,4 +1,4 @@
-"""What the parent asks a PLC's host of debugging, and what it hears; goes with `protocol.py`, packed by `codec.py`.
+"""What the parent asks a PLC's host of debugging, and what it hears; goes with `host.py`, packed by `codec.py`.
 
 Each request carries a `ref` and is answered by exactly one message with it; a refusal is an `Ack` that is not ok.
 """

@@ -1,6 +1,6 @@
 """What the parent asks a job process, and what it answers: reactions and sweeps. Packed by `codec.py`, length first.
 
-Its process (`job.py`) reads requests from a socket, in order, and answers on it; it ends when the socket is closed, and
+Its process (`jobs/process.py`) reads requests from a socket, in order, and answers on it; it ends when the socket is closed, and
 with its parent. A sweep is cancelled by ending the process. Nothing here changes a PLC.
 """
 

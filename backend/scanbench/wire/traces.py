@@ -1,4 +1,4 @@
-"""What the parent and the host of a PLC say to each other about traces. See `protocol.py`."""
+"""What the parent and the host of a PLC say to each other about traces. See `host.py`."""
 
 from dataclasses import dataclass
 
@@ -95,7 +95,7 @@ class TraceRead:
 @dataclass(frozen=True, slots=True)
 class RecordFlight:
     """Runs scans `first` to `last` of this run file again, and writes samples of these signals to the file `to`, as records are
-    kept (`trace_file.py`).
+    kept (`taps/spool.py`).
 
     The file may be that of a PLC that runs: it is opened read-only. `FlightAt` says how far it got, `FlightDone` ends it. It is
     cancelled by ending the process.

@@ -1,7 +1,7 @@
 """Subrange checks that the checker embeds by itself: where a subrange variable is read, and where one is assigned.
 
 A value outside of its subrange is brought back to the nearer bound and recorded (`Limit`), so that the program goes on
-with what it may count on. What can be proven needless is listed, but not run; `needless.py` finds more of it.
+with what it may count on. What can be proven needless is listed, but not run; `redundant_checks.py` finds more of it.
 """
 
 from abc import abstractmethod

@@ -1,7 +1,7 @@
 """Disturbances of the control device: commands through the one door, and what the journal says of them.
 
-`Disturb` gives a disturbance its number. Whenever its time comes, `disturb_schedule.py` enters what it does
-(`disturb_fire.py`), so a replay has all of it and asks nobody. The monitor leaves all of these commands out.
+`Disturb` gives a disturbance its number. Whenever its time comes, `schedule.py` enters what it does
+(`fire.py`), so a replay has all of it and asks nobody. The monitor leaves all of these commands out.
 """
 
 from collections.abc import Iterator, Mapping
