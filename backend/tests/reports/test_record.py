@@ -277,10 +277,10 @@ TEXT = st.text(st.characters(codec="utf-8", exclude_categories=("Cs", "Cc"), exc
 NAME = TEXT.filter(bool)
 COUNT = st.integers(0, 2**63 - 1)
 SCAN = st.none() | COUNT
-AT = (
-    st.datetimes()
-    .filter(lambda at: 1971 < at.year < 2200)
-    .map(lambda at: at.replace(tzinfo=timezone(timedelta(hours=9))))
+AT = st.datetimes(
+    datetime.fromisoformat("1972-01-01"),
+    datetime.fromisoformat("2199-12-31"),
+    timezones=st.just(timezone(timedelta(hours=9))),
 )
 VERDICT: st.SearchStrategy[Verdict] = st.sampled_from(WORST_FIRST)
 SWEEP_STATUS: tuple[SweepStatus, ...] = ("running", "done", "cancelled", "interrupted", "failed")

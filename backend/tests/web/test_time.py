@@ -36,6 +36,14 @@ def shown(browser: Browser, path: str, value: int) -> None:
     browser.wait(lambda: browser.number(path) == value)
 
 
+def paused_with(browser: Browser, why: str) -> None:
+    """Waits for this pause: a state that was told before it may come late."""
+    browser.wait(lambda: any(
+        each["type"] == "state" and each["state"]["state"] == "paused" and why in each["state"]["message"]
+        for each in browser.messages
+    ))  # fmt: skip
+
+
 def test_a_run_stops_where_it_was_asked_to(server: Server) -> None:
     instance = server.instance("targets", MODEL, main=COUNT)
     with server.browser(instance) as browser:
@@ -43,11 +51,11 @@ def test_a_run_stops_where_it_was_asked_to(server: Server) -> None:
         scan = still(browser)
         assert browser.ask(type="run", action="continue", speed=0, scans=12_345)["ok"]
         shown(browser, "Main.n", scan + 12_345)
-        assert "asked for" in browser.wait_state("paused")["message"]
+        paused_with(browser, "asked for")
         done = browser.ask(type="run", action="continue", until="Main.n >= 50000 AND NOT Main.start")
         assert done["ok"], done
         shown(browser, "Main.n", 50_000)
-        assert "Main.n >= 50000" in browser.wait_state("paused")["message"]
+        paused_with(browser, "Main.n >= 50000")
         refused = browser.ask(type="run", action="continue", until="Main.m > 3")
         assert not refused["ok"]
         assert "no member `m`" in refused["message"]
