@@ -85,6 +85,7 @@ test('every version of the program has a history of its own', async ({ openAs })
   await mika.showPanel('History');
 
   await test.step('the new version begins with nothing tested', async () => {
+    await expect(mika.page.getByRole('button', { name: 'History of: Version 2, running' })).toBeVisible();
     await expect(mika.history(ERROR)).toContainText(['Never']);
   });
 
