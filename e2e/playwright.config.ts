@@ -28,7 +28,8 @@ export default defineConfig({
     headless: true,
     viewport: { width: 1440, height: 900 },
     locale: 'en-GB',
-    trace: 'retain-on-failure',
+    // A trace of every story costs as much as the stories; one that failed is told by the trace of its second try.
+    trace: 'on-first-retry',
     screenshot: 'only-on-failure',
     // Nothing asserts on motion, and drawing it takes a third of what a browser without a graphics card computes.
     contextOptions: { reducedMotion: 'reduce' },
