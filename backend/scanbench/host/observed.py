@@ -5,8 +5,6 @@ from dataclasses import dataclass
 from scanbench.program.program import Program
 from scanbench.wire.host import Submit
 
-_KEPT = 2
-
 
 @dataclass(frozen=True, slots=True)
 class Observable:
