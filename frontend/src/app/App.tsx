@@ -1,6 +1,5 @@
 import { useEffect, useRef, useState } from "react";
 import { showState } from "../logic/plcstate";
-import { t } from "../logic/text";
 import { Banners } from "../panels/banner/Banners";
 import { OnlineChange } from "../panels/change/OnlineChange";
 import { DebugSide } from "../panels/debug/DebugSide";
@@ -17,6 +16,7 @@ import { start, useBench } from "../store/bench";
 import { useDocuments } from "../store/documents";
 import { useOnline, usePlc } from "../store/plc";
 import { usePrefs } from "../store/prefs";
+import { t } from "../text";
 import { Icon } from "../ui/Icon";
 import { IconButton } from "../ui/IconButton";
 import { Dock, type DockHandle } from "./Dock";

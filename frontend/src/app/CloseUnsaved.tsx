@@ -1,8 +1,8 @@
 import { useState } from "react";
 import { baseName } from "../logic/paths";
-import { t } from "../logic/text";
 import { discardEdits, isDirty, isKept, save, useDocuments } from "../store/documents";
 import { discard, isEdited, saveUserErrors, useUserErrors } from "../store/userErrors";
+import { t } from "../text";
 import { Dialog } from "../ui/Dialog";
 import { Icon } from "../ui/Icon";
 import { useClosing } from "./closing";

@@ -1,7 +1,7 @@
 import type { IDockviewHeaderActionsProps } from "dockview-react";
 import { useEffect, useState } from "react";
-import { t } from "../logic/text";
 import { pageOf } from "../store/navigate";
+import { t } from "../text";
 import { Icon } from "../ui/Icon";
 import { IconButton } from "../ui/IconButton";
 

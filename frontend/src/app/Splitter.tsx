@@ -1,6 +1,6 @@
 import { type KeyboardEvent, type PointerEvent, useEffect, useState } from "react";
-import { t } from "../logic/text";
 import { keep, recall } from "../store/keep";
+import { t } from "../text";
 
 const LEAST = 160;
 const MOST = 480;

@@ -1,4 +1,4 @@
-import { t } from "../logic/text";
+import { t } from "../text";
 import { Icon } from "../ui/Icon";
 
 /** Stands where the editors will stand, as long as no file is open. */

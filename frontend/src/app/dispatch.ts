@@ -1,6 +1,5 @@
 /** Every message of the server to the store that it concerns. The switch is exhaustive: a new message is a compile error. */
 
-import { t } from "../logic/text";
 import { onProject, useBench } from "../store/bench";
 import { setClock } from "../store/clock";
 import { onComparison, refreshComparisons } from "../store/comparisons";
@@ -23,6 +22,7 @@ import { onVerifications, refreshVerifications } from "../store/verify";
 import { onWatching, watchAgain } from "../store/watches";
 import { refreshMembers } from "../store/watchlist";
 import { catchUpLists, onWatchList } from "../store/watchlists";
+import { t } from "../text";
 import { dap } from "../wire/dap";
 import { sayNoConnection } from "../wire/rest";
 import { abandon, settle } from "../wire/send";

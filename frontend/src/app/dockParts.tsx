@@ -1,7 +1,6 @@
 import type { IDockviewHeaderActionsProps, IDockviewPanelHeaderProps, IDockviewPanelProps } from "dockview-react";
 import { type MouseEvent, type ReactNode, useEffect } from "react";
 import { baseName } from "../logic/paths";
-import { t } from "../logic/text";
 import { ConsolePanel } from "../panels/console/ConsolePanel";
 import { DiagnosticsPanel } from "../panels/diagnostics/DiagnosticsPanel";
 import { DisturbPanel } from "../panels/disturb/DisturbPanel";
@@ -18,6 +17,7 @@ import { WatchPanel } from "../panels/watch/WatchPanel";
 import { isDirty, useDocuments } from "../store/documents";
 import { type PageName, pageOf } from "../store/navigate";
 import { usePlc } from "../store/plc";
+import { t } from "../text";
 import { Icon, type IconName } from "../ui/Icon";
 import type { Pou } from "../wire/types";
 import { closeByHand } from "./closing";

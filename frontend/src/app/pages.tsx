@@ -1,6 +1,5 @@
 /** Pages: what stands among the files in the centre without being one. */
 import type { ReactNode } from "react";
-import { t } from "../logic/text";
 import { RecordPage } from "../panels/history/RecordPage";
 import { ComparePage } from "../panels/past/ComparePage";
 import { SweepPage } from "../panels/sweep/SweepPage";
@@ -9,6 +8,7 @@ import type { PageName } from "../store/navigate";
 import { useRecordTitle } from "../store/records";
 import { useSweepTitle } from "../store/sweeps";
 import { isEdited, useUserErrors } from "../store/userErrors";
+import { t } from "../text";
 import type { IconName } from "../ui/Icon";
 
 interface Page {

@@ -1,7 +1,8 @@
 /** Breakpoints as people see them: shape, place and words. */
+
+import { t } from "../text";
 import type { BreakpointInfo, Pou } from "../wire/types";
 import { pouAt } from "./explorer";
-import { t } from "./text";
 
 /** A drawing of the gutter: filled holds, hollow is off, dashed is not in the program. */
 export type BreakpointShape = "bp" | "bp-cond" | "bp-log" | "bp-assign" | "bp-data" | "bp-off" | "bp-unbound";

@@ -1,7 +1,8 @@
 /** Online changes in words: what becomes of the variables, which PLCs are changed, and what a build did where. */
+
+import { t } from "../text";
 import type { LostVariable, OnlineChange } from "../wire/types";
 import { grouped } from "./numbers";
-import { t } from "./text";
 
 export const FATES = ["anew", "new", "removed"] as const;
 export type Fate = (typeof FATES)[number];

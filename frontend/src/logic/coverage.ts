@@ -1,6 +1,7 @@
 /** Coverage line by line: what the gutter shows. */
+
+import { t } from "../text";
 import type { Coverage, CoveredSite } from "../wire/types";
-import { t } from "./text";
 
 export interface CoveredLine {
   line: number;

@@ -1,7 +1,8 @@
 /** Details of an error as they are typed: read, judged, and brought into the form that the server takes. */
+
+import type { TextKey } from "../text";
+import { t } from "../text";
 import type { ErrorDetail, ErrorInfo } from "../wire/types";
-import { t } from "./text";
-import type { TextKey } from "./text.en";
 
 export type Format = "hex" | "decimal" | "text";
 

@@ -1,6 +1,7 @@
 /** A disturbance of the PLC: the fields as typed, and what the server is told. */
+
+import type { TextKey } from "../text";
 import type { NewDisturbance } from "../wire/types";
-import type { TextKey } from "./text.en";
 import { readScan } from "./timeline";
 
 export type DisturbKind = NewDisturbance["kind"];

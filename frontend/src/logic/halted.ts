@@ -1,7 +1,8 @@
 /** Where a PLC is halted, in words. */
+
+import { t } from "../text";
 import type { HaltInfo } from "../wire/types";
 import { baseName } from "./paths";
-import { t } from "./text";
 
 /** Why it halted says more than that it did: `Main.level changed from 3 to 7`, `error 20 was raised`. */
 const TELLING: readonly HaltInfo["reason"][] = ["data breakpoint", "error", "violation", "trap"];

@@ -1,7 +1,8 @@
 /** What may be done to a PLC now, and if not, why: one table for every control of the page. The PLC itself has the last word. */
+
+import type { TextKey } from "../text";
 import type { InstanceState } from "../wire/types";
 import { waitsForSpace } from "./plcstate";
-import type { TextKey } from "./text.en";
 
 export type Deed = "write" | "force" | "errors" | "mode" | "run" | "restart" | "anew" | "change" | "build" | "travel";
 

@@ -1,8 +1,9 @@
 /** How a state of the PLC is shown: tone, icon and words. One table, so that bar, rail and status bar agree. */
+
+import { t } from "../text";
 import type { InstanceState, RunState } from "../wire/types";
 import { haltDetail, haltShort } from "./halted";
 import { grouped, interval } from "./numbers";
-import { t } from "./text";
 
 export type Tone = "running" | "halted" | "stopped" | "fatal" | "past" | "stale";
 

@@ -1,6 +1,7 @@
 /** What is told about a reaction: a sentence, the places in the program, and what to do next. */
+
+import { t } from "../text";
 import type { Reaction, Verdict } from "../wire/types";
-import { t } from "./text";
 
 /** One line of the program that had to do with an error. */
 export interface Place {

@@ -1,6 +1,7 @@
 /** What somebody fills in to replay a run with one error another, and what the server is asked for. */
+
+import type { TextKey } from "../text";
 import type { NewRerun } from "../wire/types";
-import type { TextKey } from "./text.en";
 
 export interface RerunForm {
   name: string;

@@ -1,6 +1,7 @@
 /** When a fault begins and how it goes on: the fields as typed, and what the server is told. */
+
+import type { TextKey } from "../text";
 import type { FaultShape, FaultStart } from "../wire/types";
-import type { TextKey } from "./text.en";
 import { readScan } from "./timeline";
 
 export interface ShapeForm {

@@ -1,4 +1,6 @@
 /** An error sweep as a matrix: rows by the catalogue's groups, what stands in each cell, what is worth a look. */
+
+import { t } from "../text";
 import type {
   Accepted,
   CellRef,
@@ -13,7 +15,6 @@ import type {
 } from "../wire/types";
 import { isFinding } from "./catalogue";
 import { duration } from "./numbers";
-import { t } from "./text";
 
 export const VERDICTS = [
   "reacted",

@@ -1,6 +1,6 @@
 import { describe, expect, it } from "vitest";
+import { setLanguage } from "../text";
 import type { VerifyColumn, VerifyRow } from "../wire/types";
-import { setLanguage } from "./text";
 import {
   differsIn,
   firstDifferingUnit,

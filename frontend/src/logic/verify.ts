@@ -1,7 +1,8 @@
 /** Rows of a verification: what differs in them, and the way from difference to difference. */
+
+import { t } from "../text";
 import type { VerificationInfo, VerifyDifference, VerifyOutput, VerifyRow } from "../wire/types";
 import { grouped } from "./numbers";
-import { t } from "./text";
 import type { Unit } from "./verifyColumns";
 
 /** A' as it is shown: on edited inputs where the monitor ran on them. */

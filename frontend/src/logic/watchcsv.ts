@@ -1,6 +1,7 @@
 /** Watch lists as CSV: `path;format;group`, one entry a line. Other separators and quotes are read, too. */
+
+import { t } from "../text";
 import type { WatchEntry } from "../wire/types";
-import { t } from "./text";
 import { FORMATS, type Format } from "./values";
 
 const HEAD = ["path", "format", "group"];

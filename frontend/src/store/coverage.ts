@@ -1,6 +1,6 @@
 /** Which statements were reached since coverage was switched on; shared by everybody at the PLC. */
 import { create } from "zustand";
-import { t } from "../logic/text";
+import { t } from "../text";
 import { send } from "../wire/send";
 import type { Coverage } from "../wire/types";
 import { useDebug } from "./debug";

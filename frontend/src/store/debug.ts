@@ -2,7 +2,7 @@
 import { create } from "zustand";
 import type { Wanted } from "../logic/breakpoints";
 import { isShared, PLAIN } from "../logic/breakpoints";
-import { t } from "../logic/text";
+import { t } from "../text";
 import { type DebugProtocol, dap } from "../wire/dap";
 import type { BreakpointInfo } from "../wire/types";
 

@@ -1,8 +1,8 @@
 /** Where verifications and the comparison that is shown found differences: marks of the timeline beside those of the journal. */
 import { useMemo } from "react";
 import { create } from "zustand";
-import { t } from "../logic/text";
 import { type ShownMark, withDifferences } from "../logic/timeline";
+import { t } from "../text";
 import type { VerificationInfo } from "../wire/types";
 import { verify } from "../wire/verify";
 import { useBench } from "./bench";

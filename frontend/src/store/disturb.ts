@@ -3,7 +3,7 @@ import { useSyncExternalStore } from "react";
 import { create } from "zustand";
 import { type DisturbForm, plainDisturbance, readDisturbance } from "../logic/disturb";
 import { grouped } from "../logic/numbers";
-import { t } from "../logic/text";
+import { t } from "../text";
 import { disturbances as wire } from "../wire/disturb";
 import { Refused } from "../wire/rest";
 import type { CommandResult, DisturbanceInfo } from "../wire/types";

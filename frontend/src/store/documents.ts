@@ -2,7 +2,7 @@
 import { create } from "zustand";
 import { skeleton } from "../logic/explorer";
 import { forbidden } from "../logic/permits";
-import { t } from "../logic/text";
+import { t } from "../text";
 import { rest } from "../wire/rest";
 import type { BuildResult, EmbeddedCheck, FileInfo, FileText, OnlineChange, Pou, Problem } from "../wire/types";
 import { forget, keep, recall } from "./keep";

@@ -2,7 +2,7 @@
 import { create } from "zustand";
 import { isBrokenLink, isOwnComputer, type Link, linkPath, readLink, wayTo } from "../logic/links";
 import { grouped } from "../logic/numbers";
-import { t } from "../logic/text";
+import { t } from "../text";
 import { useBench } from "./bench";
 import { isPanel, showPanel } from "./navigate";
 import { usePlc } from "./plc";

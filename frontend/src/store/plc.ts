@@ -1,7 +1,7 @@
 /** The virtual PLC this browser is connected to: state, users, errors and log, as the server last told. */
 import { create } from "zustand";
 import { type Deed, forbidden } from "../logic/permits";
-import { t } from "../logic/text";
+import { t } from "../text";
 import type { LinkStatus } from "../wire/socket";
 import type { ArmedFault, Diagnostics, ErrorHistoryRow, Hello, InstanceState, LogLine, User } from "../wire/types";
 import { setClock } from "./clock";

@@ -1,6 +1,6 @@
 /** What this browser prefers: theme and language. `public/theme.js` reads the same entry before the first paint. */
 import { create } from "zustand";
-import { type Language, languages, setLanguage } from "../logic/text";
+import { type Language, languages, setLanguage } from "../text";
 import { keep, recall } from "./keep";
 
 export const themes = ["dark", "light", "contrast"] as const;

@@ -1,7 +1,7 @@
 /** The error history that is looked at: of the version that runs, or of one before; and test records from elsewhere. */
 import { create } from "zustand";
 import { everything, type HistoryView } from "../logic/history";
-import { language, t } from "../logic/text";
+import { language, t } from "../text";
 import { rest } from "../wire/rest";
 import type { ErrorHistoryRow, HistoryVersion, ImportedRecord, RecordInfo } from "../wire/types";
 import { useBench } from "./bench";

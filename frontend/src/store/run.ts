@@ -1,7 +1,7 @@
 /** Mode and run controls: what they send, and what was refused. */
 import { create } from "zustand";
 import { forbidden } from "../logic/permits";
-import { t } from "../logic/text";
+import { t } from "../text";
 import { type Answer, send } from "../wire/send";
 import type { Mode, RestartKind, RunOrder } from "../wire/types";
 import { useDocuments } from "./documents";

@@ -3,7 +3,7 @@ import { create } from "zustand";
 import { copyName } from "../logic/instances";
 import { clockTime } from "../logic/numbers";
 import { merged, olderFirst, withAccepted } from "../logic/sweep";
-import { t } from "../logic/text";
+import { t } from "../text";
 import { rest } from "../wire/rest";
 import type {
   CellRef,

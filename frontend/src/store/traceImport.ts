@@ -1,7 +1,7 @@
 /** Bringing in the trace of a real controller: the file, how its columns are meant, what the server says about it. */
 import { create } from "zustand";
-import { t } from "../logic/text";
 import { carryOver, rangeOf, takeSaved } from "../logic/traceImport";
+import { t } from "../text";
 import { Refused } from "../wire/rest";
 import { traceImport as wire } from "../wire/traceImport";
 import type { SavedMapping, TraceMapping, TraceMappingChecked, TraceProblem, UploadedTrace } from "../wire/types";

@@ -2,7 +2,7 @@
 import { create } from "zustand";
 import { within } from "../logic/plots";
 import type { Range, Samples } from "../logic/samples";
-import { t } from "../logic/text";
+import { t } from "../text";
 import { Refused } from "../wire/rest";
 import { type Source, traces as wire } from "../wire/traces";
 import type { DefineTrace, Flight, TraceDefinition, TraceInfo, TraceRecordInfo, TraceSignal } from "../wire/types";

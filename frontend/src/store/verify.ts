@@ -1,8 +1,8 @@
 /** Verifications of the PLC: which there are, which one is shown, and what people want of them. */
 import { create } from "zustand";
 import { lineIn } from "../logic/breakpoints";
-import { t } from "../logic/text";
 import type { RangeWish } from "../logic/verify";
+import { t } from "../text";
 import { Refused } from "../wire/rest";
 import type { DriveVerification, NewVerification, VerificationInfo, VerificationRecord } from "../wire/types";
 import { type ExportFormat, type VerifySource, verify as wire } from "../wire/verify";

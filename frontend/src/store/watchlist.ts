@@ -2,11 +2,11 @@
 import { create } from "zustand";
 import { literalOf } from "../logic/formats";
 import { chosenFor, splitPath } from "../logic/paths";
-import { t } from "../logic/text";
 import type { Format } from "../logic/values";
 import { addEntries, removeEntry, replacePath, setFormat as withFormat } from "../logic/watchlist";
 import { noteOf, PAGE, type WatchNote } from "../logic/watchrows";
 import { type Filter, needsAll, nextSort, type Sort, type SortColumn } from "../logic/watchsort";
+import { t } from "../text";
 import { type Answer, send } from "../wire/send";
 import type { WatchEntry } from "../wire/types";
 import { keep, recall } from "./keep";

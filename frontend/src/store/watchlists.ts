@@ -1,8 +1,8 @@
 /** The watch lists of a project, and the one that is shown: kept on the server, shared with everybody or one's own. What
  * two people change at once is put together; nobody's change is lost. */
 import { create } from "zustand";
-import { t } from "../logic/text";
 import { type ListContent, merge, sameContent } from "../logic/watchlist";
+import { t } from "../text";
 import { Refused, rest } from "../wire/rest";
 import type { WatchList, WatchListChanged, WatchListInfo } from "../wire/types";
 import { messageOf } from "./documents";

@@ -1,5 +1,5 @@
 import { type ReactNode, useState } from "react";
-import { t } from "../logic/text";
+import { t } from "../text";
 import { Dialog } from "./Dialog";
 import { Field } from "./Field";
 

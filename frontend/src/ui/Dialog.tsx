@@ -1,5 +1,5 @@
 import { type FormEvent, type ReactNode, useEffect, useId, useRef } from "react";
-import { t } from "../logic/text";
+import { t } from "../text";
 import { Icon } from "./Icon";
 
 interface Props {

@@ -1,5 +1,5 @@
 import { type ClipboardEvent, type KeyboardEvent, useEffect, useId, useRef, useState } from "react";
-import { t } from "../logic/text";
+import { t } from "../text";
 import { Icon } from "./Icon";
 
 /** What is in the line now; and why what was typed is not taken. */

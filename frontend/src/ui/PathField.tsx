@@ -1,6 +1,6 @@
 import { type KeyboardEvent, useEffect, useId, useLayoutEffect, useRef, useState } from "react";
 import { createPortal } from "react-dom";
-import { t } from "../logic/text";
+import { t } from "../text";
 import { Icon } from "./Icon";
 import { layer } from "./Menu";
 

@@ -1,5 +1,5 @@
 import type { LeafRow } from "../logic/catalogue";
-import { t } from "../logic/text";
+import { t } from "../text";
 import { StateWord } from "./StateWord";
 import { VERDICT_ICONS } from "./statuses";
 

@@ -1,11 +1,11 @@
 import { detailsInWords } from "../../logic/catalogue";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
 import { usePlc } from "../../store/plc";
 import { backTo, modeBefore } from "../../store/run";
 import { clearFatal, forgetOutcome } from "../../store/simulator";
 import { travel } from "../../store/timeline";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { InstanceState, Mode } from "../../wire/types";
 

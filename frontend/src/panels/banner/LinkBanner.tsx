@@ -1,6 +1,6 @@
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { answerLink, putAwayLinkTrouble, useLinks } from "../../store/links";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 
 /** The address that was opened: why it could not be followed, or whether to go to its scan though others are here. */

@@ -1,10 +1,10 @@
 import { useEffect, useState } from "react";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { readClock } from "../../store/clock";
 import type { LinkStatus } from "../../store/plc";
 import { reconnectNow } from "../../store/reconnect";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 
 /** No connection: since when, what is still shown, when the next try comes. */

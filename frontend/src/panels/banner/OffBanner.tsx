@@ -1,8 +1,8 @@
 import { useState } from "react";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { messageOf } from "../../store/documents";
 import { changeInstance } from "../../store/instances";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 
 /** Somebody switched this PLC off: nothing is lost, and it can be switched on again. */

@@ -1,12 +1,12 @@
 import { useState } from "react";
 import { copyName } from "../../logic/instances";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { branch, openInstance } from "../../store/instances";
 import { linkWords, scanLink } from "../../store/links";
 import { keepState } from "../../store/sweeps";
 import { returnToLive } from "../../store/timeline";
+import { t } from "../../text";
 import { AskName } from "../../ui/AskName";
 import { CopyButton } from "../../ui/CopyButton";
 import { Icon } from "../../ui/Icon";

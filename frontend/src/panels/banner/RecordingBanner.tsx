@@ -1,5 +1,5 @@
-import { t } from "../../logic/text";
 import { putAwayDamage, useTimeline } from "../../store/timeline";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 
 /** The run file: nothing is recorded now, or it was found damaged when it was opened. */

@@ -1,7 +1,7 @@
 import { grouped } from "../../logic/numbers";
 import { shareOf } from "../../logic/past";
-import { t } from "../../logic/text";
 import { cancelRerun, compareRerun, openRerun, putAwayRerun, useReruns } from "../../store/reruns";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { Rerun } from "../../wire/types";
 

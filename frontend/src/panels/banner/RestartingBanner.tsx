@@ -1,9 +1,9 @@
 import { useState } from "react";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { messageOf } from "../../store/documents";
 import { changeInstance } from "../../store/instances";
 import { useForbidden } from "../../store/plc";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { InstanceState } from "../../wire/types";
 

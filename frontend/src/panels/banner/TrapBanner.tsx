@@ -1,7 +1,7 @@
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { openFile } from "../../store/navigate";
 import { recoverAndGoOn, restart } from "../../store/run";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { InstanceState } from "../../wire/types";
 

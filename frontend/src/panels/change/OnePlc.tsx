@@ -1,6 +1,6 @@
 import { FATES, fates } from "../../logic/change";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { OnlineChange } from "../../wire/types";
 import { Variables } from "./Variables";

@@ -1,7 +1,7 @@
 import { useState } from "react";
 import { changeVerb } from "../../logic/change";
-import { t } from "../../logic/text";
 import { build, useDocuments } from "../../store/documents";
+import { t } from "../../text";
 import { Dialog } from "../../ui/Dialog";
 import type { BuildResult } from "../../wire/types";
 import { OnePlc } from "./OnePlc";

@@ -1,7 +1,7 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { useRef } from "react";
 import type { Fate } from "../../logic/change";
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import type { LostVariable } from "../../wire/types";
 
 const ROW = 24;

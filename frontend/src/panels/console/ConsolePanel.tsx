@@ -1,10 +1,10 @@
 import { type KeyboardEvent, useEffect, useRef, useState } from "react";
 import { grouped } from "../../logic/numbers";
 import { baseName } from "../../logic/paths";
-import { t } from "../../logic/text";
 import { type ConsoleLine, clearConsole, evaluate, useConsole } from "../../store/console";
 import { openFile } from "../../store/navigate";
 import { useOnline } from "../../store/plc";
+import { t } from "../../text";
 import { Icon, type IconName } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import "./console.css";

@@ -1,7 +1,7 @@
 import { useState } from "react";
 import { PLAIN, type Wanted } from "../../logic/breakpoints";
-import { t } from "../../logic/text";
 import { addBreakpoint } from "../../store/debug";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { MenuButton } from "../../ui/Menu";
 import { EditBreakpoint } from "./EditBreakpoint";

@@ -1,11 +1,11 @@
 import { useState } from "react";
 import { conditionsOf, isShared, lineOf, placeOf, sayBreakpoint, shapeOf } from "../../logic/breakpoints";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { editBreakpoint, enableBreakpoints, removeBreakpoints, useDebug, wantedOf } from "../../store/debug";
 import { useDocuments } from "../../store/documents";
 import { openFile } from "../../store/navigate";
 import { usePlc } from "../../store/plc";
+import { t } from "../../text";
 import { IconButton } from "../../ui/IconButton";
 import { Menu, type MenuItem } from "../../ui/Menu";
 import { Tree, type TreeRow } from "../../ui/Tree";

@@ -1,9 +1,9 @@
 import { haltCause, haltPlace } from "../../logic/halted";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { openFile } from "../../store/navigate";
 import { usePlc } from "../../store/plc";
 import { chooseFrame, type Frame, useStack } from "../../store/stack";
+import { t } from "../../text";
 import { Tree, type TreeRow } from "../../ui/Tree";
 import type { HaltInfo } from "../../wire/types";
 import { Section } from "./Section";

@@ -1,9 +1,9 @@
 import { useState } from "react";
 import { placeOf, type Wanted } from "../../logic/breakpoints";
 import { allErrors } from "../../logic/catalogue";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { reasonOf, removeBreakpoints, setBreakpoint, wantedOf } from "../../store/debug";
+import { t } from "../../text";
 import { Dialog } from "../../ui/Dialog";
 import { Field } from "../../ui/Field";
 import { Icon } from "../../ui/Icon";

@@ -1,5 +1,4 @@
 import { type KeyboardEvent, useState } from "react";
-import { t } from "../../logic/text";
 import { addDataBreakpoint } from "../../store/debug";
 import { forceOf, useForces } from "../../store/forces";
 import { usePlc } from "../../store/plc";
@@ -16,6 +15,7 @@ import {
 import { reverseTo } from "../../store/stepping";
 import { addToTrace } from "../../store/traces";
 import { addToWatch } from "../../store/watchlist";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { Menu, type MenuItem } from "../../ui/Menu";
 import { Tree, type TreeRow } from "../../ui/Tree";

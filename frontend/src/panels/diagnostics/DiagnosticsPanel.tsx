@@ -1,7 +1,7 @@
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { openFile } from "../../store/navigate";
 import { useOnline, usePlc } from "../../store/plc";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { send } from "../../wire/send";
 import type { Violation } from "../../wire/types";

@@ -1,8 +1,8 @@
 import type { FormEvent } from "react";
 import { useShallow } from "zustand/react/shallow";
-import { t } from "../../logic/text";
 import { disturb, mendDisturbance, useDisturb, useTroubles } from "../../store/disturb";
 import { useForbidden } from "../../store/plc";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { KindChoice } from "./KindChoice";
 import { WhatFields } from "./WhatFields";

@@ -1,7 +1,7 @@
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { calm, useDisturb } from "../../store/disturb";
 import { useForbidden } from "../../store/plc";
+import { t } from "../../text";
 import { StateWord } from "../../ui/StateWord";
 import type { DisturbanceInfo } from "../../wire/types";
 

@@ -1,6 +1,6 @@
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { useDisturb } from "../../store/disturb";
+import { t } from "../../text";
 import { DisturbForm } from "./DisturbForm";
 import "./disturb.css";
 import { DisturbList } from "./DisturbList";

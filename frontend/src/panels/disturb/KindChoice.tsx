@@ -1,7 +1,7 @@
 import { useId } from "react";
 import { type DisturbKind, KINDS } from "../../logic/disturb";
-import { t } from "../../logic/text";
 import { setDisturbance } from "../../store/disturb";
+import { t } from "../../text";
 import { Icon, type IconName } from "../../ui/Icon";
 
 const ICONS: Record<DisturbKind, IconName> = { flip: "flip", late: "clock", stuck: "stuck", result: "differs" };

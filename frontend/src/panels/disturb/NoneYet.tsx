@@ -1,4 +1,4 @@
-import { t } from "../../logic/text";
+import { t } from "../../text";
 
 /** What a disturbance is, where none is defined. */
 export function NoneYet() {

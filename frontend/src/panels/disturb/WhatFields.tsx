@@ -1,8 +1,8 @@
 import { type DisturbForm, type readDisturbance, turnsBits } from "../../logic/disturb";
-import { t } from "../../logic/text";
 import { complete } from "../../store/completion";
 import { setDisturbance } from "../../store/disturb";
 import { useDocuments } from "../../store/documents";
+import { t } from "../../text";
 import { PathField } from "../../ui/PathField";
 import { FieldLine } from "./FieldLine";
 import { NumberField } from "./NumberField";

@@ -1,6 +1,6 @@
 import { type DisturbForm, isSeeded, type readDisturbance, WHENS } from "../../logic/disturb";
-import { t } from "../../logic/text";
 import { setDisturbance } from "../../store/disturb";
+import { t } from "../../text";
 import { FieldLine } from "./FieldLine";
 import { NumberField } from "./NumberField";
 

@@ -1,9 +1,9 @@
 import { type FormEvent, type KeyboardEvent, useEffect, useRef, useState } from "react";
 import type { Wanted } from "../../logic/breakpoints";
-import { t } from "../../logic/text";
 import { type Editing, reasonOf, removeBreakpoints, setBreakpoint } from "../../store/debug";
 import { loadInstances, useSeenAs } from "../../store/seenAs";
 import { useTasks } from "../../store/tasks";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 
 interface Props {

@@ -1,11 +1,11 @@
 import { useEffect, useRef, useState } from "react";
 import { createPortal } from "react-dom";
 import { pouAt } from "../../logic/explorer";
-import { t } from "../../logic/text";
 import { editBreakpoint, useDebug } from "../../store/debug";
 import { build, save, useDocuments } from "../../store/documents";
 import { useNavigation } from "../../store/navigate";
 import { shownText } from "../../store/shownProgram";
+import { t } from "../../text";
 import { Menu, type MenuItem } from "../../ui/Menu";
 import { BreakpointForm } from "./BreakpointForm";
 import "./checks";

@@ -1,6 +1,6 @@
 import { lazy, Suspense } from "react";
-import { t } from "../../logic/text";
 import { resolveConflict } from "../../store/documents";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { FileText } from "../../wire/types";
 

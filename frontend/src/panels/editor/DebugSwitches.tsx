@@ -1,10 +1,10 @@
 import { shareOf, sitesIn } from "../../logic/coverage";
 import { grouped, percent } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { setCoverage, useCoverage } from "../../store/coverage";
 import { useOnline } from "../../store/plc";
 import { toggleInline, usePrefs } from "../../store/prefs";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { MenuButton } from "../../ui/Menu";
 import { Switch } from "../../ui/Switch";

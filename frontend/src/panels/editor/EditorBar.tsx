@@ -1,7 +1,6 @@
 import { useState } from "react";
 import { builtNote, changeNote } from "../../logic/change";
 import { pouAt } from "../../logic/explorer";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { build, isDirty, save, useDocuments } from "../../store/documents";
 import { showPanel } from "../../store/navigate";
@@ -9,6 +8,7 @@ import { useForbidden, useLost, usePlc } from "../../store/plc";
 import { toggleChecks, usePrefs } from "../../store/prefs";
 import { rollBack } from "../../store/run";
 import { shownText, useShownProgram, useShowsRan } from "../../store/shownProgram";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { StateWord } from "../../ui/StateWord";
 import type { Pou } from "../../wire/types";

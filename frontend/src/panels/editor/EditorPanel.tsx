@@ -1,7 +1,7 @@
 import { lazy, Suspense, useEffect, useRef, useState } from "react";
-import { t } from "../../logic/text";
 import { isDirty, messageOf, openDocument, useDocuments } from "../../store/documents";
 import { useShownProgram, useShowsRan } from "../../store/shownProgram";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { Conflict } from "./Conflict";
 import { EditorBar } from "./EditorBar";

@@ -1,7 +1,7 @@
 import { useEffect } from "react";
-import { t } from "../../logic/text";
 import { usePlc } from "../../store/plc";
 import { choose, loadInstances, seenAs, useSeenAs } from "../../store/seenAs";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { MenuButton } from "../../ui/Menu";
 

@@ -1,5 +1,5 @@
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { Pou } from "../../wire/types";
 import { verifyHere } from "./verifyHere";

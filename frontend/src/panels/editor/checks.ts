@@ -1,7 +1,8 @@
 /** The view "embedded checks": inlay text where the compiler checks a subrange, and where it proved that needless. */
-import { t } from "../../logic/text";
+
 import { useDocuments } from "../../store/documents";
 import { usePrefs } from "../../store/prefs";
+import { t } from "../../text";
 import type { EmbeddedCheck } from "../../wire/types";
 import { PAST } from "./models";
 import { Emitter, type editor, languages } from "./monaco";

@@ -1,6 +1,7 @@
 /** What the context menu of the text offers for debugging. */
-import { t } from "../../logic/text";
+
 import { runTo } from "../../store/stepping";
+import { t } from "../../text";
 import type { Gutter } from "./gutter";
 import type { editor } from "./monaco";
 

@@ -1,6 +1,7 @@
 /** From a line of the text to the disturbance of what its statement writes. */
-import { t } from "../../logic/text";
+
 import { askDisturb } from "../../store/disturb";
+import { t } from "../../text";
 import type { Gutter } from "./gutter";
 import type { editor } from "./monaco";
 

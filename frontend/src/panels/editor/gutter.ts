@@ -1,9 +1,9 @@
 /** Breakpoints in the gutter: shown, set and taken away there. They move with the text while it is edited. */
 import { isShared, lineIn, lineOf, sayBreakpoint, shapeOf } from "../../logic/breakpoints";
-import { t } from "../../logic/text";
 import { moveBreakpoints, removeBreakpoints, toggleBreakpoint, useDebug } from "../../store/debug";
 import { isDirty, useDocuments } from "../../store/documents";
 import { shownText } from "../../store/shownProgram";
+import { t } from "../../text";
 import type { BreakpointInfo } from "../../wire/types";
 import { editor } from "./monaco";
 

@@ -1,7 +1,6 @@
 /** What can be done at a line: with its breakpoints, and by running up to it. */
 import { conditionsOf, isShared, PLAIN } from "../../logic/breakpoints";
 import { permits } from "../../logic/stepping";
-import { t } from "../../logic/text";
 import {
   addBreakpoint,
   type Editing,
@@ -12,6 +11,7 @@ import {
 } from "../../store/debug";
 import { usePlc } from "../../store/plc";
 import { runTo } from "../../store/stepping";
+import { t } from "../../text";
 import type { MenuItem } from "../../ui/Menu";
 import type { BreakpointInfo } from "../../wire/types";
 

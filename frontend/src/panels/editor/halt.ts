@@ -1,10 +1,10 @@
 /** The statement that is next while the program is halted: its line in full width, with an arrow in the gutter. */
 import { lineIn } from "../../logic/breakpoints";
-import { t } from "../../logic/text";
 import { breakpointsAt, useDebug } from "../../store/debug";
 import { usePlc } from "../../store/plc";
 import { shownText } from "../../store/shownProgram";
 import { frameNow, useStack } from "../../store/stack";
+import { t } from "../../text";
 import type { editor } from "./monaco";
 
 interface Standing {

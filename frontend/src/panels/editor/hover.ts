@@ -1,9 +1,10 @@
 /** What a name is and what it is worth now: in the frame while the program is halted, else as the instance that the text is seen as. */
-import { t } from "../../logic/text";
+
 import { worthOf } from "../../store/console";
 import { useDocuments } from "../../store/documents";
 import { loadNames, seenAsNow } from "../../store/seenAs";
 import { frameNow } from "../../store/stack";
+import { t } from "../../text";
 import type { Pou } from "../../wire/types";
 import { languages } from "./monaco";
 import { hasValues, nameAt, pouOf } from "./names";

@@ -5,7 +5,6 @@
 import { lineIn } from "../../logic/breakpoints";
 import { pouAt } from "../../logic/explorer";
 import { type NamedVariable, variablesIn } from "../../logic/inline";
-import { t } from "../../logic/text";
 import { useDocuments } from "../../store/documents";
 import { forcedAt, useForces } from "../../store/forces";
 import { useMembers } from "../../store/members";
@@ -16,6 +15,7 @@ import { shownText } from "../../store/shownProgram";
 import { frameNow, frameText, useStack } from "../../store/stack";
 import { bindCell } from "../../store/values";
 import { watch } from "../../store/watches";
+import { t } from "../../text";
 import { standingIn } from "./halt";
 import type { editor } from "./monaco";
 import { hasValues } from "./names";

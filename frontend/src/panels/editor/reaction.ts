@@ -1,8 +1,8 @@
 /** The lines that had to do with the error selected in the simulator: who read it, and what was reached only with it. */
 import { readersOf, stretchesOf } from "../../logic/reaction";
-import { t } from "../../logic/text";
 import { catalogueNow } from "../../store/catalogue";
 import { useReaction } from "../../store/reaction";
+import { t } from "../../text";
 import type { Reaction } from "../../wire/types";
 import type { editor } from "./monaco";
 

@@ -1,5 +1,5 @@
 /** What Tab does: it takes the first suggestion, and indents an empty line as its block is. Enter and all other keys are text. */
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import type { editor } from "./monaco";
 import { KeyCode } from "./monaco";
 import { opens } from "./st";

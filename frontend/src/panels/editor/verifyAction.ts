@@ -1,5 +1,5 @@
 /** From the text into the verification, by key and context menu. */
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import { type editor, KeyCode, KeyMod } from "./monaco";
 import { rememberSelection, verifyHere } from "./verifyHere";
 

@@ -1,11 +1,11 @@
 /** From the text into the watch table: the name at the caret or what is selected, by menu, key, or dragged there. */
 import { pouAt } from "../../logic/explorer";
 import { pathsIn } from "../../logic/paths";
-import { t } from "../../logic/text";
 import { useMembers } from "../../store/members";
 import { loadNames, seenAsNow } from "../../store/seenAs";
 import { shownText } from "../../store/shownProgram";
 import { addToWatch } from "../../store/watchlist";
+import { t } from "../../text";
 import { type editor, KeyCode, KeyMod } from "./monaco";
 
 export function addWatchAction(code: editor.IStandaloneCodeEditor, path: string): void {

@@ -1,6 +1,7 @@
 /** Who last wrote the variable at the caret: asked from the text. */
-import { t } from "../../logic/text";
+
 import { refuseWriter, showWriter } from "../../store/writer";
+import { t } from "../../text";
 import type { editor } from "./monaco";
 import { nameAtCaret, pathsOf, selectedNames } from "./watchAction";
 

@@ -1,11 +1,11 @@
 import { useShallow } from "zustand/react/shallow";
 import { inNames } from "../../logic/catalogue";
 import { troubles } from "../../logic/details";
-import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
 import { useForbidden, usePlc } from "../../store/plc";
 import { useShape } from "../../store/shape";
 import { asksFirst, chosenOf, entriesOf, generate, recover, useSimulator } from "../../store/simulator";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { WayOn } from "./WayOn";
 

@@ -1,8 +1,8 @@
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
 import { useForbidden, usePlc } from "../../store/plc";
 import { disarm } from "../../store/simulator";
+import { t } from "../../text";
 import { StateWord } from "../../ui/StateWord";
 import type { ArmedFault } from "../../wire/types";
 

@@ -1,5 +1,5 @@
 import { type Entries, type Entry, troubles } from "../../logic/details";
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { ErrorInfo } from "../../wire/types";
 import { RoomyControl } from "./controls";

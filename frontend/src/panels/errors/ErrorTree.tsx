@@ -1,8 +1,8 @@
 import { type KeyboardEvent, type MouseEvent, useEffect, useRef, useState } from "react";
 import { type CatalogueRow, rowFor } from "../../logic/catalogue";
-import { t } from "../../logic/text";
 import { addErrorBreakpoint } from "../../store/debug";
 import { selectError, toggleChecked, toggleGroup, useSimulator } from "../../store/simulator";
+import { t } from "../../text";
 import { Menu, type MenuItem } from "../../ui/Menu";
 import { Group, Leaf, RefusalRow } from "./rows";
 

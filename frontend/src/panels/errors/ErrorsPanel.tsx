@@ -1,12 +1,12 @@
 import { useMemo } from "react";
 import { useShallow } from "zustand/react/shallow";
 import { catalogueRows } from "../../logic/catalogue";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { useCatalogue } from "../../store/catalogue";
 import { useForbidden, usePlc } from "../../store/plc";
 import { generate, setFilters, useSimulator } from "../../store/simulator";
 import { openSweep } from "../../store/sweeps";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { ModelInfo } from "../../wire/types";
 import { Actions } from "./Actions";

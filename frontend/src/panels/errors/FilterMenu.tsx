@@ -1,7 +1,7 @@
 import { useShallow } from "zustand/react/shallow";
 import { VERDICTS } from "../../logic/sweep";
-import { t } from "../../logic/text";
 import { setFilters, useSimulator } from "../../store/simulator";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../ui/Menu";
 

@@ -1,4 +1,4 @@
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 
 /** What to do where nothing was raised yet. */

@@ -1,8 +1,8 @@
 import { interval } from "../../logic/numbers";
 import { scansOf } from "../../logic/shapes";
-import { t } from "../../logic/text";
 import { readScan } from "../../logic/timeline";
 import { usePlc } from "../../store/plc";
+import { t } from "../../text";
 
 export interface GapForm {
   /** One by one, instead of all in one seam. */

@@ -1,4 +1,4 @@
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import { Icon, type IconName } from "../../ui/Icon";
 import type { ErrorInfo } from "../../wire/types";
 

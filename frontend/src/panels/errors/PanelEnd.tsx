@@ -1,5 +1,4 @@
 import { isTested } from "../../logic/catalogue";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { useCatalogue } from "../../store/catalogue";
 import { showPanel } from "../../store/navigate";
@@ -8,6 +7,7 @@ import { recordAddress } from "../../store/records";
 import { askDetails, targets, useSimulator } from "../../store/simulator";
 import { keepState, openSweep, showSweeps } from "../../store/sweeps";
 import { openUserErrors } from "../../store/userErrors";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../ui/Menu";
 

@@ -1,11 +1,11 @@
 import { useState } from "react";
 import { inNames } from "../../logic/catalogue";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
 import { usePlc } from "../../store/plc";
 import { usePreview } from "../../store/preview";
 import { asWanted, useSimulator } from "../../store/simulator";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { ErrorInfo, PreviewedWrite } from "../../wire/types";
 

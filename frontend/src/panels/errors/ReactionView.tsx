@@ -1,10 +1,10 @@
 import { useState } from "react";
 import { inNames } from "../../logic/catalogue";
 import { nextStep, readersOf, sentenceOf, stretchesOf } from "../../logic/reaction";
-import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
 import { openFile } from "../../store/navigate";
 import { useReaction } from "../../store/reaction";
+import { t } from "../../text";
 import { ReactionWord } from "../../ui/ReactionWord";
 import type { ErrorInfo, Reaction, ReactionState } from "../../wire/types";
 

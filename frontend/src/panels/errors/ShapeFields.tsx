@@ -1,9 +1,9 @@
 import { type ReactNode, useId } from "react";
 import { HOWS, type readShape, type ShapeField, type ShapeForm, WHENS } from "../../logic/shapes";
-import { t } from "../../logic/text";
 import { useDocuments } from "../../store/documents";
 import { useShape } from "../../store/shape";
 import { setShape } from "../../store/simulator";
+import { t } from "../../text";
 import { ConditionBox } from "./ConditionBox";
 
 type Troubles = ReturnType<typeof readShape>["troubles"];

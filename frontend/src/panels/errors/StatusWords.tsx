@@ -1,8 +1,8 @@
 import { useEffect, useRef } from "react";
 import { statusWords } from "../../logic/statusWords";
-import { t } from "../../logic/text";
 import { bindCell } from "../../store/values";
 import { useWatches, watch } from "../../store/watches";
+import { t } from "../../text";
 
 /** The words of the error memory, live: what the program sees. */
 export function StatusWords({ words, code }: { words: readonly string[]; code: readonly string[] }) {

@@ -1,6 +1,6 @@
-import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
 import { changeDetails, mendCondition, type Outcome, useSimulator } from "../../store/simulator";
+import { t } from "../../text";
 
 /** What can be done about a refusal: change the details of what is present, or take a name that the PLC knows. */
 export function WayOn({ outcome, onDone }: { outcome: Outcome; onDone?: () => void }) {

@@ -1,6 +1,6 @@
 import { useId } from "react";
 import { type Entry, type Format, inWords, isText, limits, reformat, type Trouble } from "../../logic/details";
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { ErrorDetail } from "../../wire/types";
 

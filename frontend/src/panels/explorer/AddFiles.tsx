@@ -1,7 +1,7 @@
 import { useRef } from "react";
 import { FILE_ENDINGS } from "../../logic/explorer";
-import { t } from "../../logic/text";
 import { useDocuments } from "../../store/documents";
+import { t } from "../../text";
 import { Dialog } from "../../ui/Dialog";
 import { IconButton } from "../../ui/IconButton";
 import type { Adding } from "./useAddFiles";

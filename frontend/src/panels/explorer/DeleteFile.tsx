@@ -1,5 +1,5 @@
-import { t } from "../../logic/text";
 import { deleteFile, messageOf } from "../../store/documents";
+import { t } from "../../text";
 import { Confirm } from "../../ui/Confirm";
 
 /** Deleting a file cannot be undone, so this one asks. */

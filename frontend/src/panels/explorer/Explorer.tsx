@@ -1,8 +1,8 @@
 import { type DragEvent, useState } from "react";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { useDocuments } from "../../store/documents";
 import { useRanApart } from "../../store/shownProgram";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import { Menu, type MenuItem } from "../../ui/Menu";

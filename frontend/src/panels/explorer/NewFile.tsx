@@ -1,9 +1,9 @@
 import { useState } from "react";
 import { newFilePath, skeleton } from "../../logic/explorer";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { createFile, messageOf, useDocuments } from "../../store/documents";
 import { openFile } from "../../store/navigate";
+import { t } from "../../text";
 import { Dialog } from "../../ui/Dialog";
 import { Field } from "../../ui/Field";
 

@@ -1,9 +1,9 @@
 import { useState } from "react";
 import { decodeText } from "../../logic/decode";
 import { placeFor } from "../../logic/explorer";
-import { t } from "../../logic/text";
 import { createFile, messageOf, useDocuments } from "../../store/documents";
 import { openFile } from "../../store/navigate";
+import { t } from "../../text";
 
 export interface Adding {
   add: (chosen: readonly File[]) => Promise<void>;

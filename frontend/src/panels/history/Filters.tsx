@@ -1,6 +1,6 @@
 import type { HistoryView } from "../../logic/history";
 import { VERDICTS } from "../../logic/sweep";
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../ui/Menu";
 

@@ -1,11 +1,11 @@
 import { useEffect, useMemo } from "react";
 import type { HistoryLine } from "../../logic/history";
 import { dayTime } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { useCatalogue } from "../../store/catalogue";
 import { usePlc } from "../../store/plc";
 import { refreshRecords, setHistoryView, showVersion, useRecords } from "../../store/records";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../ui/Menu";
 import { Filters } from "./Filters";

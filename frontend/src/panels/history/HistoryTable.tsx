@@ -7,7 +7,7 @@ import {
   isFiltered,
   sortedBy,
 } from "../../logic/history";
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { Line } from "./Line";
 

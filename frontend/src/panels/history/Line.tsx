@@ -1,10 +1,10 @@
 import { detailsInWords, isSwept, reactionOf } from "../../logic/catalogue";
 import type { HistoryLine } from "../../logic/history";
 import { dayTime, grouped, wallTime } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
 import { showRerun } from "../../store/reruns";
 import { travel } from "../../store/timeline";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../ui/Menu";
 import { ReactionWord } from "../../ui/ReactionWord";

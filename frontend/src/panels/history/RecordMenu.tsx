@@ -1,7 +1,7 @@
 import { useRef } from "react";
-import { t } from "../../logic/text";
 import { useOnline } from "../../store/plc";
 import { importRecord, recordAddress, showRecord, useRecords } from "../../store/records";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../ui/Menu";
 

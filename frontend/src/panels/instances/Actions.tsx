@@ -1,5 +1,5 @@
-import { t } from "../../logic/text";
 import { openInstance, useInstances } from "../../store/instances";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { Instance } from "../../wire/types";
 import type { Question } from "./Asking";

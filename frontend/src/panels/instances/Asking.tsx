@@ -1,9 +1,9 @@
 import { useState } from "react";
 import { copyName } from "../../logic/instances";
-import { t } from "../../logic/text";
 import { readScan } from "../../logic/timeline";
 import { createInstance } from "../../store/bench";
 import { branch, changeInstance, useInstances } from "../../store/instances";
+import { t } from "../../text";
 import { AskName } from "../../ui/AskName";
 import { Field } from "../../ui/Field";
 import type { Instance, Project } from "../../wire/types";

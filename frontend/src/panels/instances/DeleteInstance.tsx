@@ -1,6 +1,6 @@
-import { t } from "../../logic/text";
 import { messageOf } from "../../store/documents";
 import { deleteInstance } from "../../store/instances";
+import { t } from "../../text";
 import { Confirm } from "../../ui/Confirm";
 import type { Instance } from "../../wire/types";
 

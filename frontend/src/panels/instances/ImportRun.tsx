@@ -1,7 +1,7 @@
 import { useState } from "react";
 import { copyName } from "../../logic/instances";
-import { t } from "../../logic/text";
 import { importInstance, useInstances } from "../../store/instances";
+import { t } from "../../text";
 import { AskName } from "../../ui/AskName";
 import { Underway } from "./Underway";
 

@@ -1,7 +1,7 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, useEffect, useRef } from "react";
 import { COLUMNS, type Column, type Order } from "../../logic/instances";
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { Instance } from "../../wire/types";
 import { InstanceLine } from "./InstanceLine";

@@ -1,7 +1,7 @@
 import { memo } from "react";
 import { bytes, grouped, interval, percent } from "../../logic/numbers";
 import { showState } from "../../logic/plcstate";
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { Instance } from "../../wire/types";
 import { limitsIn } from "./limitsIn";

@@ -1,9 +1,9 @@
 import { useEffect, useMemo, useState } from "react";
 import { type Order, shownInstances, sumOf } from "../../logic/instances";
 import { bytes, percent } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { openInstance, pollInstances, selectInstance, showInstances, useInstances } from "../../store/instances";
+import { t } from "../../text";
 import { Dialog } from "../../ui/Dialog";
 import { Icon } from "../../ui/Icon";
 import { Menu } from "../../ui/Menu";

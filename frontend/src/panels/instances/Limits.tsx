@@ -1,7 +1,7 @@
 import { useState } from "react";
-import { t } from "../../logic/text";
 import { messageOf } from "../../store/documents";
 import { changeInstance } from "../../store/instances";
+import { t } from "../../text";
 import { Dialog } from "../../ui/Dialog";
 import { Field } from "../../ui/Field";
 import { Icon } from "../../ui/Icon";

@@ -1,6 +1,6 @@
 import { percent } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import type { Transfer } from "../../store/instances";
+import { t } from "../../text";
 
 /** A run file on its way: what, and how far it got. */
 export function Underway({ transfer }: { transfer: Transfer }) {

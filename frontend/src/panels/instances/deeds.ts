@@ -1,7 +1,8 @@
 /** What can be done with an instance: the buttons below the list, and the menu of a row. */
-import { t } from "../../logic/text";
+
 import { showCompare } from "../../store/comparisons";
 import { exportInstance, setPower, showInstances } from "../../store/instances";
+import { t } from "../../text";
 import type { IconName } from "../../ui/Icon";
 import type { Instance } from "../../wire/types";
 import type { Question } from "./Asking";

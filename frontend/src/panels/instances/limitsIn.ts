@@ -1,4 +1,4 @@
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import type { InstanceLimits } from "../../wire/types";
 
 /** The limits of an instance in a few words. */

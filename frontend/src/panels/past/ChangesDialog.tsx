@@ -1,10 +1,10 @@
 import { type FormEvent, useEffect, useState } from "react";
 import { grouped } from "../../logic/numbers";
 import { ordered } from "../../logic/past";
-import { t } from "../../logic/text";
 import { readScan } from "../../logic/timeline";
 import { closeChanges, showChanges, useChanges } from "../../store/changes";
 import { liveScan, travel, useTimeline } from "../../store/timeline";
+import { t } from "../../text";
 import { Dialog } from "../../ui/Dialog";
 import { Icon } from "../../ui/Icon";
 import { ChangesTable } from "./ChangesTable";

@@ -1,8 +1,8 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { useMemo, useRef, useState } from "react";
 import { changesAsText, filterChanges, leftOut } from "../../logic/past";
-import { t } from "../../logic/text";
 import { showWriter } from "../../store/writer";
+import { t } from "../../text";
 import { CopyButton } from "../../ui/CopyButton";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";

@@ -1,7 +1,6 @@
 import { useEffect } from "react";
 import { grouped } from "../../logic/numbers";
 import { compareWith, shareOf, verdictOf } from "../../logic/past";
-import { t } from "../../logic/text";
 import { refreshApp, useBench } from "../../store/bench";
 import {
   chooseOther,
@@ -11,6 +10,7 @@ import {
   shownComparison,
   useComparisons,
 } from "../../store/comparisons";
+import { t } from "../../text";
 import { Icon, type IconName } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import { StateWord } from "../../ui/StateWord";

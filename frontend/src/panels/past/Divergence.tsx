@@ -1,11 +1,11 @@
 import { inNames } from "../../logic/catalogue";
 import { linkPath } from "../../logic/links";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
 import { openFile } from "../../store/navigate";
 import { useForbidden } from "../../store/plc";
 import { travel } from "../../store/timeline";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { RunDivergence } from "../../wire/types";
 import { ChangesTable } from "./ChangesTable";

@@ -1,7 +1,7 @@
 import { inNames } from "../../logic/catalogue";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
+import { t } from "../../text";
 import type { BetweenEntry } from "../../wire/types";
 
 interface Props {

@@ -1,13 +1,13 @@
 import type { ReactNode } from "react";
 import { inNames } from "../../logic/catalogue";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
 import { closeChanges } from "../../store/changes";
 import { isDirty, useDocuments } from "../../store/documents";
 import { openFile } from "../../store/navigate";
 import { useForbidden, usePlc } from "../../store/plc";
 import { closeWriter, goToWriter, showWriter, useWriter } from "../../store/writer";
+import { t } from "../../text";
 import { Dialog } from "../../ui/Dialog";
 import { Icon, type IconName } from "../../ui/Icon";
 import { StateWord } from "../../ui/StateWord";

@@ -1,8 +1,8 @@
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { useDocuments } from "../../store/documents";
 import { openFile } from "../../store/navigate";
 import { useRanApart } from "../../store/shownProgram";
+import { t } from "../../text";
 import { Icon, type IconName } from "../../ui/Icon";
 import type { Problem } from "../../wire/types";
 

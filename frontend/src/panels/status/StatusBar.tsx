@@ -1,5 +1,4 @@
 import { interval, percent } from "../../logic/numbers";
-import { languageNames, languages, t } from "../../logic/text";
 import { useDebug } from "../../store/debug";
 import { isDirty, useDocuments } from "../../store/documents";
 import { showPanel } from "../../store/navigate";
@@ -8,6 +7,7 @@ import { chooseLanguage, usePrefs } from "../../store/prefs";
 import { speedName, useRun } from "../../store/run";
 import { showSweep, useSweeps } from "../../store/sweeps";
 import { useTimeline } from "../../store/timeline";
+import { languageNames, languages, t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { MenuButton } from "../../ui/Menu";
 import { StateWord } from "../../ui/StateWord";

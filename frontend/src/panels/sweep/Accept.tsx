@@ -1,6 +1,6 @@
 import { stateWord } from "../../logic/sweep";
-import { t } from "../../logic/text";
 import { acceptFinding } from "../../store/sweeps";
+import { t } from "../../text";
 import { AskName } from "../../ui/AskName";
 import type { SweepCell } from "../../wire/types";
 

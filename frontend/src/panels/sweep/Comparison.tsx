@@ -1,9 +1,9 @@
 import { useMemo, useState } from "react";
 import { dayTime } from "../../logic/numbers";
 import { CHANGES, sortedChanges, stateWord } from "../../logic/sweep";
-import { t } from "../../logic/text";
 import { useCatalogueOf } from "../../store/catalogue";
 import { showSweep, showSweeps } from "../../store/sweeps";
+import { t } from "../../text";
 import { Icon, type IconName } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import { StateWord } from "../../ui/StateWord";

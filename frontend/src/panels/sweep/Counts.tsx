@@ -1,5 +1,5 @@
 import { countCells, type MatrixView, VERDICTS } from "../../logic/sweep";
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import { Icon, type IconName } from "../../ui/Icon";
 import { Switch } from "../../ui/Switch";
 import { VERDICT_ICONS } from "../../ui/statuses";

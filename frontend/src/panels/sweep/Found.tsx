@@ -2,8 +2,8 @@ import type { ReactNode } from "react";
 import { grouped } from "../../logic/numbers";
 import { baseName } from "../../logic/paths";
 import { countReaders } from "../../logic/sweep";
-import { t } from "../../logic/text";
 import { openFile } from "../../store/navigate";
+import { t } from "../../text";
 import type { Reaction } from "../../wire/types";
 
 /** So many of a kind are listed; the rest is a number. */

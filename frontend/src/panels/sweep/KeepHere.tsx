@@ -1,7 +1,7 @@
 import { useState } from "react";
-import { t } from "../../logic/text";
 import { messageOf } from "../../store/documents";
 import { keepStateAs, shownScan } from "../../store/sweeps";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 
 /** One line in the dialog of a sweep: the PLC as it is shown becomes a kept state. Enter keeps, too. */

@@ -1,7 +1,7 @@
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { closeQuestion, keepStateAs } from "../../store/sweeps";
+import { t } from "../../text";
 import { AskName } from "../../ui/AskName";
 
 /** Asks what a kept state is to be called. */

@@ -1,7 +1,7 @@
 import { useVirtualizer } from "@tanstack/react-virtual";
 import { type KeyboardEvent, useEffect, useRef } from "react";
 import { type MatrixRow, type Place, stateWord, stepIn } from "../../logic/sweep";
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import type { CellRef, Sweep } from "../../wire/types";
 import { cellId, Row } from "./Row";
 

@@ -1,4 +1,4 @@
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import { Empty } from "../../ui/Empty";
 
 /** No sweep yet: what one is for, and how to come to one. */

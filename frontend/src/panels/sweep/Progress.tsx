@@ -1,10 +1,10 @@
 import { inNames } from "../../logic/catalogue";
 import { clockTime, dayTime, percent } from "../../logic/numbers";
 import { secondsLeft, timeLeft } from "../../logic/sweep";
-import { t } from "../../logic/text";
 import { useCatalogue } from "../../store/catalogue";
 import { recordAddress } from "../../store/records";
 import { cancelSweep, compareSweeps, resumeSweep, showSweeps, useSweeps } from "../../store/sweeps";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import { MenuButton } from "../../ui/Menu";

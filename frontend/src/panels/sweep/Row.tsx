@@ -1,7 +1,7 @@
 import { memo } from "react";
 import { isFinding } from "../../logic/catalogue";
 import { type ErrorRow, isCell, isPresent, type MatrixRow, type Slot } from "../../logic/sweep";
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import { Icon, type IconName } from "../../ui/Icon";
 import { VERDICT_ICONS } from "../../ui/statuses";
 import type { CellRef, SweepCell } from "../../wire/types";

@@ -1,12 +1,12 @@
 import { type ReactNode, useEffect, useState } from "react";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { useCatalogue } from "../../store/catalogue";
 import { messageOf } from "../../store/documents";
 import { usePlc } from "../../store/plc";
 import { useSimulator } from "../../store/simulator";
 import { beginSweep, closeQuestion, useSweeps } from "../../store/sweeps";
+import { t } from "../../text";
 import { Dialog } from "../../ui/Dialog";
 import { Field } from "../../ui/Field";
 import { Icon } from "../../ui/Icon";

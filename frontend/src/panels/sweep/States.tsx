@@ -1,8 +1,8 @@
 import { useState } from "react";
 import { dayTime, grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { messageOf } from "../../store/documents";
 import { deleteState, useSweeps } from "../../store/sweeps";
+import { t } from "../../text";
 import { Confirm } from "../../ui/Confirm";
 import { IconButton } from "../../ui/IconButton";
 import type { ProgramState } from "../../wire/types";

@@ -1,11 +1,11 @@
 import { useState } from "react";
 import { dayTime, percent } from "../../logic/numbers";
 import { stateWord, VERDICTS } from "../../logic/sweep";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { messageOf } from "../../store/documents";
 import { usePlc } from "../../store/plc";
 import { compareSweeps, deleteSweep, keepState, openSweep, showSweep } from "../../store/sweeps";
+import { t } from "../../text";
 import { Confirm } from "../../ui/Confirm";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";

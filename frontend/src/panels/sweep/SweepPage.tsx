@@ -1,7 +1,7 @@
 import { useEffect } from "react";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { refreshSweeps, useSweeps } from "../../store/sweeps";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { Comparison } from "./Comparison";
 import "./sweep.css";

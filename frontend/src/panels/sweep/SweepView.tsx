@@ -1,7 +1,7 @@
 import { useMemo, useRef, useState } from "react";
 import { firstFinding, inWordsOf, isCell, type MatrixView, matrixRows } from "../../logic/sweep";
-import { t } from "../../logic/text";
 import { useCatalogueOf } from "../../store/catalogue";
+import { t } from "../../text";
 import type { CellRef, Sweep } from "../../wire/types";
 import { Counts } from "./Counts";
 import { Details } from "./Details";

@@ -1,11 +1,11 @@
 import { type FormEvent, useEffect, useState } from "react";
 import { grouped } from "../../logic/numbers";
 import { showState } from "../../logic/plcstate";
-import { t } from "../../logic/text";
 import { readScan, readTime } from "../../logic/timeline";
 import { useForbidden, useOnline, usePlc } from "../../store/plc";
 import { runAction } from "../../store/run";
 import { travel } from "../../store/timeline";
+import { t } from "../../text";
 import { StateWord } from "../../ui/StateWord";
 import { type RunOnAxis, scanOfTime } from "./useRun";
 

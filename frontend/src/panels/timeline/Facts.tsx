@@ -1,7 +1,7 @@
 import { bytes, duration, grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { zoomed } from "../../logic/timeline";
 import { setView, useTimeline } from "../../store/timeline";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import { MenuButton } from "../../ui/Menu";

@@ -1,11 +1,11 @@
 import { memo, useMemo, useState } from "react";
 import { inNames } from "../../logic/catalogue";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { type Axis, around, type Cluster, clusters, countKinds, type ShownMark } from "../../logic/timeline";
 import { useCatalogue } from "../../store/catalogue";
 import { usePlc } from "../../store/plc";
 import { setView, travel } from "../../store/timeline";
+import { t } from "../../text";
 import { Icon, type IconName } from "../../ui/Icon";
 import { Menu, type MenuItem } from "../../ui/Menu";
 import { pointMenu } from "./menus";

@@ -1,5 +1,5 @@
-import { t } from "../../logic/text";
 import { usePlc } from "../../store/plc";
+import { t } from "../../text";
 import { End } from "./End";
 import { Facts } from "./Facts";
 import "./timeline.css";

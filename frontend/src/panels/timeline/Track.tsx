@@ -1,13 +1,13 @@
 import { type KeyboardEvent, type MouseEvent, type PointerEvent, useEffect, useMemo, useRef, useState } from "react";
 import { grouped, plcTime } from "../../logic/numbers";
 import { pieces, stretches } from "../../logic/stretches";
-import { t } from "../../logic/text";
 import { placeOf, scanAt, spanOn, ticks } from "../../logic/timeline";
 import { useCatalogue } from "../../store/catalogue";
 import { shownComparison, useComparisons } from "../../store/comparisons";
 import { useAllMarks } from "../../store/differences";
 import { useForbidden } from "../../store/plc";
 import { selectStretch, travel, useTimeline } from "../../store/timeline";
+import { t } from "../../text";
 import { Menu, type MenuItem } from "../../ui/Menu";
 import { Marks } from "./Marks";
 import { pointMenu, stretchMenu } from "./menus";

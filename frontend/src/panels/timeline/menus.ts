@@ -1,7 +1,6 @@
 /** What can be done with a scan of the timeline, with the errors raised there, and with a stretch. */
 import { grouped } from "../../logic/numbers";
 import { errorsIn } from "../../logic/past";
-import { t } from "../../logic/text";
 import { type Axis, closeTo, type ShownMark } from "../../logic/timeline";
 import { catalogueNow } from "../../store/catalogue";
 import { showChanges } from "../../store/changes";
@@ -9,6 +8,7 @@ import { scanLink } from "../../store/links";
 import { showRerun } from "../../store/reruns";
 import { selectStretch, setView, travel } from "../../store/timeline";
 import { verifyStretch } from "../../store/verify";
+import { t } from "../../text";
 import { copyText } from "../../ui/clipboard";
 import type { MenuItem } from "../../ui/Menu";
 

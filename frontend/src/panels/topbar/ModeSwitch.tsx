@@ -1,7 +1,7 @@
 import type { KeyboardEvent } from "react";
-import { t } from "../../logic/text";
 import { useForbidden, usePlc } from "../../store/plc";
 import { chooseMode } from "../../store/run";
+import { t } from "../../text";
 import type { Mode } from "../../wire/types";
 
 const MODES: readonly Mode[] = ["PROGRAM", "MONITOR", "RUN"];

@@ -1,8 +1,8 @@
 import { useEffect, useState } from "react";
 import { percent } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { messageOf } from "../../store/documents";
 import { modelDetails } from "../../store/models";
+import { t } from "../../text";
 import type { Area, ModelInfo, ModelSummary } from "../../wire/types";
 
 /** What a model is: in a sentence, how far its errors were looked up, and its memory with who may do what there. */

@@ -1,5 +1,5 @@
-import { t } from "../../logic/text";
 import { createInstance } from "../../store/bench";
+import { t } from "../../text";
 import { AskName } from "../../ui/AskName";
 import type { Project } from "../../wire/types";
 

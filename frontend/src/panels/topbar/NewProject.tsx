@@ -1,8 +1,8 @@
 import { useCallback, useEffect, useState } from "react";
-import { t } from "../../logic/text";
 import { createProject, useBench } from "../../store/bench";
 import { messageOf } from "../../store/documents";
 import { listModels } from "../../store/models";
+import { t } from "../../text";
 import { Dialog } from "../../ui/Dialog";
 import { Field } from "../../ui/Field";
 import type { ModelSummary } from "../../wire/types";

@@ -1,6 +1,6 @@
-import { t } from "../../logic/text";
 import { messageOf } from "../../store/documents";
 import { newRun } from "../../store/run";
+import { t } from "../../text";
 import { Confirm } from "../../ui/Confirm";
 
 /** A new run cannot be undone in the page, so it asks. */

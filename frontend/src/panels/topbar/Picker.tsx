@@ -1,11 +1,11 @@
 import { useState } from "react";
-import { t } from "../../logic/text";
 import { chooseInstance, chooseProject, refreshApp, useBench } from "../../store/bench";
 import { showCompare } from "../../store/comparisons";
 import { showInstances } from "../../store/instances";
 import { useShownProgram } from "../../store/shownProgram";
 import { openTraceImport } from "../../store/traceImport";
 import { openVerifyRecords } from "../../store/verifyRecords";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../ui/Menu";
 import type { AppInfo } from "../../wire/types";

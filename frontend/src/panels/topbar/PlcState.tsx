@@ -1,11 +1,11 @@
 import { haltPlace } from "../../logic/halted";
 import { type ShownState, showState } from "../../logic/plcstate";
-import { t } from "../../logic/text";
 import { isPaced } from "../../logic/verify";
 import { useBench } from "../../store/bench";
 import { useOnline, usePlc } from "../../store/plc";
 import { useStepping } from "../../store/stepping";
 import { useVerify } from "../../store/verify";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 
 /** A project that nothing runs yet is not a connection that was lost. */

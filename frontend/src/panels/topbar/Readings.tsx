@@ -1,8 +1,8 @@
 import { useEffect, useRef } from "react";
 import { grouped, microseconds, plcTime } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { bindClock } from "../../store/clock";
 import { usePlc } from "../../store/plc";
+import { t } from "../../text";
 
 /** Scan number and PLC time follow the frames without React; the cycle time comes with the state. */
 export function Readings() {

@@ -1,7 +1,7 @@
 import { useState } from "react";
-import { t } from "../../logic/text";
 import { useForbidden, usePlc } from "../../store/plc";
 import { restart, rollBack } from "../../store/run";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../ui/Menu";
 import type { RestartKind } from "../../wire/types";

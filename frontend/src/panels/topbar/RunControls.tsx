@@ -1,9 +1,9 @@
 import { permits } from "../../logic/stepping";
-import { t } from "../../logic/text";
 import { useForbidden, useOnline, usePlc } from "../../store/plc";
 import { runAction, singleScan } from "../../store/run";
 import { step, useStepping } from "../../store/stepping";
 import { stepBack, useTimeline } from "../../store/timeline";
+import { t } from "../../text";
 import { IconButton } from "../../ui/IconButton";
 import { RestartMenu } from "./RestartMenu";
 import { RunMenu } from "./RunMenu";

@@ -1,10 +1,10 @@
 import { useState } from "react";
 import { permits } from "../../logic/stepping";
-import { t } from "../../logic/text";
 import { caretPlace } from "../../store/debugKeys";
 import { usePlc } from "../../store/plc";
 import { runUntilAgain, useRun } from "../../store/run";
 import { runToCaret, step } from "../../store/stepping";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { MenuButton } from "../../ui/Menu";
 import { RunScans } from "./RunScans";

@@ -1,6 +1,6 @@
-import { t } from "../../logic/text";
 import { readScan } from "../../logic/timeline";
 import { runScans } from "../../store/run";
+import { t } from "../../text";
 import { AskName } from "../../ui/AskName";
 
 /** Asks how many scans are to be run. */

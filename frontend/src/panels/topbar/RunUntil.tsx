@@ -1,7 +1,7 @@
 import { useState } from "react";
 import { withName } from "../../logic/expression";
-import { t } from "../../logic/text";
 import { runUntil, useRun } from "../../store/run";
+import { t } from "../../text";
 import { Dialog } from "../../ui/Dialog";
 import { Field } from "../../ui/Field";
 

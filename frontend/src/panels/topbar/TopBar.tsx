@@ -1,6 +1,6 @@
-import { t } from "../../logic/text";
 import { usePlc } from "../../store/plc";
 import { nextTheme, usePrefs } from "../../store/prefs";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import { ModeSwitch } from "./ModeSwitch";

@@ -1,6 +1,6 @@
-import { t } from "../../logic/text";
 import { complete } from "../../store/completion";
 import { addAllToTrace } from "../../store/traces";
+import { t } from "../../text";
 import { PathBox } from "../../ui/PathBox";
 import type { PlcSymbol } from "../../wire/types";
 

@@ -2,8 +2,8 @@ import type { KeyboardEvent, PointerEvent } from "react";
 import { grouped } from "../../logic/numbers";
 import { within } from "../../logic/plots";
 import { nearestRow, type Samples } from "../../logic/samples";
-import { t } from "../../logic/text";
 import { type Cursor, look, type Shown, setCursor, useTraces, viewOf, wholeOf } from "../../store/traces";
+import { t } from "../../text";
 import { LEFT, type Scale, scanOf, xOf } from "./draw";
 
 interface Props {

@@ -1,4 +1,4 @@
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import { Empty } from "../../ui/Empty";
 import { AddSignal } from "./AddSignal";
 

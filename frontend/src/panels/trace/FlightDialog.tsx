@@ -1,11 +1,11 @@
 import { useState } from "react";
 import { grouped, interval } from "../../logic/numbers";
 import { spanText } from "../../logic/plots";
-import { t } from "../../logic/text";
 import { messageOf } from "../../store/documents";
 import { usePlc } from "../../store/plc";
 import { liveScan, useTimeline } from "../../store/timeline";
 import { fly, shownOf, useTraces } from "../../store/traces";
+import { t } from "../../text";
 import { Dialog } from "../../ui/Dialog";
 import { Field } from "../../ui/Field";
 

@@ -1,6 +1,6 @@
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { cancelFlight, useTraces } from "../../store/traces";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 
 /** Earlier scans on their way into a record: how far, and a way out. */

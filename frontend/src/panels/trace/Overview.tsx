@@ -1,8 +1,8 @@
 import { type PointerEvent, useLayoutEffect, useRef } from "react";
 import { type Layout, within } from "../../logic/plots";
 import type { Range, Samples } from "../../logic/samples";
-import { t } from "../../logic/text";
 import { look, type Shown, wholeOf } from "../../store/traces";
+import { t } from "../../text";
 import { colorsOf, drawOverview, prepared } from "./draw";
 
 interface Props {

@@ -1,8 +1,8 @@
 import { type KeyboardEvent, useEffect, useId, useState } from "react";
 import { bytes, grouped } from "../../logic/numbers";
 import { COMPARES, scansBefore, spanText, WHENS } from "../../logic/plots";
-import { t } from "../../logic/text";
 import { change } from "../../store/traces";
+import { t } from "../../text";
 import type { TraceInfo, TraceTrigger, TraceWhen } from "../../wire/types";
 
 /** What the trace waits for, how often it is sampled and how far it reaches back: each entry counts at once. */

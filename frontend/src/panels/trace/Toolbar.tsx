@@ -2,7 +2,6 @@ import { type RefObject, useState } from "react";
 import { dayTime, grouped } from "../../logic/numbers";
 import { zoomedAt } from "../../logic/plots";
 import { decode } from "../../logic/samples";
-import { t } from "../../logic/text";
 import {
   change,
   choose,
@@ -21,6 +20,7 @@ import {
   viewOf,
   wholeOf,
 } from "../../store/traces";
+import { t } from "../../text";
 import { AskName } from "../../ui/AskName";
 import { Icon, type IconName } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";

@@ -1,7 +1,7 @@
-import { t } from "../../logic/text";
 import { changeAxis, GAPS, UNITS } from "../../logic/traceImport";
 import { useDocuments } from "../../store/documents";
 import { chooseRange, editMapping, useTraceImport } from "../../store/traceImport";
+import { t } from "../../text";
 import type { TraceMapping, UploadedTrace } from "../../wire/types";
 
 interface Props {

@@ -1,7 +1,7 @@
 import { type DragEvent, useRef, useState } from "react";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { readTrace, useTraceImport } from "../../store/traceImport";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 
 /** The file: dropped here, or chosen. Once there is one, what it is stands in one line. */

@@ -1,7 +1,7 @@
-import { t } from "../../logic/text";
 import { byColumn, changeColumn, countRoles, firstValues, isProposed, ROLES } from "../../logic/traceImport";
 import { complete } from "../../store/completion";
 import { editMapping, forgetMapping, loadMapping, useTraceImport } from "../../store/traceImport";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../ui/Menu";
 import { PathField } from "../../ui/PathField";

@@ -1,4 +1,4 @@
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import type { TraceProblem } from "../../wire/types";
 
 /** Where a problem is: row, column, both, or the file as a whole. */

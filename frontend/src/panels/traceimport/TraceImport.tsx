@@ -1,8 +1,8 @@
 import { useState } from "react";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { beginTrace, closeTraceImport, saveMapping, useTraceImport } from "../../store/traceImport";
+import { t } from "../../text";
 import { AskName } from "../../ui/AskName";
 import { Dialog } from "../../ui/Dialog";
 import { Icon } from "../../ui/Icon";

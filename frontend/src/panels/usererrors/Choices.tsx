@@ -1,5 +1,5 @@
-import { t } from "../../logic/text";
 import { freeId, newChoice, textOf, withText } from "../../logic/userErrors";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import type { UserAddress, UserDetail } from "../../wire/types";

@@ -1,5 +1,5 @@
-import { t } from "../../logic/text";
 import { resolveUserConflict } from "../../store/userErrors";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { FileText } from "../../wire/types";
 

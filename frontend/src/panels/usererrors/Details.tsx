@@ -1,5 +1,5 @@
-import { t } from "../../logic/text";
 import { type Control, newDetail, textOf, withControl, withText } from "../../logic/userErrors";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import type { UserDetail } from "../../wire/types";

@@ -1,6 +1,6 @@
-import { t } from "../../logic/text";
 import { groupText, problemsOf, readGroup, textOf, withText } from "../../logic/userErrors";
 import { deleteError, duplicateError, edit, rename, useUserErrors } from "../../store/userErrors";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { UserError, UserProblem } from "../../wire/types";
 import { Details } from "./Details";

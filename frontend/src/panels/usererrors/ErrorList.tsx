@@ -1,7 +1,7 @@
 import type { KeyboardEvent } from "react";
-import { t } from "../../logic/text";
 import { groupText, problemsOf, textOf } from "../../logic/userErrors";
 import { deleteError, selectUserError } from "../../store/userErrors";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { UserError, UserProblem } from "../../wire/types";
 

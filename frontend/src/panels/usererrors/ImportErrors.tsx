@@ -1,6 +1,6 @@
 import { useState } from "react";
-import { t } from "../../logic/text";
 import { importUserErrors, isEdited, useUserErrors } from "../../store/userErrors";
+import { t } from "../../text";
 import { Dialog } from "../../ui/Dialog";
 import { Icon } from "../../ui/Icon";
 

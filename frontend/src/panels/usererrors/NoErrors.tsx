@@ -1,7 +1,7 @@
-import { t } from "../../logic/text";
 import { exampleFor } from "../../logic/userErrors";
 import { useBench } from "../../store/bench";
 import { addError, addExample } from "../../store/userErrors";
+import { t } from "../../text";
 import { Empty } from "../../ui/Empty";
 import { Icon } from "../../ui/Icon";
 

@@ -1,4 +1,4 @@
-import { t } from "../../logic/text";
+import { t } from "../../text";
 import type { UserAddress } from "../../wire/types";
 import { Choose, Entry, Wrong } from "./Entry";
 

@@ -1,6 +1,6 @@
-import { t } from "../../logic/text";
 import { USER_ERRORS } from "../../logic/userErrors";
 import { openFile } from "../../store/navigate";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { UserProblem } from "../../wire/types";
 

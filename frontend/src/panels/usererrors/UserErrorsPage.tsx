@@ -1,5 +1,4 @@
 import { type KeyboardEvent, useEffect, useState } from "react";
-import { t } from "../../logic/text";
 import { generalProblems } from "../../logic/userErrors";
 import { useBench } from "../../store/bench";
 import { build } from "../../store/documents";
@@ -13,6 +12,7 @@ import {
   saveUserErrors,
   useUserErrors,
 } from "../../store/userErrors";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { Conflict } from "./Conflict";
 import { ErrorForm } from "./ErrorForm";

@@ -1,5 +1,4 @@
 import { formatsFor } from "../../logic/formats";
-import { t } from "../../logic/text";
 import type { Format } from "../../logic/values";
 import { inOrder, type Unit } from "../../logic/verifyColumns";
 import { shapeOf } from "../../logic/verifyValues";
@@ -11,6 +10,7 @@ import {
   togglePinned,
   useArrangement,
 } from "../../store/verifyColumns";
+import { t } from "../../text";
 import { Dialog } from "../../ui/Dialog";
 import { IconButton } from "../../ui/IconButton";
 

@@ -1,12 +1,12 @@
 import { useState } from "react";
 import { grouped, percent } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { stretchLines } from "../../logic/verify";
 import { unitsOf } from "../../logic/verifyColumns";
 import { usePlc } from "../../store/plc";
 import { exportVerification, keepVerification, type ShownVerification, verifyStretch } from "../../store/verify";
 import { openVerifyRecords } from "../../store/verifyRecords";
 import { goToDifference, showOnlyDiffering, useVerifyRows } from "../../store/verifyRows";
+import { t } from "../../text";
 import { AskName } from "../../ui/AskName";
 import { Icon, type IconName } from "../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../ui/Menu";

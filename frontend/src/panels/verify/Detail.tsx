@@ -1,7 +1,7 @@
 import { useState } from "react";
-import { t } from "../../logic/text";
 import type { ShownVerification } from "../../store/verify";
 import { useVerifyRows } from "../../store/verifyRows";
+import { t } from "../../text";
 import type { VerifyDifference, VerifyRow } from "../../wire/types";
 import { Facts } from "./Facts";
 import { Source } from "./Source";

@@ -1,6 +1,6 @@
-import { t } from "../../logic/text";
 import { useOnline } from "../../store/plc";
 import { askVerification, verifyWholeProgram } from "../../store/verify";
+import { t } from "../../text";
 import { Empty } from "../../ui/Empty";
 import { Icon } from "../../ui/Icon";
 

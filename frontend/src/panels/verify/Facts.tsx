@@ -1,6 +1,5 @@
 import { useState } from "react";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { isEdited, resultOf, variableOf } from "../../logic/verify";
 import { bitsBeside, differingBits, shownValue, type ValueType } from "../../logic/verifyValues";
 import { useBench } from "../../store/bench";
@@ -10,6 +9,7 @@ import { travel } from "../../store/timeline";
 import { drive, type ShownVerification } from "../../store/verify";
 import { editInput, useVerifyRows } from "../../store/verifyRows";
 import { showWriterOf } from "../../store/verifyWriter";
+import { t } from "../../text";
 import { CopyButton } from "../../ui/CopyButton";
 import { Icon } from "../../ui/Icon";
 import type { VerifyDifference, VerifyRow } from "../../wire/types";

@@ -1,6 +1,5 @@
 import { useState } from "react";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { isGoing, titleOf } from "../../logic/verify";
 import { useBench } from "../../store/bench";
 import { askDisturb } from "../../store/disturb";
@@ -17,6 +16,7 @@ import {
 } from "../../store/verify";
 import { openVerifyRecords } from "../../store/verifyRecords";
 import { selectNewest } from "../../store/verifyRows";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import { MenuButton, type MenuItem } from "../../ui/Menu";

@@ -1,7 +1,7 @@
 import { type DragEvent, useState } from "react";
-import { t } from "../../logic/text";
 import type { Track, Unit } from "../../logic/verifyColumns";
 import { dropColumn } from "../../store/verifyColumns";
+import { t } from "../../text";
 import type { VerificationInfo } from "../../wire/types";
 import { placeOf } from "./cells";
 

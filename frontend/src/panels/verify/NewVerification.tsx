@@ -1,11 +1,11 @@
 import { useEffect, useState } from "react";
-import { t } from "../../logic/text";
 import { isWholeScan, scanTyped } from "../../logic/verify";
 import { useDocuments } from "../../store/documents";
 import { useForbidden } from "../../store/plc";
 import { loadInstances, useSeenAs } from "../../store/seenAs";
 import { liveScan, useTimeline } from "../../store/timeline";
 import { beginVerification, reasonOf, stopAsking, type VerifyWish } from "../../store/verify";
+import { t } from "../../text";
 import { Dialog } from "../../ui/Dialog";
 import { Field } from "../../ui/Field";
 import { Icon } from "../../ui/Icon";

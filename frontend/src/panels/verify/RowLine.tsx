@@ -1,11 +1,11 @@
 import { memo } from "react";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import type { Format } from "../../logic/values";
 import { differsIn, isEdited, resultOf } from "../../logic/verify";
 import type { Track, Unit } from "../../logic/verifyColumns";
 import { NOTHING, shownValue } from "../../logic/verifyValues";
 import { selectRow } from "../../store/verifyRows";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { VerificationInfo, VerifyRow } from "../../wire/types";
 import { placeOf } from "./cells";

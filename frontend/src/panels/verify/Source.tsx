@@ -1,9 +1,9 @@
 import { useEffect, useMemo, useRef, useState } from "react";
-import { t } from "../../logic/text";
 import { shownValue } from "../../logic/verifyValues";
 import { useDocuments } from "../../store/documents";
 import { openFile } from "../../store/navigate";
 import { savedText } from "../../store/sourceText";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { VerificationInfo, VerifyDifference } from "../../wire/types";
 import type { Looked } from "./Detail";

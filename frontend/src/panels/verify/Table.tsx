@@ -9,7 +9,6 @@ import {
   useRef,
   useState,
 } from "react";
-import { t } from "../../logic/text";
 import { firstDifferingUnit, isGoing } from "../../logic/verify";
 import {
   arranged,
@@ -32,6 +31,7 @@ import {
   soughtFound,
   useVerifyRows,
 } from "../../store/verifyRows";
+import { t } from "../../text";
 import { Menu, type MenuItem } from "../../ui/Menu";
 import { useKeptScroll } from "../../ui/useKeptScroll";
 import { columnMenu } from "./columnMenu";

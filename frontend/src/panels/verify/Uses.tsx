@@ -1,8 +1,8 @@
 import { useEffect, useRef, useState } from "react";
-import { t } from "../../logic/text";
 import { messageOf } from "../../store/documents";
 import { openFile } from "../../store/navigate";
 import { usesOf } from "../../store/verifyRows";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { VerifyRow, VerifyUse } from "../../wire/types";
 

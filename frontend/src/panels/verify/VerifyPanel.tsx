@@ -1,8 +1,8 @@
 import { useEffect, useMemo } from "react";
 import { useShallow } from "zustand/react/shallow";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { putAwayTrouble, refreshVerifications, shownOf, useVerify } from "../../store/verify";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { Counts } from "./Counts";
 import { Detail } from "./Detail";

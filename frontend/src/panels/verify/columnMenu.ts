@@ -1,8 +1,8 @@
 import { formatsFor } from "../../logic/formats";
-import { t } from "../../logic/text";
 import { plainArrangement, type Unit } from "../../logic/verifyColumns";
 import { shapeOf } from "../../logic/verifyValues";
 import { moveColumn, setColumnFormat, toggleHidden, togglePinned, useArrangements } from "../../store/verifyColumns";
+import { t } from "../../text";
 import type { MenuItem } from "../../ui/Menu";
 
 /** What can be done with a column; the first two move it to the left and to the right. */

@@ -1,6 +1,5 @@
 import { type KeyboardEvent, useState } from "react";
 import { dayTime, grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import { titleOf } from "../../logic/verify";
 import { useBench } from "../../store/bench";
 import { messageOf } from "../../store/documents";
@@ -11,6 +10,7 @@ import {
   openRecord,
   useVerifyRecords,
 } from "../../store/verifyRecords";
+import { t } from "../../text";
 import { Confirm } from "../../ui/Confirm";
 import { Dialog } from "../../ui/Dialog";
 import { Empty } from "../../ui/Empty";

@@ -1,8 +1,8 @@
 import { noPathIn, pathsIn } from "../../logic/paths";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { complete } from "../../store/completion";
 import { addToWatch } from "../../store/watchlist";
+import { t } from "../../text";
 import { PathBox } from "../../ui/PathBox";
 
 /** Typing a path, an address or a range of them, with what the running program has to offer. Enter adds it. */

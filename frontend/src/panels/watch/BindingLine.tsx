@@ -1,11 +1,11 @@
 import { type CSSProperties, useEffect } from "react";
 import { grouped } from "../../logic/numbers";
 import { baseName, chosenFor } from "../../logic/paths";
-import { t } from "../../logic/text";
 import type { BindingRow } from "../../logic/watchrows";
 import { lookAtBinding, useBindings } from "../../store/bindings";
 import { openFile } from "../../store/navigate";
 import { chooseSite, useWatchList } from "../../store/watchlist";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { MenuButton } from "../../ui/Menu";
 import type { Binding, BoundTo } from "../../wire/types";

@@ -1,10 +1,10 @@
 import { chosenFor } from "../../logic/paths";
-import { t } from "../../logic/text";
 import { actualOf, type ValueRow } from "../../logic/watchrows";
 import { useBindings } from "../../store/bindings";
 import { useCatalogue } from "../../store/catalogue";
 import { useForcedAt, useForceValues } from "../../store/forces";
 import { useWatchList } from "../../store/watchlist";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { PlcSymbol } from "../../wire/types";
 import { siteShown } from "./sites";

@@ -1,8 +1,8 @@
 import type { KeyboardEvent } from "react";
-import { t } from "../../logic/text";
 import type { ValueRow } from "../../logic/watchrows";
 import { useForbidden, useOnline } from "../../store/plc";
 import { force, releaseForce, select, setDraft, shownText, useWatchList, write } from "../../store/watchlist";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { PlcSymbol } from "../../wire/types";
 

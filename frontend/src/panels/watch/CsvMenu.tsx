@@ -1,9 +1,9 @@
 import { type ChangeEvent, useRef, useState } from "react";
-import { t } from "../../logic/text";
 import { fromCsv, toCsv } from "../../logic/watchcsv";
 import { saveFile } from "../../store/download";
 import { addAll } from "../../store/watchlist";
 import { told, undoEdit, useWatchLists } from "../../store/watchlists";
+import { t } from "../../text";
 import { Dialog } from "../../ui/Dialog";
 import { Icon } from "../../ui/Icon";
 import { MenuButton } from "../../ui/Menu";

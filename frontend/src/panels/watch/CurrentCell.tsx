@@ -1,9 +1,9 @@
 import { useEffect, useRef } from "react";
-import { t } from "../../logic/text";
 import type { Format } from "../../logic/values";
 import { useMembers } from "../../store/members";
 import { useShownProgram } from "../../store/shownProgram";
 import { bindCell } from "../../store/values";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import type { PlcSymbol, Refusal } from "../../wire/types";
 

@@ -1,9 +1,9 @@
 import { useState } from "react";
-import { t } from "../../logic/text";
 import { useBench } from "../../store/bench";
 import { topVariables } from "../../store/completion";
 import { addToWatch } from "../../store/watchlist";
 import { chooseList, useWatchLists } from "../../store/watchlists";
+import { t } from "../../text";
 import { Empty } from "../../ui/Empty";
 import { Icon } from "../../ui/Icon";
 import { MenuButton } from "../../ui/Menu";

@@ -1,6 +1,6 @@
-import { t } from "../../logic/text";
 import { ONLY } from "../../logic/watchsort";
 import { setFilter, useWatchList } from "../../store/watchlist";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import { MenuButton } from "../../ui/Menu";

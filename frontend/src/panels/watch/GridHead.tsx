@@ -1,7 +1,7 @@
-import { t } from "../../logic/text";
 import type { Sort, SortColumn } from "../../logic/watchsort";
 import { setColumn, WATCH_COLUMNS, type WatchColumn } from "../../store/columns";
 import { sortBy, useWatchList } from "../../store/watchlist";
+import { t } from "../../text";
 import { Grip } from "../../ui/Grip";
 import { Icon } from "../../ui/Icon";
 

@@ -1,7 +1,7 @@
 import type { CSSProperties } from "react";
-import { t } from "../../logic/text";
 import type { GroupRow } from "../../logic/watchrows";
 import { toggleGroup } from "../../store/watchlist";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 
 interface Props {

@@ -1,5 +1,4 @@
 import { useState } from "react";
-import { t } from "../../logic/text";
 import {
   chooseList,
   deleteList,
@@ -9,6 +8,7 @@ import {
   shareList,
   useWatchLists,
 } from "../../store/watchlists";
+import { t } from "../../text";
 import { AskName } from "../../ui/AskName";
 import { Icon } from "../../ui/Icon";
 import { MenuButton, type MenuItem } from "../../ui/Menu";

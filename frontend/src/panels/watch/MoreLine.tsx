@@ -1,8 +1,8 @@
 import type { CSSProperties } from "react";
 import { grouped } from "../../logic/numbers";
-import { t } from "../../logic/text";
 import type { MoreRow } from "../../logic/watchrows";
 import { showMore } from "../../store/watchlist";
+import { t } from "../../text";
 
 /** The end of a page of a large array. */
 export function MoreLine({ row, style, index }: { row: MoreRow; style: CSSProperties; index: number }) {

@@ -1,7 +1,7 @@
 import type { CSSProperties, Ref } from "react";
-import { t } from "../../logic/text";
 import type { NoteRow } from "../../logic/watchrows";
 import { force, replaceInWatch, setDraft, write } from "../../store/watchlist";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 
 interface Props {

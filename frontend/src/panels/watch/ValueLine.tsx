@@ -1,11 +1,11 @@
 import type { CSSProperties } from "react";
 import { splitPath } from "../../logic/paths";
-import { t } from "../../logic/text";
 import { memberName, type ValueRow } from "../../logic/watchrows";
 import { useForcedAt, useForces } from "../../store/forces";
 import { useForbidden } from "../../store/plc";
 import { useWatches } from "../../store/watches";
 import { releaseForce, removeFromWatch, select, toggle, toggleOpen, useWatchList } from "../../store/watchlist";
+import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";
 import type { ForceInfo, PlcSymbol } from "../../wire/types";

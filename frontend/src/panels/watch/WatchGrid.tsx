@@ -9,11 +9,11 @@ import {
   useState,
 } from "react";
 import { pathsIn } from "../../logic/paths";
-import { t } from "../../logic/text";
 import { fromCsv } from "../../logic/watchcsv";
 import { pathsToWatch, type WatchRow } from "../../logic/watchrows";
 import { useColumns } from "../../store/columns";
 import { addAll, addToWatch, select, useWatchList, watchInSight, watchNothing } from "../../store/watchlist";
+import { t } from "../../text";
 import { Menu, type MenuItem } from "../../ui/Menu";
 import { useKeptScroll } from "../../ui/useKeptScroll";
 import { BindingLine } from "./BindingLine";

@@ -1,12 +1,12 @@
 import { type DragEvent, useEffect, useState } from "react";
 import { pathsIn } from "../../logic/paths";
-import { t } from "../../logic/text";
 import { addGroup, moveEntry, renameGroup } from "../../logic/watchlist";
 import { groupKey } from "../../logic/watchrows";
 import { showPanel } from "../../store/navigate";
 import { usePlc } from "../../store/plc";
 import { addToWatch, select, useWatchList } from "../../store/watchlist";
 import { editList, keepAsOwn, useWatchLists } from "../../store/watchlists";
+import { t } from "../../text";
 import { AskName } from "../../ui/AskName";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";

@@ -1,8 +1,6 @@
 import { formatsFor } from "../../logic/formats";
 import { chosenFor } from "../../logic/paths";
 import { forbidden } from "../../logic/permits";
-import { t } from "../../logic/text";
-import type { TextKey } from "../../logic/text.en";
 import { moveEntry, removeGroup } from "../../logic/watchlist";
 import { actualOf, type GroupRow, type ValueRow } from "../../logic/watchrows";
 import { useBindings } from "../../store/bindings";
@@ -26,6 +24,8 @@ import {
 } from "../../store/watchlist";
 import { editList, told, undoEdit, useWatchLists } from "../../store/watchlists";
 import { showWriter } from "../../store/writer";
+import type { TextKey } from "../../text";
+import { t } from "../../text";
 import type { MenuItem } from "../../ui/Menu";
 import type { PlcSymbol } from "../../wire/types";
 import { siteShown } from "./sites";

@@ -1,5 +1,5 @@
 /** English: verification. */
-export const verifyEnglish = {
+export const verify = {
   "panel.verify": "Verification",
   "verify.again": "Verify this range again...",
   "verify.auto.about": "Goes on by itself, without waiting for Go on",

@@ -1,7 +1,7 @@
-/** 日本語: デバッガー。 */
-import type { debugEnglish } from "./text.debug.en";
+/** 日本語: ブレークポイント、呼び出し履歴、コンソール、カバレッジ */
+import type { debug as english } from "../en/debug";
 
-export const debugJapanese: Record<keyof typeof debugEnglish, string> = {
+export const debug: Record<keyof typeof english, string> = {
   "console.clear": "コンソールを消去",
   "console.effects":
     "Enter でプログラムの停止位置で評価します。式は何も変更しません。! で始めると変更できます: ! count := 0",

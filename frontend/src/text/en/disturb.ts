@@ -1,5 +1,5 @@
-/** English: disturbances, traces of real controllers, and verifications that were kept. */
-export const disturbEnglish = {
+/** English: disturbances, controller logs, and verifications that were kept. */
+export const disturb = {
   "panel.disturb": "Disturbances",
   "disturb.action": "Corrupt this result…",
   "disturb.active": "Under way",

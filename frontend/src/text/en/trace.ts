@@ -1,5 +1,5 @@
 /** English: traces. */
-export const traceEnglish = {
+export const trace = {
   "panel.trace": "Trace",
   "trace.add": "Signal to record",
   "trace.add.placeholder": "Variable, address or expression",

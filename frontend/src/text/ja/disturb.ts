@@ -1,7 +1,7 @@
-/** 日本語: 外乱、実機のトレース、保存した検証 */
-import type { disturbEnglish } from "./text.disturb.en";
+/** 日本語: 外乱、コントローラのログ、保存した検証 */
+import type { disturb as english } from "../en/disturb";
 
-export const disturbJapanese: Record<keyof typeof disturbEnglish, string> = {
+export const disturb: Record<keyof typeof english, string> = {
   "panel.disturb": "外乱",
   "disturb.action": "この結果を壊す…",
   "disturb.active": "進行中",

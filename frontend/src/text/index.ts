@@ -1,6 +1,8 @@
 /** Everything the page says, by key. A new text goes into both catalogues; a key that is missing is a compile error. */
-import { english, type TextKey } from "./text.en";
-import { japanese } from "./text.ja";
+import { english, type TextKey } from "./en";
+import { japanese } from "./ja";
+
+export type { TextKey };
 
 export const languages = ["en", "ja"] as const;
 export type Language = (typeof languages)[number];

@@ -1,7 +1,7 @@
 /** 日本語: 検証 */
-import type { verifyEnglish } from "./text.verify.en";
+import type { verify as english } from "../en/verify";
 
-export const verifyJapanese: Record<keyof typeof verifyEnglish, string> = {
+export const verify: Record<keyof typeof english, string> = {
   "panel.verify": "検証",
   "verify.again": "この範囲をもう一度検証...",
   "verify.auto.about": "「次へ」を待たずに続けます",

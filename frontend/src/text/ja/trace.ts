@@ -1,7 +1,7 @@
-/** 日本語: トレース。 */
-import type { traceEnglish } from "./text.trace.en";
+/** 日本語: トレース */
+import type { trace as english } from "../en/trace";
 
-export const traceJapanese: Record<keyof typeof traceEnglish, string> = {
+export const trace: Record<keyof typeof english, string> = {
   "panel.trace": "トレース",
   "trace.add": "記録する信号",
   "trace.add.placeholder": "変数、アドレス、または式",

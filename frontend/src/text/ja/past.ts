@@ -1,7 +1,38 @@
-/** 日本語: 変化、書込み元、実行の比較と再実行、スキャンへのリンク。 */
-import type { pastEnglish } from "./text.past.en";
+/** 日本語: タイムラインと過去 */
+import type { past as english } from "../en/past";
 
-export const pastJapanese: Record<keyof typeof pastEnglish, string> = {
+export const past: Record<keyof typeof english, string> = {
+  "past.branch": "ここから分岐",
+  "past.by": "{by} が表示しています。",
+  "past.label": "過去",
+  "past.live": "現在に戻る",
+  "past.readonly": "PLC は現在のスキャンで待っています。ここで何かを変えるには分岐してください。",
+  "past.title": "スキャン {scan} / {live}: 過去です。",
+  "timeline.all": "全スキャン",
+  "timeline.bound": "実行ファイル {bytes} / {limit}",
+  "timeline.dropped": "スキャン {scan} より前は、実行ファイルの上限を守るために削除されました。戻れません。",
+  "timeline.dropped.short": "{scan} より前: 削除",
+  "timeline.file.about":
+    "実行ファイルの大きさと上限。上限に達すると、まず古いチェックポイントが間引かれ、次に最も古いスキャンが削除されます。",
+  "timeline.goto": "スキャンへ移動",
+  "timeline.goto.about": "スキャン、または PLC 時刻: 4711、1m2s、1:02",
+  "timeline.goto.bad": "スキャン {first} から {live}、または時刻",
+  "timeline.hint": "ドラッグで戻る",
+  "timeline.hover": "スキャン {scan} · {time}",
+  "timeline.label": "タイムライン",
+  "timeline.length": "{scans} スキャン、{time}",
+  "timeline.live": "現在",
+  "timeline.live.head": "現在 {scan}",
+  "timeline.mark": "{kind}: {text}、スキャン {scan} の前、{author}",
+  "timeline.mark.many": "印 {count} 個、スキャン {from} から {to}: {kinds}。クリックで拡大。{first}",
+  "timeline.marks": "印",
+  "timeline.none": "まだ記録がありません。",
+  "timeline.position": "スキャン {scan} / {live}、{time}",
+  "timeline.return": "Shift+Esc で戻る",
+  "timeline.thinned": "スキャン {scan} より前はチェックポイントが間引かれています。移動に時間がかかります。",
+  "timeline.thinned.short": "{scan} より前: 遅い",
+  "timeline.zoom.in": "拡大",
+  "timeline.zoom.out": "縮小",
   "changes.about": "両スキャンの開始時点の値を比較します。",
   "changes.ask": "比較",
   "changes.bad": "{first} から {live} までのスキャンを 2 つ入力してください。",

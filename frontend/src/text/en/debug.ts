@@ -1,5 +1,5 @@
-/** English: what the debugger says. */
-export const debugEnglish = {
+/** English: breakpoints, call stack, console and coverage. */
+export const debug = {
   "console.clear": "Clear the console",
   "console.effects":
     "Enter evaluates where the program stands. An expression changes nothing; one that begins with ! may: ! count := 0",
@@ -146,4 +146,4 @@ export const debugEnglish = {
   "status.flavour.hint":
     "A slower build of the program that can halt at statements; it goes when nothing is debugged any more",
   "strip.debug": "Call stack and breakpoints",
-};
+} as const;

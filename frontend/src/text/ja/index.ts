@@ -1,0 +1,29 @@
+/** 日本語 */
+import type { TextKey } from "../en";
+import { common } from "./common";
+import { debug } from "./debug";
+import { disturb } from "./disturb";
+import { errors } from "./errors";
+import { past } from "./past";
+import { plc } from "./plc";
+import { project } from "./project";
+import { sweep } from "./sweep";
+import { trace } from "./trace";
+import { userErrors } from "./userErrors";
+import { verify } from "./verify";
+import { watch } from "./watch";
+
+export const japanese: Record<TextKey, string> = {
+  ...common,
+  ...plc,
+  ...project,
+  ...watch,
+  ...errors,
+  ...sweep,
+  ...userErrors,
+  ...debug,
+  ...trace,
+  ...verify,
+  ...disturb,
+  ...past,
+};
