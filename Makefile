@@ -52,11 +52,11 @@ check: $(VENV)/.stamp-runtime $(VENV)/.stamp-dev $(NODE_ROOTS:%=%/node_modules/.
 	@.ci/steps lint types layers wire-check frontend-check
 
 bench: $(VENV)/.stamp-runtime
-	@$(BIN)/scanbench bench $(ARGS)
-	@$(BIN)/scanbench bench watch
-	@$(BIN)/scanbench bench pace
-	@$(BIN)/scanbench bench goto
-	@$(BIN)/scanbench bench instances
+	@cd backend && $(BIN)/python -m bench $(ARGS)
+	@cd backend && $(BIN)/python -m bench watch
+	@cd backend && $(BIN)/python -m bench pace
+	@cd backend && $(BIN)/python -m bench goto
+	@cd backend && $(BIN)/python -m bench instances
 
 N ?= 10000
 SEED ?=

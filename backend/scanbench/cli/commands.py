@@ -3,7 +3,6 @@
 import typer
 
 from scanbench import __version__
-from scanbench.cli.bench import bench
 from scanbench.cli.check import check
 from scanbench.cli.dap import dap
 from scanbench.cli.diff import diff
@@ -24,8 +23,6 @@ app = typer.Typer(
 )
 for command in (serve, check, run, verify, replay, diff, dap):
     app.command()(command)
-# its subjects have options of their own
-app.command(context_settings={"allow_extra_args": True, "ignore_unknown_options": True})(bench)
 app.add_typer(model, name="model")
 app.add_typer(errors, name="errors")
 

@@ -6,7 +6,7 @@ from collections.abc import Mapping
 
 import pytest
 
-from scanbench.bench.run import HERE
+from bench.large import large
 from scanbench.check.build import Checked, Checker, check_sources
 from scanbench.check.incremental import Checks
 from scanbench.engines.native.emit_program import emit_program
@@ -264,7 +264,7 @@ def test_errors_of_other_pous_stay_and_move() -> None:
 
 
 def test_a_large_file_edited_here_and_there(rechecked: list[str]) -> None:
-    text = "\n".join((HERE / "st" / "big10k.st").read_text("utf-8").splitlines()[: 82 * 6])
+    text = "\n".join(large("big10k").splitlines()[: 82 * 6])
     text = (
         text[: text.rindex("END_FUNCTION_BLOCK")]
         + "END_FUNCTION_BLOCK\nPROGRAM Main\nVAR u : Unit3; END_VAR\nu();\nEND_PROGRAM\n"

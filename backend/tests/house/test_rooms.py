@@ -8,7 +8,10 @@ import pytest
 ROOT = Path(__file__).parents[3]
 PACKAGE = ROOT / "backend" / "scanbench"
 ROOMS = sorted(path.parent for path in PACKAGE.glob("*/__init__.py"))
-FOLDERS = [ROOT / name for name in ("backend", "backend/tests", "docker", "e2e", "frontend", "models", "vscode")]
+FOLDERS = [
+    ROOT / name
+    for name in ("backend", "backend/bench", "backend/tests", "docker", "e2e", "frontend", "models", "vscode")
+]
 
 
 @pytest.mark.parametrize("room", [*ROOMS, *FOLDERS], ids=lambda path: str(path.relative_to(ROOT)))

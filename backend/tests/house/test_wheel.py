@@ -26,7 +26,7 @@ def wheel(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Of a copy of the checkout, as the page need not be built here. Nothing is fetched."""
     checkout = tmp_path_factory.mktemp("checkout")
     backend = checkout / "backend"
-    ignored = shutil.ignore_patterns("__pycache__", "tests", ".*", "st")
+    ignored = shutil.ignore_patterns("__pycache__", "tests", ".*", "bench")
     shutil.copytree(ROOT / "backend", backend, ignore=ignored)
     shutil.copytree(ROOT / "models", checkout / "models")
     shutil.copy(ROOT / "LICENSE", checkout)

@@ -1,6 +1,6 @@
 """The reference engine is quick enough to go through long runs with."""
 
-from scanbench.bench.interpreter import statements_per_second
+from bench.interpreter import statements_per_second
 
 
 def test_simple_statements() -> None:

@@ -1,6 +1,6 @@
 """What debugging costs: a scan with one breakpoint that is never hit, and what swapping the code takes.
 
-`python -m scanbench.bench.debugging [PROGRAM...] [--json]`. All figures of a program come from one run, samples taken in turn, and
+`python -m bench.debugging [PROGRAM...] [--json]`. All figures of a program come from one run, samples taken in turn, and
 are ratios to its run flavour. The breakpoint stands where it hurts most, in the statement that runs most often, with a condition
 that is never true; and in a statement that never runs, as in an IF that is not taken.
 """
@@ -17,8 +17,8 @@ from tempfile import TemporaryDirectory
 from time import perf_counter_ns, thread_time_ns
 from typing import TypeVar
 
-from scanbench.bench.building import LARGE
-from scanbench.bench.run import PROGRAMS, BenchError, checked_program
+from bench.large import UNITS
+from bench.run import PROGRAMS, BenchError, checked_program
 from scanbench.check.build import check_sources
 from scanbench.check.typed.local import Local, Locals
 from scanbench.engines.cache import BlobCache
@@ -259,7 +259,7 @@ def main() -> None:
     for name in given.programs or [SAMPLE, *PROGRAMS]:
         program = conveyor() if name == SAMPLE else checked_program(name)[0]
         figures[name] = asdict(measure_costs(program))
-        if name in LARGE:
+        if name in UNITS:
             figures[name] |= asdict(measure_swaps(program))
         if not given.json:
             shown = ", ".join(f"{key} {value}" for key, value in figures[name].items())

@@ -1,6 +1,6 @@
 """Many virtual PLCs on one machine: whether they hold their pace, what each costs, and how soon a new one scans.
 
-`python -m scanbench.bench.instances [--count N] [--interval T] [--seconds N]`: without a count 200 of the conveyor sample at
+`python -m bench.instances [--count N] [--interval T] [--seconds N]`: without a count 200 of the conveyor sample at
 10 ms, then 50 at 1 ms. All is as in the server, without the web: hosts from the zygote, runs recorded, nobody watching.
 """
 

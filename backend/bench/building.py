@@ -2,7 +2,7 @@
 
 Each has a process of its own, and time counts from when that has its modules loaded and the text in hand. The first host finds
 an empty cache directory; the second finds what the first has left there, and is then edited: no edit was ever built before.
-`python -m scanbench.bench.building PART PROGRAM CACHE` is one of them, and prints one JSON object.
+`python -m bench.building PART PROGRAM CACHE` is one of them, and prints one JSON object.
 """
 
 import json
@@ -16,6 +16,7 @@ from pathlib import Path
 from statistics import median
 from time import perf_counter_ns
 
+from bench.large import UNITS, large
 from scanbench.check.incremental import Checks
 from scanbench.engines.cache import BlobCache
 from scanbench.host.build import Builder, find_model
@@ -27,8 +28,6 @@ from scanbench.runtime.programs import Loaded, Shelf
 from scanbench.runtime.resource import Resource
 from scanbench.wire.host import Sources
 
-LARGE = ("big10k", "big10kflat")
-"""Programs of 10,000 lines."""
 MODEL = "GENERIC-IEC"
 INTERVAL_NS = 1_000_000
 OPTIMISED_S = 120
@@ -46,7 +45,7 @@ Figures = dict[str, float]
 
 
 def measure_building(program: str) -> Figures:
-    """ms of each step, and MB of the processes that took them. `program` is one of `LARGE`, or the path of one like them."""
+    """ms of each step, and MB of the processes that took them. `program` is one of `bench.large.UNITS`, or the path of one like them."""
     with tempfile.TemporaryDirectory() as cache:
         first, second, checker = (_process(part, program, cache) for part in PARTS)
     return {
@@ -62,7 +61,7 @@ def measure_building(program: str) -> Figures:
 
 
 def _process(part: str, program: str, cache: str) -> Figures:
-    command = [sys.executable, "-m", "scanbench.bench.building", part, program, cache]
+    command = [sys.executable, "-m", "bench.building", part, program, cache]
     done = subprocess.run(command, stdout=subprocess.PIPE, text=True, check=True)
     figures: Figures = json.loads(done.stdout)
     return figures
@@ -130,8 +129,7 @@ def _field_kb(path: str, name: str) -> int:
 
 
 def _text(program: str) -> str:
-    own = Path(__file__).parent / "st" / f"{program}.st"
-    return (own if own.is_file() else Path(program)).read_text("utf-8")
+    return large(program) if program in UNITS else Path(program).read_text("utf-8")
 
 
 def _sources(program: str, text: str) -> Sources:

@@ -1,6 +1,6 @@
 """Verification and questions about the past: how fast they are.
 
-`python -m scanbench.bench.verify [--scans N] [--long N] [--json]`: a run of the conveyor sample is verified, the whole scan and a
+`python -m bench.verify [--scans N] [--long N] [--json]`: a run of the conveyor sample is verified, the whole scan and a
 range of it, and held against what its task needs and against the reference interpreter alone; then somebody goes to scans
 all over a long run, and asks who wrote a variable last.
 """
@@ -17,8 +17,8 @@ from statistics import median
 from time import perf_counter_ns
 from tracemalloc import get_traced_memory, start, stop
 
-from scanbench.bench.reverse import FIRST, SOURCE
-from scanbench.bench.run import INTERVAL_NS, MODEL
+from bench.reverse import FIRST, SOURCE
+from bench.run import INTERVAL_NS, MODEL
 from scanbench.check.build import check_sources
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.debugged import DebugBuilds

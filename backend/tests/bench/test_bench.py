@@ -1,15 +1,18 @@
-"""The bench command's measurement."""
+"""What `python -m bench` measures."""
 
+import hashlib
+import json
 from pathlib import Path
 
 import pytest
 
-from scanbench.bench.building import measure_building
-from scanbench.bench.debugging import conveyor, measure_costs, measure_swaps
-from scanbench.bench.pace import PERIODS_MS, report, run_pace_bench
-from scanbench.bench.run import HERE, PROGRAMS, BenchError, run_bench
-from scanbench.bench.trace import run_trace_bench
-from scanbench.cli.bench import BUILDING
+from bench.__main__ import BUILDING, main, shown
+from bench.building import measure_building
+from bench.debugging import conveyor, measure_costs, measure_swaps
+from bench.large import large
+from bench.pace import PERIODS_MS, report, run_pace_bench
+from bench.run import PROGRAMS, BenchError, Row, run_bench
+from bench.trace import run_trace_bench
 from scanbench.taps import trace_buffer
 
 
@@ -28,6 +31,41 @@ def test_a_program_beside_its_twin() -> None:
         assert measured["observed_ratio"] > 0
 
 
+@pytest.mark.parametrize(
+    ("name", "digest"),
+    [
+        ("big10k", "4c883774e6133ea507e50dcdae339ee6e98c5aaeadfd463103996e3890e33d26"),
+        ("big10kflat", "d52d3d743a47ccaae3a78cd6b0fe97decc105e6fdd2122f5dfe8e1daf325eebd"),
+    ],
+)
+def test_large_programs_are_the_same_each_time(name: str, digest: str) -> None:
+    text = large(name)
+    assert len(text.splitlines()) == 10_000
+    assert hashlib.sha256(text.encode()).hexdigest() == digest, "figures of before cannot be compared with those of now"
+
+
+def test_the_command_prints_a_table_or_an_object(capsys: pytest.CaptureFixture[str]) -> None:
+    main(["noop", "--json"])
+    assert set(json.loads(capsys.readouterr().out)["programs"]) == {"noop"}
+    with pytest.raises(SystemExit):
+        main(["nope"])
+    assert "there is no bench program nope" in capsys.readouterr().err
+
+
+def test_figures_are_shown_as_lines() -> None:
+    row: Row = {"ns": 12.34, "c_ns": 10.0, "ratio": 1.234, "observed_ratio": 2.0}
+    built = {key: 1.0 for key, _, _ in BUILDING}
+    lines = shown(
+        {
+            "programs": {"noop": row}, "peers": {"noop": {"matiec": 3.0}}, "compile": {"noop": {"check": 1.0}},
+            "building": {"big10k": built}, "interpreter_per_second": 1000.0,
+        }
+    )  # fmt: skip
+    assert lines[1].split() == ["noop", "12.3", "10.0", "1.23", "2.00", "3.00", "check", "1"]
+    assert len([line for line in lines if line.endswith("1.0 ms")]) == len([1 for *_, unit in BUILDING if unit == "ms"])
+    assert "1,000 simple statements" in lines[-1]
+
+
 def test_a_program_without_a_twin() -> None:
     measured = run_bench(["string_unrolled"])["programs"]["string_unrolled"]
     assert measured["ns"] is not None
@@ -41,7 +79,7 @@ def test_an_unknown_program_is_named() -> None:
 
 
 def test_what_building_takes(tmp_path: Path) -> None:
-    blocks = (HERE / "st" / "big10kflat.st").read_text("utf-8").split("END_FUNCTION_BLOCK")[:20]
+    blocks = large("big10kflat").split("END_FUNCTION_BLOCK")[:20]
     program = "PROGRAM Main\nVAR u : Unit0; END_VAR\n  u();\nEND_PROGRAM\n"
     path = tmp_path / "blocks.st"
     path.write_text("END_FUNCTION_BLOCK".join([*blocks, "\n"]) + program, "utf-8")

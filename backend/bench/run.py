@@ -14,9 +14,10 @@ from statistics import median
 from time import perf_counter_ns, thread_time_ns
 from typing import TypedDict
 
-from scanbench.bench.building import LARGE, measure_building
-from scanbench.bench.interpreter import statements_per_second
-from scanbench.bench.peers import peer_ratios
+from bench.building import measure_building
+from bench.interpreter import statements_per_second
+from bench.large import UNITS, large
+from bench.peers import peer_ratios
 from scanbench.check.build import check_sources
 from scanbench.engines.engine import Engine, Reason
 from scanbench.engines.native.engine import NativeEngine
@@ -26,7 +27,7 @@ from scanbench.program.program import Program
 from scanbench.symbols.symbols import resolve
 
 HERE = Path(__file__).parent
-PROGRAMS = ("noop", "bool", "arith", "array", "mavg", "state", "string", "string_unrolled", "big10k", "big10kflat")
+PROGRAMS = ("noop", "bool", "arith", "array", "mavg", "state", "string", "string_unrolled", *UNITS)
 MODEL = "GENERIC-IEC"
 INTERVAL_NS = 1_000_000
 WARM_UP = 2000
@@ -88,7 +89,7 @@ def run_bench(programs: list[str] | None = None) -> Result:
             result["programs"][name] = _measure(name, native, observed, twin)
             if ratios := peer_ratios(name):
                 result["peers"][name] = ratios
-            if name in LARGE:
+            if name in UNITS:
                 result["building"][name] = measure_building(name)
     if not programs:
         result["interpreter_per_second"] = round(statements_per_second())
@@ -97,7 +98,7 @@ def run_bench(programs: list[str] | None = None) -> Result:
 
 def checked_program(name: str) -> tuple[Program, float]:
     """A program of the bench, and ms that checking it took."""
-    source = (HERE / "st" / f"{name}.st").read_text("utf-8")
+    source = large(name) if name in UNITS else (HERE / "st" / f"{name}.st").read_text("utf-8")
     start = perf_counter_ns()
     checked = check_sources({f"{name}.st": source}, model_named(MODEL), INTERVAL_NS)
     spent = (perf_counter_ns() - start) / 1e6

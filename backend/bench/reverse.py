@@ -1,6 +1,6 @@
 """Reverse debugging: how long it takes to find the last write of a variable, and to step back.
 
-`python -m scanbench.bench.reverse [--scans N]`: a program runs a million scans as fast as possible; a variable was written in
+`python -m bench.reverse [--scans N]`: a program runs a million scans as fast as possible; a variable was written in
 its first ones alone. Then somebody asks for its last write, and steps back over statements from where the PLC stands.
 """
 
@@ -10,7 +10,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from time import perf_counter_ns
 
-from scanbench.bench.run import INTERVAL_NS, MODEL
+from bench.run import INTERVAL_NS, MODEL
 from scanbench.check.build import check_sources
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.debug.debugger import Debugger

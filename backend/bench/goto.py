@@ -1,6 +1,6 @@
 """Time travel: what recording costs, and how long it takes to show any scan of a long run.
 
-`python -m scanbench.bench.goto [--scans N] [--words N]`: a program that changes an image of 64 KiB all the time runs 10
+`python -m bench.goto [--scans N] [--words N]`: a program that changes an image of 64 KiB all the time runs 10
 million scans as fast as possible, with commands on the way, once recorded and once not; then scans all over the run
 are gone to, and the run file is opened again as after a crash.
 """
@@ -14,7 +14,7 @@ from pathlib import Path
 from statistics import median
 from time import perf_counter_ns
 
-from scanbench.bench.run import INTERVAL_NS, MODEL
+from bench.run import INTERVAL_NS, MODEL
 from scanbench.check.build import check_sources
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.plcmodel.load import model_named

@@ -1,7 +1,7 @@
 """10,000 watched values at 20 Hz: what share of a core the server and its host take, and how long a write of one browser
 takes until another one shows it.
 
-`python -m scanbench.bench.watch [--values N] [--browsers N] [--seconds N] [--writes N]`. The browsers run in a process of
+`python -m bench.watch [--values N] [--browsers N] [--seconds N] [--writes N]`. The browsers run in a process of
 their own and are not counted: in the field they are other machines.
 """
 
@@ -62,7 +62,7 @@ def run_watch_bench(values: int = 10_000, browsers: int = 1, seconds: float = 8,
     with tempfile.TemporaryDirectory() as data, _server(Path(data)) as (address, pid):
         base, _, token = address.partition("/?token=")
         instance, host_pid = _instance(base, token, values)
-        client = [sys.executable, "-m", "scanbench.bench.watch", "--client", base, token, str(instance)]
+        client = [sys.executable, "-m", "bench.watch", "--client", base, token, str(instance)]
         numbers = [str(values), str(browsers), str(seconds), str(writes)]
         with subprocess.Popen([*client, *numbers], stdout=subprocess.PIPE, text=True) as watchers:
             assert watchers.stdout is not None

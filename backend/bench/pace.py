@@ -1,6 +1,6 @@
 """What the scan loop can do: scans a second, lateness at a pace, what a condition and a knock cost.
 
-`python -m scanbench.bench.pace [--seconds N]`. The sample conveyor on the native engine, in this process, with a journal:
+`python -m bench.pace [--seconds N]`. The sample conveyor on the native engine, in this process, with a journal:
 without the process of a host around it, which comes back twenty times a second to take values and checkpoints.
 """
 

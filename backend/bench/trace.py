@@ -1,6 +1,6 @@
 """Traces: 16 signals of every scan of a 1 ms task, without a lost sample, and what a scan costs more.
 
-`python -m scanbench.bench.trace [--minutes N] [--seconds N]`: `minutes` of virtual time as fast as possible, then
+`python -m bench.trace [--minutes N] [--seconds N]`: `minutes` of virtual time as fast as possible, then
 `seconds` at the real pace of 1 ms with a drain each 50 ms, as the host does it.
 """
 
