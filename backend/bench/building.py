@@ -164,7 +164,7 @@ def _optimise(builder: Builder, plc: Resource) -> tuple[float, int]:
 
     def take(recode: Recode) -> None:
         if recode.engine is not None:
-            plc.engine = recode.engine
+            plc.loaded.engine = recode.engine
         done.set()
 
     builder.tiers.optimise(take)

@@ -78,7 +78,7 @@ def _trace(resource: Resource, scans: int) -> Trace:
     trace = Trace(1, definition, "bench")
     trace.define(definition, resource.program, "bench")
     trace.start(resource.program, resource.header.scan)
-    resource.samplings = trace.samplings
+    resource.waiting.samplings = trace.samplings
     return trace
 
 

@@ -68,8 +68,7 @@ class Debugger:
         """Asks somebody to make code with these probes, for `take_probed`; until that is there the debug flavour runs."""
         self._exact: int | None = None
         """The scan in which a probe was reached: it is run statement by statement."""
-        timeline.resource.on_trap = self._on_trap
-        timeline.resource.on_probe = self._on_probe
+        timeline.resource.listening.call(self._on_trap, self._on_probe)
         self._note_entries()
 
     # ---- what there is --------------------------------------------------------------------------------------------
@@ -108,9 +107,10 @@ class Debugger:
     @property
     def flavour(self) -> str:
         """Which code runs, or would: empty is the ordinary one."""
-        if self.resource.inside is not None or (self.busy and self.resource.hook is not None):
+        listening = self.resource.listening
+        if listening.inside is not None or (self.busy and listening.hook is not None):
             return "debug"
-        return "probed" if self.busy and self.resource.probed is not None else ""
+        return "probed" if self.busy and listening.probed is not None else ""
 
     @property
     def prober(self) -> MakeProbed | None:
@@ -290,18 +290,19 @@ class Debugger:
         if not wanted and listener.needed:
             wanted = probed is None or resource.begun or self._exact == resource.header.scan
         if not wanted:
-            if resource.hook is not None:
-                resource.look()
-            resource.hook, resource.probed = None, probed if listener.needed else None
+            if resource.listening.hook is not None:
+                resource.listening.look()
+            resource.listening.attach(None)
+            resource.listening.probe(probed if listener.needed else None)
             return None
         listener.goal, listener.pending = self._goal, self._pending or listener.pending
-        inside, scan = resource.inside, resource.header.scan
+        inside, scan = resource.listening.inside, resource.header.scan
         if inside is not None:
             self._stood = scan, inside.count
         elif self._stood[0] != scan:  # else a knock came before the scan had run up to there again
             self._stood = -1, 0
         listener.passed.begin = self._stood
-        resource.hook = listener
+        resource.listening.attach(listener)
         return listener
 
     def _until_scan_breakpoint(self, least: int = 1) -> int:
@@ -356,22 +357,16 @@ class Debugger:
         if not breakpoints or (self._trap_seen is not None and self._trap_seen[0] == scan):
             self._trap_seen = None
             return False
-        hook = resource.hook
         self._timeline.rewind()
         engine = resource.loaded.debugged()
-        try:
-            resource.hook = HaltAt(0)
-            resource.listen(NOTHING)
+        with resource.listening.instead(HaltAt(0), NOTHING):
             self._rerun()
             count = engine.count
             resource.memory[:] = engine.begin
             if count:
-                resource.hook = HaltAt(count)
-                resource.listen(Listen(count=count))
+                resource.listening.attach(HaltAt(count), Listen(count=count))
                 self._rerun()
-        finally:
-            resource.hook = hook
-        if resource.inside is None:
+        if resource.listening.inside is None:
             return False
         self._trap_seen = scan, count
         placed = breakpoints[0]
@@ -405,7 +400,7 @@ class Debugger:
             self._halted(Found("step", "this is where the PLC stands", ""))
 
     def _goal_of(self, action: str, author: str, file: str, line: int) -> Goal | Refusal:
-        inside = self.resource.inside
+        inside = self.resource.listening.inside
         frames = inside.frames if inside is not None else ()
         sites: frozenset[int] = frozenset()
         if action == "to":
@@ -441,7 +436,7 @@ class _Acting(Actions):
             outcome = assigning.plan(resource.view, instance)
         if isinstance(outcome, Plan):
             command = Assign(breakpoint.author, frame.pou.name, frame.instance, breakpoint.assign)
-            outcome = resource.enter_here(command, outcome, count)
+            outcome = resource.enter_planned(command, outcome, step=count)
         if isinstance(outcome, Refusal):
             self.say(
                 breakpoint,

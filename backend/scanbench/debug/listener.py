@@ -101,7 +101,7 @@ class Listener:
         if in_scan and end is not None and end[0] == self._resource.header.scan:
             count = end[1]  # the last scan that is kept: it ends in the middle
         sites = frozenset(self._at) | self._first | (listens or frozenset())
-        self._resource.listen(Listen(sites, every, count, self._watching.bytes))
+        self._resource.listening.listen(Listen(sites, every, count, self._watching.bytes))
 
     # ---- the hook -------------------------------------------------------------------------------------------------
 

@@ -47,15 +47,12 @@ class Past:
         listener = self._listener
         if listener is None or listener.loaded is not resource.loaded:
             listener = self._listener = self._listening(goal)
-        inside = resource.inside
+        inside = resource.listening.inside
         if inside is not None:
             listener.passed.begin = resource.header.scan, inside.count
-        hook, resource.hook = resource.hook, listener
-        try:
+        with resource.listening.instead(listener):
             listener.begin()
             stop = timeline.go_on(timeline.live_scan + 1)
-        finally:
-            resource.hook = hook
         if stop.reason is Reason.KNOCKED:
             found = listener.behind_scan()
             if found is not None:
@@ -82,7 +79,7 @@ class Past:
     def position(self) -> Position:
         """What is shown."""
         resource = self._timeline.resource
-        return resource.header.scan, resource.inside.count if resource.inside is not None else 0
+        return resource.header.scan, resource.listening.inside.count if resource.listening.inside is not None else 0
 
     def back(self, author: str) -> Found | Refusal:
         """To the statement before."""

@@ -47,7 +47,7 @@ class Noting(Listener):
     def _tell(self, in_scan: bool = False) -> None:
         """Nobody need be told that a scan begins, where accesses are all that is looked for and stay where they are."""
         if self._only_accesses:
-            self._resource.listen(Listen(bytes=self._watching.bytes))
+            self._resource.listening.listen(Listen(bytes=self._watching.bytes))
         else:
             super()._tell(in_scan)
 
@@ -193,9 +193,8 @@ class Search:
         refusal = timeline.goto(scans.start)
         if refusal is not None:
             return refusal
-        hook, resource.hook = resource.hook, None
         found = [each for each in self._entered if each in scans]
-        try:
+        with resource.listening.instead(None):
             while True:
                 loaded = resource.loaded
                 engine = self._engine(loaded)
@@ -212,8 +211,6 @@ class Search:
                 found += [each for each in engine.reached if each is not None] if engine is not None else []
                 if stop.reason is not Reason.KNOCKED:
                     return max(found, default=None)
-        finally:
-            resource.hook = hook
 
     def _engine(self, loaded: Loaded) -> ProbedEngine | None:
         if loaded not in self._probed:
@@ -237,14 +234,14 @@ class Search:
         if refusal is not None:
             return refusal
         resource, live, noted = timeline.resource, timeline.live_inside, None
-        hook = resource.hook
-        try:
+        with resource.listening.instead(None):
             while True:
                 placing = self._breakpoints.placing(resource.loaded)
                 placed = [placing.place(each, scans.start) for each in wanted]
                 sound = any(not each.flaw for each in placed)
                 self._sound, self._flaw = self._sound or sound, self._flaw or placed[0].flaw
-                resource.hook = noting = Noting(resource, placing, placed, None)
+                noting = Noting(resource, placing, placed, None)
+                resource.listening.attach(noting)
                 noting.before = self._here
                 if live is not None:
                     noting.passed.end = timeline.live_scan, live.count
@@ -253,8 +250,6 @@ class Search:
                 noted = noting.noted or noted
                 if stop.reason is not Reason.KNOCKED:
                     return noted
-        finally:
-            resource.hook = hook
 
 
 def search(
@@ -279,16 +274,11 @@ def in_front(timeline: Timeline, noted: Noted) -> Position:
     if noted.writer is None or timeline.goto(scan, 1) is not None:
         return noted.position
     resource, live = timeline.resource, timeline.live_inside
-    hook, listen = resource.hook, resource.listening
     begins = _Begins(count, live.count if live is not None and timeline.live_scan == scan else None)
-    resource.hook = begins
-    resource.listen(Listen(frozenset((noted.writer,)), count=live.count if live is not None else 0))
-    try:
+    listen = Listen(frozenset((noted.writer,)), count=live.count if live is not None else 0)
+    with resource.listening.instead(begins, listen):
         while timeline.go_on(scan + 1).reason is Reason.KNOCKED:
             pass
-    finally:
-        resource.hook = hook
-        resource.listen(listen)
     return scan, begins.count
 
 

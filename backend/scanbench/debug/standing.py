@@ -9,7 +9,7 @@ from scanbench.symbols.symbols import instance_at
 
 def halt_of(resource: Resource, placing: Placing, found: Found, number: int, past: bool) -> Halt:
     """The halt of a resource as it stands now."""
-    scan, inside = resource.header.scan, resource.inside
+    scan, inside = resource.header.scan, resource.listening.inside
     if inside is None or not inside.frames:
         return Halt(
             number, found.reason, found.text, found.by, found.breakpoints, scan, 0, None, "", "", "", past

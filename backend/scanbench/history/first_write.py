@@ -52,15 +52,10 @@ def first_write(reading: Reading, scan: int, changes: Sequence[Change]) -> tuple
     for each in changes:
         for at, mask in _bytes(resource, each):
             owners.setdefault(at, []).append((mask, each))
-    hook, listen, writes = resource.hook, resource.listening, _Writes(resource, owners)
-    resource.hook = writes
-    resource.listen(Listen(bytes=dict.fromkeys(owners, WRITE)))
-    try:
+    writes = _Writes(resource, owners)
+    with resource.listening.instead(writes, Listen(bytes=dict.fromkeys(owners, WRITE))):
         while timeline.go_on(scan + 1).reason is Reason.KNOCKED:
             pass
-    finally:
-        resource.hook = hook
-        resource.listen(listen)
     if writes.found is None:
         return None
     count, site, change = writes.found

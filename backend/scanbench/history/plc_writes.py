@@ -69,11 +69,11 @@ def _in_stretch(reading: Reading, path: str, first: int, end: int) -> int | None
         sampling.skip_to(now)
         if before is None:
             before = _now(reading, path)
-        resource.samplings = (sampling,)
+        resource.waiting.samplings = (sampling,)
         try:
             timeline.go_on(upto)
         finally:
-            resource.samplings = ()
+            resource.waiting.samplings = ()
         rows = sampling.take()
         values = rows[:, HEAD_WORDS]
         if len(rows):

@@ -195,7 +195,7 @@ def _by_statement(reading: Reading, noted: Noted, symbol: Symbol, value: bytes) 
     scan, count = in_front(timeline, noted)
     reading.goto(scan, count)
     resource = timeline.resource
-    inside, program, sites = resource.inside, resource.loaded.statements, resource.loaded.debugged().sites
+    inside, program, sites = resource.listening.inside, resource.loaded.statements, resource.loaded.debugged().sites
     assert inside is not None
     frame = inside.frames[0]
     span = sites.statements[noted.writer if noted.writer is not None else frame.site].span

@@ -77,7 +77,7 @@ class Builds:
         with self._building:
             try:
                 loaded = loop.programs.make(sources)
-                if loop.resource.observing:
+                if loop.resource.listening.observing:
                     self._builder.flavours.prepare_observed(loaded.program)
                 debugger = loop.debugging.debugger
                 if debugger.busy or debugger.breakpoints.placed:  # disabled ones, too: they have to find their places

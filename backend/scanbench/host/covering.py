@@ -28,11 +28,11 @@ class Covering:
             self._tap = CoverageTap(sites, self._texts(), self._timeline.live_scan)
         resource = self._timeline.resource
         if not on:
-            resource.look()
+            resource.listening.look()
         elif not self._on or reset:
             self._noted = self._timeline.live_scan
         self._on = debugger.covering = on
-        resource.on_seen = self._note if on else None
+        resource.listening.tell_seen(self._note if on else None)
         self.more = True
 
     def moved(self, debugger: Debugger) -> None:

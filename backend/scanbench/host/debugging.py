@@ -137,13 +137,13 @@ class Debugging:
                 self._ack(request.ref, True, "coverage is on" if request.on else "coverage is off")
                 self._link.post(self._covering.answer(None))
             case debug_protocol.WantCoverage():
-                self._resource.look()
+                self._resource.listening.look()
                 self._link.post(self._covering.answer(request.ref))
 
     def scene(self) -> Scene:
         """What is shown now."""
         resource = self._resource
-        frames = resource.inside.frames if resource.inside is not None else ()
+        frames = resource.listening.inside.frames if resource.listening.inside is not None else ()
         program = resource.view.statements
         return Scene(program, resource.memory, self._sites(), frames, self._timeline.past)
 
@@ -205,7 +205,7 @@ class Debugging:
         if self._bindings is None or self._bindings[0] is not view.statements:
             self._bindings = view.statements, Bindings(view.statements)
         try:
-            bound = self._bindings[1].of(view, request.path, self._resource.inside is not None)
+            bound = self._bindings[1].of(view, request.path, self._resource.listening.inside is not None)
         except UnknownPath as error:
             scan = self._resource.header.scan
             self._link.post(protocol.Ack(request.ref, False, error.message, scan, tuple(error.near)))
@@ -225,7 +225,7 @@ class Debugging:
             self.debugger.changed = False
             self._link.post(debug_protocol.BreakpointsAre(None, self.debugger.verdicts))
         if self.debugger.covering and not self._timeline.past:
-            self._resource.look()
+            self._resource.listening.look()
             if self._covering.more:
                 self._link.post(self._covering.answer(None))
 

@@ -157,7 +157,7 @@ class _Flight:
         self._sampling = Sampling(resource.program, good, self._ask.every, rows=_CHUNK + 2) if good else None
         if self._sampling is not None:
             self._sampling.skip_to(self._ask.first)
-        resource.samplings = () if self._sampling is None else (self._sampling,)
+        resource.waiting.samplings = () if self._sampling is None else (self._sampling,)
 
     def _whole(self, rows: Words) -> Words:
         count = len(self._ask.signals)

@@ -70,7 +70,7 @@ def run_headless(
     loaded = Loaded.make(program, engine_factory)
     resource = Resource(loaded, programs=programs, detect=detect, recorder=recording, agenda=agenda)
     recorded = _Recorded(recording, resource) if recording is not None else None
-    resource.until = until
+    resource.waiting.until = until
     if interrupt is not None:
         interrupt.reaches(resource.knock)
     met = False

@@ -142,7 +142,7 @@ class Timeline:
     @property
     def live_inside(self) -> Inside | None:
         """Where the PLC's next scan is halted, if it is."""
-        return self._live.inside if self._live is not None else self.resource.inside
+        return self._live.inside if self._live is not None else self.resource.listening.inside
 
     @property
     def live_version(self) -> int:
@@ -214,18 +214,18 @@ class Timeline:
     @property
     def condition(self) -> Condition | None:
         """What `stop_when` was given; after a change of the program the same for the new one, if that is possible."""
-        return self.resource.until
+        return self.resource.waiting.until
 
     def stop_when(self, condition: Condition | None) -> None:
         """From now on the live PLC comes back after scans after which the condition holds; see `Engine.stop_when`.
 
         It stays in force through time travel, other programs and other engines.
         """
-        self.resource.until = condition
+        self.resource.waiting.until = condition
 
     def sample(self, samplings: tuple[Sampling, ...]) -> None:
         """From now on the live PLC has these sampled; made for the program that is live, else they do not count."""
-        self.resource.samplings = samplings
+        self.resource.waiting.samplings = samplings
 
     def drive(self, driven: bytes) -> None:
         """Keeps how the PLC is driven from here on, for who goes on with the run: `Recording.driven`. `OSError`."""
@@ -268,16 +268,10 @@ class Timeline:
 
         def look() -> None:
             nonlocal found
-            hook, listen = resource.hook, resource.listening
-            resource.hook = HaltAt(0)
-            resource.listen(NOT_LISTENING)
-            try:
+            with resource.listening.instead(HaltAt(0), NOT_LISTENING):
                 while self.go_on(scan + 1).reason is Reason.KNOCKED:
                     pass
                 found = resource.loaded.debugged().count
-            finally:
-                resource.hook = hook
-                resource.listen(listen)
 
         refusal = self._visit(scan, stay=False, look=look, begin=True)
         return found if refusal is None else refusal
@@ -340,9 +334,9 @@ class Timeline:
                 return Stop(Reason.KNOCKED)
             stop = self._one_stretch(live.journal, min(until, max(live.scan, now + 1)))
             if stop.reason is Reason.HALTED:
-                assert resource.inside is not None
+                assert resource.listening.inside is not None
                 inside = resource.journal[front(resource.journal, resource.header.scan) :]
-                later = sum(each.step > resource.inside.count for each in inside)
+                later = sum(each.step > resource.listening.inside.count for each in inside)
                 resource.journal = resource.journal.prefix(len(resource.journal) - later)
             if stop.reason in (Reason.HALTED, Reason.KNOCKED):
                 return stop
@@ -440,31 +434,21 @@ class Timeline:
 
     def _replay(self, entries: Sequence[Entry], scan: int) -> None:
         """From where the resource stands to the seam in front of a scan, with nobody listening."""
-        hook, self.resource.hook = self.resource.hook, None
-        try:
+        with self.resource.listening.instead(None):
             replay(self.resource, entries, scan)
-        finally:
-            self.resource.hook = hook
 
     def _enter(self, scan: int, count: int) -> bool:
         """From the seam in front of a scan to its statement of this count."""
-        resource = self.resource
-        hook, listen = resource.hook, resource.listening
-        resource.hook = HaltAt(count)
-        resource.listen(Listen(count=count))
-        try:
+        with self.resource.listening.instead(HaltAt(count), Listen(count=count)):
             while (stop := self.go_on(scan + 1)).reason is Reason.KNOCKED:
                 pass
-        finally:
-            resource.hook = hook
-            resource.listen(listen)
         return stop.reason is Reason.HALTED
 
     def _moment(self) -> _Moment:
         resource = self.resource
-        state = resource.state if resource.inside is None else bytes(resource.memory)
+        state = resource.state if resource.listening.inside is None else bytes(resource.memory)
         return _Moment(
-            resource.loaded, resource.header.scan, state, resource.journal, resource.measured, resource.inside
+            resource.loaded, resource.header.scan, state, resource.journal, resource.measured, resource.listening.inside
         )  # fmt: skip
 
     def _stand(self, moment: _Moment) -> None:

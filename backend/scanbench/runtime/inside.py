@@ -12,6 +12,7 @@ from typing import Protocol
 from scanbench.engines.debug import NOTHING, READ, WRITE, DebugEngine, Frame, Hook, Listen
 from scanbench.program.layout import Layout
 from scanbench.runtime.command import Command, Entry, Patch, Plan, Restarted, Swapped
+from scanbench.runtime.journal import Journal
 
 
 class Diverged(Exception):
@@ -34,6 +35,11 @@ def front(journal: Sequence[Entry], scan: int, end: int | None = None) -> int:
     while count and journal[count - 1].step and journal[count - 1].scan == scan:
         count -= 1
     return count
+
+
+def entered_inside(journal: Journal, scan: int) -> list[Entry]:
+    """What was entered inside of the scan that is next, which is at the end of the journal."""
+    return journal[front(journal, scan) :]
 
 
 def needs_seam(plan: Plan) -> bool:

@@ -138,7 +138,7 @@ class Control:
         checkpoint = source.before(scan)
         end = bisect_left(source.entries, scan, key=attrgetter("scan"))
         here = checkpoint.scan <= resource.header.scan <= scan and len(resource.journal) <= end
-        if not (here and resource.recorder is source.recording and resource.inside is None):
+        if not (here and resource.recorder is source.recording and resource.listening.inside is None):
             self.side = self._at(checkpoint)
             resource = self.side.resource
         try:

@@ -85,14 +85,9 @@ class Side:
     def run(self, hook: Onlooker | None, listen: Listen | None = None) -> Stop:
         """One scan, in the debug flavour where somebody listens."""
         resource = self.resource
-        resource.hook = hook
-        try:
-            if listen is not None:
-                resource.listen(listen)
+        with resource.listening.instead(hook, listen):
             while (stop := resource.rerun(1)).reason is Reason.KNOCKED:
                 pass
-        finally:
-            resource.hook = None
         return stop
 
     def wait_for(self, entries: Sequence[Entry]) -> None:
@@ -122,7 +117,7 @@ class Side:
 
             def run() -> tuple[Frame, ...]:
                 self.run(HaltAt(count), Listen(count=count))
-                inside = self.resource.inside
+                inside = self.resource.listening.inside
                 return () if inside is None else inside.frames
 
             self._frames[count] = self.again(begin, run)

@@ -39,9 +39,9 @@ class _Stepper:
             return True
         if count == self._count - 1:
             self.before = self._engine.frames()
-            self._resource.listen(Listen(count=self._count, accesses=READ | WRITE))
+            self._resource.listening.listen(Listen(count=self._count, accesses=READ | WRITE))
         else:
-            self._resource.listen(Listen(count=self._count - 1))
+            self._resource.listening.listen(Listen(count=self._count - 1))
         return False
 
     def access(self, site: int, count: int, offset: int, size: int, written: bool) -> None:
@@ -99,7 +99,7 @@ def _go(side: Side, begin: Begin, count: int, first: Callable[[], dict[int, int]
 
     def run() -> _Stood:
         stop: Stop = side.run(stepper, stepper.listen)
-        inside = side.resource.inside
+        inside = side.resource.listening.inside
         frames = inside.frames if inside is not None else ()
         ended = stop.reason is not Reason.HALTED
         return _Stood(

@@ -218,12 +218,12 @@ class Recorder:
         if self.on_begin is not None:
             self.on_begin(len(self.passes) - 1, made)
         if self._busy is not self._idle:
-            self._resource.listen(self._busy)
+            self._resource.listening.listen(self._busy)
         return made
 
     def _end(self) -> None:
         self._open, self._callers = None, frozenset()
-        self._resource.listen(self._idle)
+        self._resource.listening.listen(self._idle)
 
 
 def results_are(log: list[Access], memory: bytes | bytearray, span: range | None = None) -> bool:

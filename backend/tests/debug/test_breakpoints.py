@@ -265,8 +265,8 @@ def test_an_instance_of_a_function_is_the_one_that_called_it(walker: Walker) -> 
     for scan in (0, 1):
         walker.run(5)
         assert (walker.halt.scan, walker.halt.pou) == (scan, "Twice")
-        assert walker.timeline.resource.inside is not None
-        assert walker.timeline.resource.inside.frames[1].instance == walker.debugger.placing.place(
+        assert walker.timeline.resource.listening.inside is not None
+        assert walker.timeline.resource.listening.inside.frames[1].instance == walker.debugger.placing.place(
             line(13, instance="Main.b"), 0
         ).instance  # fmt: skip
         walker.debugger.step("continue", "Ann")

@@ -48,7 +48,7 @@ def test_what_needs_the_seam_is_never_entered_inside_of_a_scan(kind: str, tmp_pa
     )
     entry = walker.submit(Restart("Bob", "cold"))
     assert (entry.scan, entry.step) == (scan + (kind == "line"), 0)
-    assert (walker.timeline.resource.inside, value(walker.timeline.resource, "Main.n")) == (None, 0)
+    assert (walker.timeline.resource.listening.inside, value(walker.timeline.resource, "Main.n")) == (None, 0)
     assert (walker.debugger.halt is None) == (kind == "trap"), "what had trapped begins anew"
     assert len(walker.heard.logs) == (2 if kind == "line" else 0), "what was set acts in the rest of the scan"
     walker.set()

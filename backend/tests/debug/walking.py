@@ -140,7 +140,7 @@ class Walker:
     def seen(self) -> tuple[object, ...]:
         """What is to be the same wherever a position is come to from."""
         resource = self.timeline.resource
-        inside = resource.inside
+        inside = resource.listening.inside
         frames = tuple((each.pou.name, each.instance, each.site) for each in inside.frames) if inside else ()
         count = inside.count if inside is not None else 0
         return resource.header.scan, count, frames, resource.state

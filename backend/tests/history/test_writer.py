@@ -139,7 +139,7 @@ def test_the_position_is_in_front_of_the_statement(tmp_path: Path) -> None:
         reading.follow(20)
         found = find_writer(reading, "Main.one", 20)
         reading.goto(found.scan, found.count)
-        inside = reading.timeline.resource.inside
+        inside = reading.timeline.resource.listening.inside
         assert inside is not None
         assert found.place is not None
         assert inside.frames[0].pou.name == "Belt"

@@ -89,7 +89,7 @@ def test_the_seam_does_not_show(tmp_path: Path) -> None:
     assert recode.program is plc.program
     assert not is_optimising(builder)
     entries = list(plc.journal)
-    plc.engine = recode.engine
+    plc.loaded.engine = recode.engine
     plc.run(50)
     assert list(plc.journal) == entries
 

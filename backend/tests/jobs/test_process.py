@@ -399,9 +399,8 @@ def test_what_a_debugger_entered_inside_of_scans_belongs_to_both_runs(job: Job, 
 def inside(timeline: Timeline, count: int, command: Command) -> None:
     """Enters a command in front of the statement of this count of the scan that is next."""
     resource = timeline.resource
-    resource.hook = HaltAt(count)
-    resource.listen(Listen(count=count))
+    resource.listening.attach(HaltAt(count), Listen(count=count))
     while timeline.run(1).reason is not Reason.HALTED:
         pass
-    resource.hook = None
+    resource.listening.attach(None)
     assert enter(timeline, command).step == count

@@ -363,7 +363,9 @@ def test_a_condition_holds_for_the_live_plc_whatever_happens(
     assert run() == 300
     timeline.copy(tmp_path / "copy", 150, "Bob", lambda refusal: None)
     assert run() == 400
-    timeline.resource.engine = engine(timeline.resource.program, timeline.resource.memory)  # as optimised code comes
+    timeline.resource.loaded.engine = engine(
+        timeline.resource.program, timeline.resource.memory
+    )  # as optimised code comes
     assert run() == 500
     assert not to_program(timeline, 2, SECOND)
     timeline.submit(Write("Ada", "Main.n", "6"))

@@ -46,16 +46,14 @@ def halted(engine: EngineFactory, convention: str) -> Resource:
     assert checked.program is not None, checked.problems
     resource = Resource(Loaded.make(checked.program, engine))
     resource.run(1)
-    resource.hook = HaltAt(BEHIND_FIRST)
-    resource.listen(Listen(count=BEHIND_FIRST))
+    resource.listening.attach(HaltAt(BEHIND_FIRST), Listen(count=BEHIND_FIRST))
     assert resource.run(1).reason is Reason.HALTED
     assert value(resource, "Main.pump.valve.first") == 21
     return resource
 
 
 def went_on(resource: Resource) -> None:
-    resource.hook = None
-    resource.listen(Listen())
+    resource.listening.attach(None, Listen())
     resource.run(1)
 
 
@@ -114,8 +112,7 @@ def looking(engine: EngineFactory, convention: str) -> Resource:
     assert checked.program is not None, checked.problems
     resource = Resource(Loaded.make(checked.program, engine))
     assert isinstance(resource.submit(Write("Ada", "D100", "16#FFF7")), Entry)
-    resource.hook = HaltAt(3)
-    resource.listen(Listen(count=3))
+    resource.listening.attach(HaltAt(3), Listen(count=3))
     assert resource.run(1).reason is Reason.HALTED
     return resource
 

@@ -26,14 +26,13 @@ from tests.runtime.bench import ENGINES, value
 def halt(timeline: Timeline, count: int) -> None:
     """In front of the statement of this count of the scan that is next."""
     resource = timeline.resource
-    resource.hook = HaltAt(count)
-    resource.listen(Listen(count=count))
+    resource.listening.attach(HaltAt(count), Listen(count=count))
     while (stop := timeline.run(1)).reason is Reason.KNOCKED:
         pass
-    resource.hook = None
+    resource.listening.attach(None)
     assert stop.reason is Reason.HALTED
-    assert resource.inside is not None
-    assert resource.inside.count == count
+    assert resource.listening.inside is not None
+    assert resource.listening.inside.count == count
 
 
 def enter(timeline: Timeline, command: Command) -> Entry:
@@ -116,7 +115,7 @@ def test_a_copy_of_a_halted_scan_ends_in_front_of_it(tmp_path: Path) -> None:
         branch = resumed(tmp_path / name)
         assert (branch.live_scan, branch.resource.state, branch.resource.begun) == (3, state, False)
         branch.close()
-    assert timeline.resource.inside is not None
+    assert timeline.resource.listening.inside is not None
     assert value(advance(timeline, 1), "Main.n") == 50
     timeline.close()
 
@@ -126,15 +125,15 @@ def test_the_past_can_be_looked_at_from_a_halt_and_back(tmp_path: Path) -> None:
     resource = advance(timeline, 5)
     halt(timeline, 2)
     enter(timeline, Write("Ada", "Main.n", "50"))
-    image, inside = bytes(resource.memory), resource.inside
+    image, inside = bytes(resource.memory), resource.listening.inside
     assert timeline.goto(2) is None
-    assert resource.inside is None
+    assert resource.listening.inside is None
     assert timeline.goto(3, 4) is None
-    assert (value(resource, "Main.n"), resource.inside is not None) == (4, True)
+    assert (value(resource, "Main.n"), resource.listening.inside is not None) == (4, True)
     assert isinstance(timeline.goto(3, 400), Refusal)
     assert resource.header.scan == 3
     timeline.return_live()
-    assert (bytes(resource.memory), resource.inside) == (image, inside)
+    assert (bytes(resource.memory), resource.listening.inside) == (image, inside)
     assert value(advance(timeline, 1), "Main.n") == 50
     timeline.close()
 
@@ -145,7 +144,7 @@ def test_what_needs_the_seam_ends_the_scan_first(tmp_path: Path) -> None:
         resource = advance(timeline, 5)
         halt(timeline, 2)
         entry = enter(timeline, command)
-        assert (entry.scan, entry.step, resource.inside) == (6, 0, None)
+        assert (entry.scan, entry.step, resource.listening.inside) == (6, 0, None)
         timeline.close()
     timeline = begun(tmp_path / "c.run")
     advance(timeline, 5)
@@ -203,7 +202,7 @@ def test_an_entry_that_the_scan_does_not_get_to_is_told(tmp_path: Path) -> None:
     resource = advance(timeline, 2)
     halt(timeline, 2)
     entry = enter(timeline, Write("Ada", "Main.n", "1"))
-    resource.inside = None
+    resource.listening.inside = None
     timeline.rewind()
     resource.journal = resource.journal.prefix(0)
     resource.await_step(Entry(entry.scan, entry.at, entry.command, entry.plan, 100))
@@ -215,10 +214,10 @@ def test_what_needs_the_seam_waits_for_it_whoever_wants_to_halt(tmp_path: Path) 
     timeline = begun(tmp_path / "a.run")
     advance(timeline, 5)
     halt(timeline, 2)
-    timeline.resource.hook = HaltAt(2)
+    timeline.resource.listening.attach(HaltAt(2))
     entry = enter(timeline, Restart("Ada", "cold"))
-    assert (entry.scan, entry.step, timeline.resource.inside) == (6, 0, None)
-    timeline.resource.hook = None
+    assert (entry.scan, entry.step, timeline.resource.listening.inside) == (6, 0, None)
+    timeline.resource.listening.attach(None)
     state = advance(timeline, 4).state
     scan = timeline.live_scan
     timeline.close()

@@ -30,7 +30,7 @@ class Bench:
 
     def start(self) -> None:
         self.trace.start(self.plc.program, self.scan)
-        self.plc.samplings = self.trace.samplings
+        self.plc.waiting.samplings = self.trace.samplings
 
     @property
     def scan(self) -> int:
@@ -42,19 +42,19 @@ class Bench:
         while self.scan < end:
             assert self.plc.run(min(at_once, end - self.scan)).reason in (Reason.DONE, Reason.KNOCKED)
             self.trace.drain(self.scan)
-            self.plc.samplings = self.trace.samplings
+            self.plc.waiting.samplings = self.trace.samplings
 
     def become(self, source: str) -> None:
         """Another program, as the host puts it in place."""
         change(self.plc, program(source))
         self.trace.drain(self.scan)
         self.trace.aim(self.plc.program, self.scan)
-        self.plc.samplings = self.trace.samplings
+        self.plc.waiting.samplings = self.trace.samplings
 
     def choose(self, *signals: str) -> None:
         """Other signals, as the host takes them over."""
         self.trace.choose(replace(self.trace.definition, signals=signals), self.plc.program, self.scan, "Ada")
-        self.plc.samplings = self.trace.samplings
+        self.plc.waiting.samplings = self.trace.samplings
 
     def scans(self) -> list[int]:
         found: list[int] = self.trace.buffer.read(0, 1 << 40).scans.tolist()
@@ -75,7 +75,7 @@ def test_without_a_trigger_the_last_scans_are_there(engine: EngineFactory) -> No
     assert bench.trace.state == "recording"
     assert bench.scans() == list(range(180, 280))
     bench.trace.stop()
-    bench.plc.samplings = bench.trace.samplings
+    bench.plc.waiting.samplings = bench.trace.samplings
     bench.run(20)
     assert (bench.trace.state, bench.scans()[-1]) == ("stopped", 279)
 
@@ -156,7 +156,7 @@ def test_the_program_is_changed_and_what_is_known_goes_on() -> None:
     assert found.valid.tolist() == [7] * 30 + [3] * 30
     change(bench.plc, program(SOURCE.replace("on : BOOL", "on : BOOL; extra : INT")), version=3)
     bench.trace.aim(bench.plc.program, bench.scan)
-    bench.plc.samplings = bench.trace.samplings
+    bench.plc.waiting.samplings = bench.trace.samplings
     bench.run(5)
     assert bench.trace.buffer.read(60, 1000).valid.tolist() == [7] * 5
 
@@ -168,7 +168,7 @@ def test_a_signal_of_another_type_begins_anew_and_says_so() -> None:
     change(bench.plc, program(SOURCE.replace("r : REAL;", "r : LREAL;").replace("DINT_TO_REAL", "DINT_TO_LREAL")))
     before = bench.trace.generation
     bench.trace.aim(bench.plc.program, bench.scan)
-    bench.plc.samplings = bench.trace.samplings
+    bench.plc.waiting.samplings = bench.trace.samplings
     bench.run(10)
     assert bench.trace.generation == before + 1
     assert "Main.r has another type" in bench.trace.note

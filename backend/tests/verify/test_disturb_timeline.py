@@ -117,12 +117,11 @@ def test_a_debugger_that_halts_in_the_scan_changes_nothing(tmp_path: Path, engin
         while timeline.live_scan < 2:
             timeline.run(1)
     resource = halted.resource
-    resource.hook = HaltAt(count)
-    resource.listen(Listen(count=count))
+    resource.listening.attach(HaltAt(count), Listen(count=count))
     assert halted.run(1).reason is Reason.HALTED
     assert value(resource, "Main.x") == (2 if count <= 2 else 3 ^ 8)
     assert bool(resource.journal.derived(DISTURBED)) == (count <= 2)
-    resource.hook = None
+    resource.listening.attach(None)
     for timeline in (undisturbed, halted):
         while timeline.live_scan < 5:
             timeline.run(1)

@@ -531,14 +531,13 @@ def test_a_debuggers_write_inside_of_a_scan_is_no_difference(tmp_path: Path) -> 
     with Recording.begin(tmp_path / "run", made, 1, b"1", ENTRIES, "Ada") as recording:
         resource = Resource(Loaded.make(made, ReferenceEngine), recorder=recording)
         resource.run(2)
-        resource.hook = HaltAt(2)
-        resource.listen(Listen(count=2))
+        resource.listening.attach(HaltAt(2), Listen(count=2))
         assert resource.run(1).reason is Reason.HALTED
         entry = resource.submit(Write("Ada", "Main.n", "50"))
         assert isinstance(entry, Entry)
         assert entry.step == 2
         resource.finish()
-        resource.hook = None
+        resource.listening.attach(None)
         resource.run(2)
         verified = verifier(tmp_path / "run", made, "Main")
         verified.follow(resource.header.scan)

@@ -67,7 +67,7 @@ def exported(program: Program, signals: Sequence[str], first: int, scans: int, w
             assert not isinstance(resource.submit(Write("Ada", path, value)), Refusal)
         if scan == first:
             trace.start(program, scan)
-            resource.samplings = trace.samplings
+            resource.waiting.samplings = trace.samplings
         resource.run(1)
     trace.drain(first + scans)
     return "".join(to_csv(trace.buffer.pieces(0, 1 << 40), trace.signals, program.interval_ns))
