@@ -11,10 +11,11 @@ from contextlib import suppress
 from dataclasses import dataclass, field, replace
 
 from scanbench.check.assemble import Around, assemble, place_areas, place_globals
-from scanbench.check.body.calls import CallChecker
+from scanbench.check.body.bodies import body_of
+from scanbench.check.body.coercion import as_type, constant
 from scanbench.check.body.generic import is_generic
 from scanbench.check.body.notes import Looks
-from scanbench.check.body.statements import StatementChecker
+from scanbench.check.body.pou_body import pou_body
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare.class_rules import check_classes, check_instances
 from scanbench.check.declare.classes import Method, called_pou, collect, declare_methods
@@ -247,14 +248,14 @@ class Checker:
     def _reference(self, owner: Record, node: tree.Expression, type: Reference) -> Expr:
         """What a reference starts with."""
         scope = Scope(owner.name, self.globals, constants=(owner,), space=self.declarations.names.space)
-        checker = CallChecker(self.report, self.declarations, self.pous, scope, None)
-        return checker.as_type(node, type, "The start value")
+        body = body_of(self.report, self.declarations, self.pous, scope, None)
+        return as_type(body, node, type, "The start value")
 
     def _constant(self, node: tree.Expression, type: Type | None) -> Const:
         """A constant expression among the declarations."""
         owners = tuple(reversed(self.declarations.owners))
         scope = Scope("", self.globals, constants=owners, space=self.declarations.names.space)
-        return CallChecker(self.report, self.declarations, self.pous, scope, None).constant(node, type)
+        return constant(body_of(self.report, self.declarations, self.pous, scope, None), node, type)
 
     def _declare_pous(self) -> None:
         blocks_of_library = []
@@ -325,7 +326,7 @@ class Checker:
             visible = Record("GLOBAL", Kind.STRUCT) if pou.inline else self.globals  # the library sees none of them
             scope = Scope(pou.name, visible, instance, pou.frame, externals, this=this, space=space)
             scope.system, scope.who = self._rights(declaration.span)
-            pou.body = StatementChecker(self.report, self.declarations, self.pous, scope, pou).body(declaration.body)
+            pou.body = pou_body(body_of(self.report, self.declarations, self.pous, scope, pou), declaration.body)
 
     def _rights(self, span: Span) -> tuple[tuple[Record, ...], Who]:
         """What every program knows that stands here, and with whose rights it writes."""

@@ -2,8 +2,15 @@
 
 from dataclasses import dataclass, field, replace
 
-from scanbench.check.body import fold
-from scanbench.check.body.standard_calls import StandardCallChecker
+from scanbench.check.body import fold, targets
+from scanbench.check.body.coercion import as_type, coerce
+from scanbench.check.body.context import Body
+from scanbench.check.body.elements import array_bounds
+from scanbench.check.body.places import VARIABLES
+from scanbench.check.body.receivers import is_variable
+from scanbench.check.body.subrange_checks import keeping, noting, with_note
+from scanbench.check.body.targets import declared_target
+from scanbench.check.body.variables import is_broken
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.declare.scopes import decode
 from scanbench.check.system.system_text import STOP
@@ -44,8 +51,6 @@ from scanbench.program.types import (
 )
 from scanbench.syntax import tree
 
-VARIABLES = (tree.Name, tree.MemberOf, tree.IndexOf, tree.DirectAddress, tree.Dereference, tree.PartialAccess)
-
 
 @dataclass(slots=True)
 class Invocation:
@@ -72,186 +77,189 @@ class Bindings:
     after: list[Stmt] = field(default_factory=list)
 
 
+def by_formal(
+    body: Body, node: tree.Call, formals: list[Member], owner: Record, callee: str
+) -> dict[str, tree.Argument]:
+    """Arguments by upper-case formal name; positional ones go to inputs and in-outs in order. `owner` has the formals."""
+    formals = [each for each in formals if not each.hidden]
+    given: dict[str, tree.Argument] = {}
+    named = False
+    positions = [member for member in formals if member.section in (Section.INPUT, Section.IN_OUT)]
+    for index, argument in enumerate(node.arguments):
+        if argument.name is None:
+            if named:
+                raise body.report.reject("T004", "Arguments by position come before those by name.", argument.span)
+            if index >= len(positions):
+                if owner.open or any(name == owner.name.upper() for name, _ in body.declarations.broken):
+                    raise Rejected
+                raise body.report.reject(
+                    "T004", f"`{callee}` takes {_count(len(positions))}, not {len(node.arguments)}.", argument.span
+                )
+            given[positions[index].name.upper()] = argument
+            continue
+        named = True
+        member = _formal(body, argument, argument.name, formals, owner, callee)
+        if member.name.upper() in given:
+            raise body.report.reject("T004", f"`{argument.name}` is given twice.", argument.span)
+        given[member.name.upper()] = argument
+    return given
+
+
+def _formal(
+    body: Body, argument: tree.Argument, name: str, formals: list[Member], owner: Record, callee: str
+) -> Member:
+    member = next((each for each in formals if each.name.upper() == name.upper()), None)
+    if member is None and (owner.open or is_broken(body, owner, name)):
+        raise Rejected
+    if member is None:
+        hint = did_you_mean(name, [each.name for each in formals])
+        raise body.report.reject("T004", f"`{callee}` has no argument `{name}`.{hint}", argument.span)
+    if argument.output != (member.section is Section.OUTPUT):
+        arrow = "=>" if member.section is Section.OUTPUT else ":="
+        raise body.report.reject(
+            "T004", f"`{member.name}` is {member.section.value}: write `{member.name} {arrow} ...`.", argument.span
+        )
+    return member
+
+
+def invoke(body: Body, node: tree.Call, callee: Pou, name: str, this: Place | None, eno: Place | None) -> Invocation:
+    """The call of a FUNCTION or method. `eno` receives its ENO, where it has one."""
+    members = [callee.frame.members[key] for key in callee.parameters]
+    given = by_formal(body, node, members, callee.frame, name)
+    bound = Bindings()
+    for member in members:
+        if not member.hidden:
+            _bind(body, member, given.get(member.name.upper()), bound, node.span, name)
+    if eno is not None and "ENO" in callee.parameters:
+        bound.places["ENO"] = eno
+    if this is not None:
+        bound.places["THIS"] = this
+    for member in members:
+        if member.hidden and "$" in member.name and member.name.upper() not in bound.inputs:
+            bound.inputs[member.name.upper()] = open_bound(member, bound.places)
+    args = tuple(bound.inputs.get(key, bound.places.get(key)) for key in callee.parameters)
+    body.pous.use(body.pou, callee)
+    return Invocation(CallFunction(callee, callee.result, args), bound.before, bound.after)
+
+
+def as_value(body: Body, made: Invocation, span: Span) -> Expr:
+    """The call as an expression."""
+    if made.call.type is None and made.call.pou.frame.open:
+        raise Rejected  # the type of its result was refused
+    if made.call.type is None:
+        raise body.report.reject("T010", f"`{made.call.pou.name}` has no result; call it as a statement.", span)
+    if not made.before and not made.after:
+        return made.call
+    if not made.after:
+        return Sequence(tuple(made.before), made.call)
+    result = body.temporary(made.call.type, span)
+    return Sequence(tuple(made.statements(span, result)), Load(result))
+
+
+def _bind(body: Body, member: Member, argument: tree.Argument | None, bound: Bindings, span: Span, callee: str) -> None:
+    key = member.name.upper()
+    value = argument.value if argument else None
+    if member.section is Section.IN_OUT:
+        bound.places[key] = in_out(body, member, value, span, bound.before)
+    elif member.section is Section.INPUT:
+        needed = is_system(member.span) and not any(member.initial)  # what may be left out has a default
+        if value is None and needed:
+            raise body.report.reject("T004", f"`{callee}` needs a number: `{callee}({member.name} := 1)`.", span)
+        given = _input(body, member, value, span)
+        if member.note is not None and isinstance(member.type, Subrange):
+            given, bound.inputs[member.note.name.upper()] = with_note(body, given, member.type, span)
+        bound.inputs[key] = given
+    elif key == STOP and in_library(member.span):
+        stop = bound.places[key] = body.temporary(BOOL, span)
+        trap = body.trap(TrapKind.FATAL, span, f"{callee} stops the PLC")
+        bound.after.append(If(((Load(stop), (Halt(trap, span),)),), (), span))
+    elif argument is not None and value is not None:
+        target, variable = declared_target(body, value)
+        if not argument.negated and _takes(target.type, member.type):
+            bound.places[key] = target
+            return
+        taken = body.temporary(member.type, value.span)
+        bound.places[key] = taken
+        whole = _generic(member, Load(taken), target.type)
+        stored = keeping(
+            body, output_value(body, whole, target.type, argument), noting(body, target, variable), argument.span
+        )
+        bound.after.append(Assign(target, stored, argument.span))
+
+
+def output_value(body: Body, value: Expr, target: Type, argument: tree.Argument) -> Expr:
+    """What is stored for `name => target` or `NOT name => target`."""
+    if argument.negated:
+        if not isinstance(value.type, Elementary) or value.type != BOOL:
+            raise body.report.reject("T002", f"Only a BOOL can be negated, not {value.type}.", argument.span)
+        value = fold.unary("not", BOOL, value)
+    assert argument.value is not None
+    return coerce(body, value, target, argument.span, f"`{shown(argument.value)}`")
+
+
+def _input(body: Body, member: Member, value: tree.Expression | None, span: Span) -> Expr:
+    if value is not None:
+        return as_type(body, value, member.type, f"`{member.name}`")
+    data = member.initial or initial_of(member.type)
+    default = decode(member.type, data)
+    if default is not None:
+        return default
+    place = body.temporary(member.type, span)
+    return Sequence((SetBytes(place, data, span),), Load(place))
+
+
+def in_out(body: Body, member: Member, value: tree.Expression | None, span: Span, before: list[Stmt]) -> Place:
+    """What an in-out is bound to: a variable, or for a constant one a value that `before` puts somewhere."""
+    if value is None:
+        what = "input" if member.constant and isinstance(member.type, OpenArray) else "in-out"
+        raise body.report.reject("T005", f"The {what} `{member.name}` must be connected at every call.", span)
+    if member.constant:
+        return _constant_in_out(body, member, value, before)
+    if not isinstance(value, VARIABLES):
+        raise body.report.reject("T005", f"`{member.name}` is an in-out and needs a variable.", value.span)
+    return _bindable(body, member, targets.target(body, value), value)
+
+
+def _constant_in_out(body: Body, member: Member, value: tree.Expression, before: list[Stmt]) -> Place:
+    if isinstance(value, VARIABLES) and is_variable(body, value):
+        place, _ = body.place(value)
+        if place.type == member.type or not isinstance(member.type, Elementary | StringType):
+            return _bindable(body, member, place, value)
+    if isinstance(member.type, OpenArray):
+        raise body.report.reject("T005", f"`{member.name}` is ARRAY[*] and needs a variable.", value.span)
+    expr = as_type(body, value, member.type, f"`{member.name}`")
+    place = body.temporary(member.type, value.span)
+    before.append(Assign(place, expr, value.span))
+    return place
+
+
+def _bindable(body: Body, member: Member, place: Place, value: tree.Expression) -> Place:
+    formal, actual = member.type, place.type
+    if actual == formal:
+        return place
+    if isinstance(formal, Record) and isinstance(actual, Record) and is_derived(actual, formal):
+        return replace(place, type=formal)
+    if isinstance(formal, OpenArray) and isinstance(actual, ArrayType | OpenArray):
+        count = actual.dimensions if isinstance(actual, OpenArray) else len(actual.bounds)
+        if count == formal.dimensions and actual.element == formal.element:
+            return place
+    raise body.report.reject(
+        "T005", f"The in-out `{member.name}` is {formal}; {actual} cannot be bound to it.", value.span
+    )
+
+
+def open_bound(member: Member, places: dict[str, Place]) -> Expr:
+    """One bound of what an ARRAY[*] is bound to: for the hidden member `name$low1` and its like."""
+    name, which = member.name.upper().rsplit("$", 1)
+    low, number = which.startswith("LOW"), int(which.lstrip("LOWHIG"))
+    return array_bounds(places[name])[number - 1][0 if low else 1]
+
+
 def together(statements: list[Stmt], span: Span) -> Stmt:
     """Several statements as one."""
     if len(statements) == 1:
         return statements[0]
     return If(((Const(BOOL, 1), tuple(statements)),), (), span)
-
-
-class ArgumentChecker(StandardCallChecker):
-    """Binds arguments to formals, by position or by name."""
-
-    def given(self, node: tree.Call, formals: list[Member], owner: Record, callee: str) -> dict[str, tree.Argument]:
-        """Arguments by upper-case formal name; positional ones go to inputs and in-outs in order. `owner` has the formals."""
-        formals = [each for each in formals if not each.hidden]
-        given: dict[str, tree.Argument] = {}
-        named = False
-        positions = [member for member in formals if member.section in (Section.INPUT, Section.IN_OUT)]
-        for index, argument in enumerate(node.arguments):
-            if argument.name is None:
-                if named:
-                    raise self.report.reject("T004", "Arguments by position come before those by name.", argument.span)
-                if index >= len(positions):
-                    if owner.open or any(name == owner.name.upper() for name, _ in self.declarations.broken):
-                        raise Rejected
-                    raise self.report.reject(
-                        "T004", f"`{callee}` takes {_count(len(positions))}, not {len(node.arguments)}.", argument.span
-                    )
-                given[positions[index].name.upper()] = argument
-                continue
-            named = True
-            member = self._formal(argument, argument.name, formals, owner, callee)
-            if member.name.upper() in given:
-                raise self.report.reject("T004", f"`{argument.name}` is given twice.", argument.span)
-            given[member.name.upper()] = argument
-        return given
-
-    def _formal(self, argument: tree.Argument, name: str, formals: list[Member], owner: Record, callee: str) -> Member:
-        member = next((each for each in formals if each.name.upper() == name.upper()), None)
-        if member is None and (owner.open or self.is_broken(owner, name)):
-            raise Rejected
-        if member is None:
-            hint = did_you_mean(name, [each.name for each in formals])
-            raise self.report.reject("T004", f"`{callee}` has no argument `{name}`.{hint}", argument.span)
-        if argument.output != (member.section is Section.OUTPUT):
-            arrow = "=>" if member.section is Section.OUTPUT else ":="
-            raise self.report.reject(
-                "T004", f"`{member.name}` is {member.section.value}: write `{member.name} {arrow} ...`.", argument.span
-            )
-        return member
-
-    # ---- functions and methods --------------------------------------------------------------------------
-
-    def invoke(self, node: tree.Call, callee: Pou, name: str, this: Place | None, eno: Place | None) -> Invocation:
-        """The call of a FUNCTION or method. `eno` receives its ENO, where it has one."""
-        members = [callee.frame.members[key] for key in callee.parameters]
-        given = self.given(node, members, callee.frame, name)
-        bound = Bindings()
-        for member in members:
-            if not member.hidden:
-                self._bind(member, given.get(member.name.upper()), bound, node.span, name)
-        if eno is not None and "ENO" in callee.parameters:
-            bound.places["ENO"] = eno
-        if this is not None:
-            bound.places["THIS"] = this
-        for member in members:
-            if member.hidden and "$" in member.name and member.name.upper() not in bound.inputs:
-                bound.inputs[member.name.upper()] = self.open_bound(member, bound.places)
-        args = tuple(bound.inputs.get(key, bound.places.get(key)) for key in callee.parameters)
-        self.pous.use(self.pou, callee)
-        return Invocation(CallFunction(callee, callee.result, args), bound.before, bound.after)
-
-    def as_value(self, made: Invocation, span: Span) -> Expr:
-        """The call as an expression."""
-        if made.call.type is None and made.call.pou.frame.open:
-            raise Rejected  # the type of its result was refused
-        if made.call.type is None:
-            raise self.report.reject("T010", f"`{made.call.pou.name}` has no result; call it as a statement.", span)
-        if not made.before and not made.after:
-            return made.call
-        if not made.after:
-            return Sequence(tuple(made.before), made.call)
-        result = self.temporary(made.call.type, span)
-        return Sequence(tuple(made.statements(span, result)), Load(result))
-
-    def _bind(self, member: Member, argument: tree.Argument | None, bound: Bindings, span: Span, callee: str) -> None:
-        key = member.name.upper()
-        value = argument.value if argument else None
-        if member.section is Section.IN_OUT:
-            bound.places[key] = self.in_out(member, value, span, bound.before)
-        elif member.section is Section.INPUT:
-            needed = is_system(member.span) and not any(member.initial)  # what may be left out has a default
-            if value is None and needed:
-                raise self.report.reject("T004", f"`{callee}` needs a number: `{callee}({member.name} := 1)`.", span)
-            given = self._input(member, value, span)
-            if member.note is not None and isinstance(member.type, Subrange):
-                given, bound.inputs[member.note.name.upper()] = self.with_note(given, member.type, span)
-            bound.inputs[key] = given
-        elif key == STOP and in_library(member.span):
-            stop = bound.places[key] = self.temporary(BOOL, span)
-            trap = self.trap(TrapKind.FATAL, span, f"{callee} stops the PLC")
-            bound.after.append(If(((Load(stop), (Halt(trap, span),)),), (), span))
-        elif argument is not None and value is not None:
-            target, variable = self.declared_target(value)
-            if not argument.negated and _takes(target.type, member.type):
-                bound.places[key] = target
-                return
-            taken = self.temporary(member.type, value.span)
-            bound.places[key] = taken
-            whole = _generic(member, Load(taken), target.type)
-            stored = self.keeping(
-                self._output(whole, target.type, argument), self.noting(target, variable), argument.span
-            )
-            bound.after.append(Assign(target, stored, argument.span))
-
-    def _output(self, value: Expr, target: Type, argument: tree.Argument) -> Expr:
-        """What is stored for `name => target` or `NOT name => target`."""
-        if argument.negated:
-            if not isinstance(value.type, Elementary) or value.type != BOOL:
-                raise self.report.reject("T002", f"Only a BOOL can be negated, not {value.type}.", argument.span)
-            value = fold.unary("not", BOOL, value)
-        assert argument.value is not None
-        return self.coerce(value, target, argument.span, f"`{shown(argument.value)}`")
-
-    def _input(self, member: Member, value: tree.Expression | None, span: Span) -> Expr:
-        if value is not None:
-            return self.as_type(value, member.type, f"`{member.name}`")
-        data = member.initial or initial_of(member.type)
-        default = decode(member.type, data)
-        if default is not None:
-            return default
-        place = self.temporary(member.type, span)
-        return Sequence((SetBytes(place, data, span),), Load(place))
-
-    # ---- in-outs ----------------------------------------------------------------------------------------
-
-    def in_out(self, member: Member, value: tree.Expression | None, span: Span, before: list[Stmt]) -> Place:
-        """What an in-out is bound to: a variable, or for a constant one a value that `before` puts somewhere."""
-        if value is None:
-            what = "input" if member.constant and isinstance(member.type, OpenArray) else "in-out"
-            raise self.report.reject("T005", f"The {what} `{member.name}` must be connected at every call.", span)
-        if member.constant:
-            return self._constant_in_out(member, value, before)
-        if not isinstance(value, VARIABLES):
-            raise self.report.reject("T005", f"`{member.name}` is an in-out and needs a variable.", value.span)
-        return self._bindable(member, self.target(value), value)
-
-    def _constant_in_out(self, member: Member, value: tree.Expression, before: list[Stmt]) -> Place:
-        if isinstance(value, VARIABLES) and self.is_variable(value):
-            place, _ = self.place(value)
-            if place.type == member.type or not isinstance(member.type, Elementary | StringType):
-                return self._bindable(member, place, value)
-        if isinstance(member.type, OpenArray):
-            raise self.report.reject("T005", f"`{member.name}` is ARRAY[*] and needs a variable.", value.span)
-        expr = self.as_type(value, member.type, f"`{member.name}`")
-        place = self.temporary(member.type, value.span)
-        before.append(Assign(place, expr, value.span))
-        return place
-
-    def is_variable(self, node: tree.Expression) -> bool:
-        """Whether this names something that has a place."""
-        return True
-
-    def _bindable(self, member: Member, place: Place, value: tree.Expression) -> Place:
-        formal, actual = member.type, place.type
-        if actual == formal:
-            return place
-        if isinstance(formal, Record) and isinstance(actual, Record) and is_derived(actual, formal):
-            return replace(place, type=formal)
-        if isinstance(formal, OpenArray) and isinstance(actual, ArrayType | OpenArray):
-            count = actual.dimensions if isinstance(actual, OpenArray) else len(actual.bounds)
-            if count == formal.dimensions and actual.element == formal.element:
-                return place
-        raise self.report.reject(
-            "T005", f"The in-out `{member.name}` is {formal}; {actual} cannot be bound to it.", value.span
-        )
-
-    def open_bound(self, member: Member, places: dict[str, Place]) -> Expr:
-        """One bound of what an ARRAY[*] is bound to: for the hidden member `name$low1` and its like."""
-        name, which = member.name.upper().rsplit("$", 1)
-        low, number = which.startswith("LOW"), int(which.lstrip("LOWHIG"))
-        return self.array_bounds(places[name])[number - 1][0 if low else 1]
 
 
 def _generic(output: Member, value: Expr, target: Type) -> Expr:

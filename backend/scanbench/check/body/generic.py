@@ -1,11 +1,12 @@
 """FUNCTIONs with variables of ANY_NUM and its like: one POU for each combination of types that they are called with."""
 
-from dataclasses import dataclass, replace
+from dataclasses import replace
 
-from scanbench.check.body.interfaces import InterfaceChecker
+from scanbench.check.body.context import Body
 from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import called_pou
 from scanbench.check.declare.names import Space, qualified
+from scanbench.check.declare.scopes import Instance
 from scanbench.problems import Span
 from scanbench.program.program import Expr, Pou
 from scanbench.program.types import Elementary, Kind, Record, StringType, Subrange, base_of
@@ -34,12 +35,89 @@ KINDS: dict[str, tuple[Kind, ...]] = {
 TAKEN = ("VAR_INPUT", "VAR_IN_OUT")
 
 
-@dataclass(frozen=True, slots=True)
-class Instance:
-    """A generic FUNCTION for certain types; its body is checked when all others are."""
+def instantiated(body: Body, declaration: tree.PouDeclaration, node: tree.Call) -> Pou:
+    """The POU for the types of these arguments; those of one generic type have a common type."""
+    types: dict[str, Elementary | StringType] = {}
+    arguments = [
+        (_generic_name(variable.type), variable.name, value, _tried(body, value))
+        for variable, value in _generic_arguments(body, declaration, node)
+    ]
+    for generic, name, value, expr in sorted(arguments, key=lambda each: is_untyped(each[3])):
+        if not is_untyped(expr) or generic not in types:  # a literal takes the type of the others
+            _take(body, types, generic, name, value, expr)
+    for missing in _generics(declaration):
+        if missing not in types:
+            raise body.report.reject(
+                "T004", f"`{declaration.name}` needs an argument to find out what {missing} is.", node.span
+            )
+    suffix = ".".join(str(types[name]) for name in sorted(types))
+    key = f"{qualified(declaration.namespace, declaration.name)}<{suffix}>"
+    known = body.pous.instances.get(key)
+    made = known or _make(body, key, declaration, types)
+    body.pous.instances[key] = made
+    return made.pou
 
-    pou: Pou
-    declaration: tree.PouDeclaration
+
+def _generic_arguments(
+    body: Body, declaration: tree.PouDeclaration, node: tree.Call
+) -> list[tuple[tree.Variable, tree.Expression]]:
+    formals = [each for section in declaration.sections if section.keyword in TAKEN for each in section.variables]
+    by_name = {each.name.upper(): each for each in formals}
+    found = []
+    for position, argument in enumerate(node.arguments):
+        if argument.name is not None:
+            formal = by_name.get(argument.name.upper())
+        else:
+            formal = formals[position] if position < len(formals) else None
+        if formal is not None and argument.value is not None and _generic_name(formal.type):
+            found.append((formal, argument.value))
+    return found
+
+
+def _take(
+    body: Body, types: dict[str, Elementary | StringType], generic: str, name: str, value: tree.Expression, expr: Expr
+) -> None:
+    type = settle(expr).type
+    if isinstance(type, Subrange):
+        type = base_of(type)
+    if not isinstance(type, Elementary | StringType) or type.kind not in KINDS[generic]:
+        raise body.report.reject("T002", f"`{name}` is {generic}; this is {type}.", value.span)
+    known = types.get(generic, type)
+    if isinstance(known, StringType) and isinstance(type, StringType) and known.width == type.width:
+        types[generic] = StringType(max(known.capacity, type.capacity), type.width)
+        return
+    both = common(known, type) if isinstance(known, Elementary) and isinstance(type, Elementary) else None
+    if both is None or both.kind not in KINDS[generic]:
+        raise body.report.reject("T002", f"{known} and {type} have no common type of {generic}.", value.span)
+    types[generic] = both
+
+
+def _tried(body: Body, value: tree.Expression) -> Expr:
+    """The argument, only to see its type: it is checked once more when it is bound."""
+    mark = body.report.mark()
+    expr = body.expression(value)
+    body.report.undo(mark)
+    return expr
+
+
+def _make(
+    body: Body, key: str, declaration: tree.PouDeclaration, types: dict[str, Elementary | StringType]
+) -> Instance:
+    sections = tuple(
+        replace(section, variables=tuple(replace(each, type=_settled(each.type, types)) for each in section.variables))
+        for section in declaration.sections
+    )
+    result = None if declaration.result is None else _settled(declaration.result, types)
+    made = replace(declaration, sections=sections, result=result)
+    with body.declarations.names.within(Space(declaration.namespace, declaration.using)):
+        owners, body.declarations.owners = body.declarations.owners, []
+        try:
+            frame = body.declarations.frame(made, Record(key, Kind.BLOCK))
+        finally:
+            body.declarations.owners = owners
+    if _generic_name(declaration.result) and result is declaration.result:
+        raise Rejected
+    return Instance(called_pou(key, made, frame), made)
 
 
 def is_generic(declaration: tree.PouDeclaration) -> bool:
@@ -55,88 +133,6 @@ def _generics(declaration: tree.PouDeclaration) -> list[str]:
 def _generic_name(spec: tree.TypeSpec | None) -> str:
     name = spec.name.upper() if isinstance(spec, tree.NamedType) else ""
     return name if name in KINDS else ""
-
-
-class GenericChecker(InterfaceChecker):
-    def instantiated(self, declaration: tree.PouDeclaration, node: tree.Call) -> Pou:
-        """The POU for the types of these arguments; those of one generic type have a common type."""
-        types: dict[str, Elementary | StringType] = {}
-        arguments = [
-            (_generic_name(variable.type), variable.name, value, self._tried(value))
-            for variable, value in self._generic_arguments(declaration, node)
-        ]
-        for generic, name, value, expr in sorted(arguments, key=lambda each: is_untyped(each[3])):
-            if not is_untyped(expr) or generic not in types:  # a literal takes the type of the others
-                self._take(types, generic, name, value, expr)
-        for missing in _generics(declaration):
-            if missing not in types:
-                raise self.report.reject(
-                    "T004", f"`{declaration.name}` needs an argument to find out what {missing} is.", node.span
-                )
-        suffix = ".".join(str(types[name]) for name in sorted(types))
-        key = f"{qualified(declaration.namespace, declaration.name)}<{suffix}>"
-        known = self.pous.instances.get(key)
-        made = known or self._make(key, declaration, types)
-        self.pous.instances[key] = made
-        return made.pou
-
-    def _generic_arguments(
-        self, declaration: tree.PouDeclaration, node: tree.Call
-    ) -> list[tuple[tree.Variable, tree.Expression]]:
-        formals = [each for section in declaration.sections if section.keyword in TAKEN for each in section.variables]
-        by_name = {each.name.upper(): each for each in formals}
-        found = []
-        for position, argument in enumerate(node.arguments):
-            if argument.name is not None:
-                formal = by_name.get(argument.name.upper())
-            else:
-                formal = formals[position] if position < len(formals) else None
-            if formal is not None and argument.value is not None and _generic_name(formal.type):
-                found.append((formal, argument.value))
-        return found
-
-    def _take(
-        self, types: dict[str, Elementary | StringType], generic: str, name: str, value: tree.Expression, expr: Expr
-    ) -> None:
-        type = settle(expr).type
-        if isinstance(type, Subrange):
-            type = base_of(type)
-        if not isinstance(type, Elementary | StringType) or type.kind not in KINDS[generic]:
-            raise self.report.reject("T002", f"`{name}` is {generic}; this is {type}.", value.span)
-        known = types.get(generic, type)
-        if isinstance(known, StringType) and isinstance(type, StringType) and known.width == type.width:
-            types[generic] = StringType(max(known.capacity, type.capacity), type.width)
-            return
-        both = common(known, type) if isinstance(known, Elementary) and isinstance(type, Elementary) else None
-        if both is None or both.kind not in KINDS[generic]:
-            raise self.report.reject("T002", f"{known} and {type} have no common type of {generic}.", value.span)
-        types[generic] = both
-
-    def _tried(self, value: tree.Expression) -> Expr:
-        """The argument, only to see its type: it is checked once more when it is bound."""
-        mark = self.report.mark()
-        expr = self.expr(value)
-        self.report.undo(mark)
-        return expr
-
-    def _make(self, key: str, declaration: tree.PouDeclaration, types: dict[str, Elementary | StringType]) -> Instance:
-        sections = tuple(
-            replace(
-                section, variables=tuple(replace(each, type=_settled(each.type, types)) for each in section.variables)
-            )
-            for section in declaration.sections
-        )
-        result = None if declaration.result is None else _settled(declaration.result, types)
-        made = replace(declaration, sections=sections, result=result)
-        with self.declarations.names.within(Space(declaration.namespace, declaration.using)):
-            owners, self.declarations.owners = self.declarations.owners, []
-            try:
-                frame = self.declarations.frame(made, Record(key, Kind.BLOCK))
-            finally:
-                self.declarations.owners = owners
-        if _generic_name(declaration.result) and result is declaration.result:
-            raise Rejected
-        return Instance(called_pou(key, made, frame), made)
 
 
 def _settled(spec: tree.TypeSpec, types: dict[str, Elementary | StringType]) -> tree.TypeSpec:

@@ -5,10 +5,12 @@ one a type and depth of parentheses, that the instruction before has set. Each i
 """
 
 from dataclasses import dataclass
-from typing import TYPE_CHECKING
 
-from scanbench.check.body import conversions
-from scanbench.check.body.expressions import FORMS
+from scanbench.check.body import conversions, statements
+from scanbench.check.body.callees import called
+from scanbench.check.body.coercion import as_type
+from scanbench.check.body.context import Body
+from scanbench.check.body.forms import FORMS
 from scanbench.check.body.il_flow import BROKEN, NOTHING, Current, Flow, Label
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.standard.functions import FUNCTIONS
@@ -19,6 +21,7 @@ from scanbench.program.types import (
     ArrayType,
     Elementary,
     Kind,
+    Member,
     OpenArray,
     Record,
     Section,
@@ -28,9 +31,6 @@ from scanbench.program.types import (
 )
 from scanbench.program.untyped import ANY_INT, is_untyped, settle
 from scanbench.syntax import tree
-
-if TYPE_CHECKING:
-    from scanbench.check.body.statements import StatementChecker
 
 BINARY = {
     "AND": "and", "&": "and", "OR": "or", "XOR": "xor", "ADD": "add", "SUB": "sub", "MUL": "mul", "DIV": "div",
@@ -54,11 +54,11 @@ class _Open:
 class InstructionList:
     """One body of IL."""
 
-    def __init__(self, checker: "StatementChecker", body: tree.IlBody) -> None:
-        self._checker = checker
-        self._report = checker.report
+    def __init__(self, body: Body, written: tree.IlBody) -> None:
         self._body = body
-        self._flow = Flow(body)
+        self._report = body.report
+        self._written = written
+        self._flow = Flow(written)
         self._blocks: list[list[Stmt]] = []
         self._open: list[_Open] = []
         self._current: Current = NOTHING
@@ -70,21 +70,23 @@ class InstructionList:
     def statements(self) -> tuple[Stmt, ...]:
         """The statements of the body; with labels, one `Blocks`."""
         self._labels_once()
+        pou, pous = self._body.pou, self._body.pous
+        uses = {} if pou is None else pous.uses.setdefault(pou, {})
         while True:
-            mark, calls = self._report.mark(), dict(self._checker.calls())
+            mark, before = self._report.mark(), dict(uses)
             self._round()
             if not self._flow.revised():
                 break
             self._report.undo(mark)
-            self._checker.calls().clear()
-            self._checker.calls().update(calls)
+            uses.clear()
+            uses.update(before)
         if len(self._blocks) == 1:
             return tuple(self._blocks[0])
-        return (Blocks(tuple(tuple(block) for block in self._blocks), self._body.span),)
+        return (Blocks(tuple(tuple(block) for block in self._blocks), self._written.span),)
 
     def _labels_once(self) -> None:
         first: dict[str, Span] = {}
-        for node in self._body.instructions:
+        for node in self._written.instructions:
             if node.label is None:
                 continue
             known = first.setdefault(node.label.upper(), node.span)
@@ -96,7 +98,7 @@ class InstructionList:
     def _find_wanted(self) -> None:
         """What the first instruction at each label works on tells which type a literal takes that a jump brings there."""
         fresh: list[Label] = []
-        for node in self._body.instructions:
+        for node in self._written.instructions:
             if node.label is not None:
                 fresh.append(self._flow.labels[node.label.upper()])
             if not node.operator:
@@ -119,19 +121,19 @@ class InstructionList:
             return
         span, mark = current.node.span, self._report.mark()
         try:
-            value = self._checker.as_type(current.node, label.wanted, "The current result")
+            value = as_type(self._body, current.node, label.wanted, "The current result")
         except Rejected:
             self._report.undo(mark)
             return
         register = self._register(label.wanted, span)
-        self._emit(Assign(self._checker.place(register)[0], value, span))
+        self._emit(Assign(self._body.place(register)[0], value, span))
         self._current = Current(register, label.wanted)
 
     def _round(self) -> None:
         self._flow.start()
         self._blocks, self._open, self._current, self._dead = [[]], [], NOTHING, False
         following = self._following()
-        for node, after in zip(self._body.instructions, following, strict=True):
+        for node, after in zip(self._written.instructions, following, strict=True):
             if node.label is not None:
                 self._label(node.label, node.span)
             if not node.operator:
@@ -152,7 +154,7 @@ class InstructionList:
         """The instruction after each one."""
         found: list[tree.IlInstruction | None] = []
         after = None
-        for node in reversed(self._body.instructions):
+        for node in reversed(self._written.instructions):
             found.append(after)
             after = node if node.operator else after
         return found[::-1]
@@ -196,13 +198,13 @@ class InstructionList:
 
     def _set(self, node: tree.Expression, span: Span, wanted: Type | None = None) -> None:
         """Makes a value the current result."""
-        value = self._checker.expr(node, wanted)
+        value = self._body.expression(node, wanted)
         settled = settle(value)
         if settled.type is None or has_instance(settled.type):
             what = "nothing" if settled.type is None else f"an instance of {settled.type}"
             raise self._report.reject("T002", f"This is {what}; a value is needed here.", span)
         name = self._register(settled.type, span)
-        place, _ = self._checker.place(name)
+        place, _ = self._body.place(name)
         self._emit(Assign(place, settled, span))
         literal = _literal(node, value)
         self._current = Current(name if literal is None else literal, settled.type)
@@ -210,14 +212,14 @@ class InstructionList:
     def _register(self, type: Type, span: Span) -> tree.Name:
         """The hidden temporary for a current result of this type."""
         depth = len(self._open)
-        return tree.Name(self._checker.hidden(f"$cr{depth}.{type}", type, span).name, span)
+        return tree.Name(_hidden(self._body, f"$cr{depth}.{type}", type, span).name, span)
 
     def _emit(self, statement: Stmt | None) -> None:
         if statement is not None and self._flow.falls:
             self._blocks[-1].append(statement)
 
     def _run(self, statement: tree.Statement) -> None:
-        self._emit(self._checker.statement(statement))
+        self._emit(statements.statement(self._body, statement))
 
     # ---- instructions -----------------------------------------------------------------------------------
 
@@ -305,7 +307,7 @@ class InstructionList:
             raise self._report.reject("T010", "JMP stands inside parentheses; close them with `)` first.", node.span)
         target = labels[operand.name.upper()].block
         back = target < len(self._blocks)
-        trap = self._checker.trap(TrapKind.LOOP, node.span, "the jump back never ends") if back else 0
+        trap = self._body.trap(TrapKind.LOOP, node.span, "the jump back never ends") if back else 0
         self._literal_for(operand.name)
         self._flow.jump(operand.name, self._current)
         self._conditionally(node, Jump(target, back, trap, node.span))
@@ -318,7 +320,7 @@ class InstructionList:
             self._emit(statement)
             return
         result = self._result(node)
-        condition = self._checker.expr(result)
+        condition = self._body.expression(result)
         if isinstance(condition, Const) and condition.type == ANY_INT and condition.value in (0, 1):
             condition = Const(BOOL, condition.value)
         if condition.type != BOOL:
@@ -326,11 +328,11 @@ class InstructionList:
                 "T006", f"{_shown(node)} asks for a current result of BOOL, not {settle(condition).type}.", node.span
             )
         if node.negated:
-            condition = self._checker.expr(_negated(result))
+            condition = self._body.expression(_negated(result))
         self._emit(If(((condition, (statement,)),), (), node.span))
 
     def _call_block(self, node: tree.IlInstruction, call: tree.ExpressionStatement) -> None:
-        statement = self._checker.statement(call)
+        statement = statements.statement(self._body, call)
         self._conditionally(node, statement)
 
     def _feeds(self, node: tree.IlInstruction) -> bool:
@@ -356,7 +358,7 @@ class InstructionList:
         """The type of a variable, without a word where there is none: nothing is checked yet."""
         match node:
             case tree.Name(name):
-                found = self._checker.scope.find(name)
+                found = self._body.scope.find(name)
                 return found[0].type if found else None
             case tree.MemberOf(owner, name):
                 record = self._type(owner)
@@ -411,21 +413,33 @@ class InstructionList:
 
     def _called(self, node: tree.IlInstruction) -> Pou | None:
         """The FUNCTION or method that is called; what is neither that, an operator nor a standard function is refused."""
-        name, checker = node.operator, self._checker
+        name, functions = node.operator, self._body.pous.functions
         mark = self._report.mark()
-        pou = checker.called(_callee(node))
+        pou = called(self._body, _callee(node))
         self._report.undo(mark)
         if pou is None and not (
             name in FUNCTIONS or name in FORMS or "_" in name or "." in name or conversions.parse_name(name)
         ):
-            hint = did_you_mean(
-                name, [*MNEMONICS, *(each.name for each in checker.pous.functions.values()), *FUNCTIONS]
-            )
+            hint = did_you_mean(name, [*MNEMONICS, *(each.name for each in functions.values()), *FUNCTIONS])
             raise self._report.reject("T001", f"There is no operator or function `{name}`.{hint}", node.span)
         return pou
 
     def _is_function(self, name: str) -> bool:
-        return name in self._checker.pous.functions or name in FUNCTIONS
+        return name in self._body.pous.functions or name in FUNCTIONS
+
+
+def _hidden(body: Body, name: str, type: Type, span: Span) -> Member:
+    """The temporary of this name and type in the frame of the POU, made where there is none yet."""
+    frame = body.scope.frame
+    assert frame is not None
+    while (known := frame.members.get(name.upper())) is not None:
+        if known.type == type:
+            return known
+        name += "'"  # another type that is called the same
+    member = Member(name, type, Section.TEMP, span, hidden=True)
+    frame.place(member)
+    frame.close()
+    return member
 
 
 def _literal(node: tree.Expression, value: object) -> tree.Expression | None:

@@ -2,13 +2,150 @@
 
 from dataclasses import replace
 
-from scanbench.check.body.arguments import ArgumentChecker
+from scanbench.check.body.context import Body, Found
+from scanbench.check.body.variables import declared, is_broken, no_member, undeclared
 from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import Class
 from scanbench.problems import Span
 from scanbench.program.program import Base, Place, TrapKind, TrapSite
 from scanbench.program.types import Member, Record, Section
 from scanbench.syntax import tree
+
+
+def own_class(body: Body) -> Class | None:
+    """The class whose body or method this is."""
+    return body.pous.classes.of(body.scope.instance)
+
+
+def this(body: Body, name: str, span: Span) -> Place:
+    """The instance that runs: THIS, or as its base SUPER."""
+    owner = own_class(body)
+    if owner is None or owner.record is None:
+        raise body.report.reject("T010", f"{name} is the instance that runs; a FUNCTION has none.", span)
+    record = owner.record
+    if name.upper() == "SUPER":
+        if record.open and owner.base is None:
+            raise Rejected
+        if owner.base is None or owner.base.record is None:
+            raise body.report.reject("T010", f"`{owner.name}` extends nothing, so it has no SUPER.", span)
+        record = owner.base.record
+    return own(body, Place(record, Base.SELF, 0))
+
+
+def own(body: Body, place: Place) -> Place:
+    """A place of the instance, as the body sees it: behind the slot of THIS in a method."""
+    slot = body.scope.this
+    if slot is None:
+        return place
+    if place.slot is not None:
+        return replace(place, slot=own(body, place.slot))
+    if place.base is not Base.SELF:
+        return place
+    return replace(place, base=Base.FRAME, slot=slot, null_trap=body.lookup.this_trap(body), variable="")
+
+
+def this_trap(body: Body) -> int:
+    """The site of the trap where THIS refers to nothing: one in a method."""
+    pou = body.pou
+    assert pou is not None
+    site = TrapSite(TrapKind.NULL, pou.span, body.scope.pou, "THIS refers to no instance")
+    known = body.pous.this_traps.get(pou.name, 0)
+    if not known or body.report.traps[known - 1 : known] != [site]:  # new, or undone meanwhile
+        known = body.trap(site.kind, site.span, site.message)
+        body.pous.this_traps[pou.name] = known
+    return known
+
+
+def qualified_place(body: Body, node: tree.MemberOf) -> Found | None:
+    """A variable behind THIS, SUPER, or the name of a namespace or of a list of globals, if it is one."""
+    for word in ("THIS", "SUPER"):
+        if named_itself(node.owner, word):
+            return _own_member(body, node, word)
+    full = _qualified_variable(body, node)
+    return None if full is None else declared(body, full, node.span)
+
+
+def _qualified_variable(body: Body, node: tree.MemberOf) -> str | None:
+    """`Namespace.x` or `List.x`: the name that the global variable is kept under."""
+    path = dotted(node)
+    if path is None or body.scope.find(path.split(".")[0]) is not None:
+        return None
+    alias = body.pous.aliases.get(path.upper())
+    if alias is not None:
+        return alias
+    return path if body.scope.find(path) is not None else None
+
+
+def _own_member(body: Body, node: tree.MemberOf, word: str) -> Found | None:
+    """`THIS.x`; None where x is something else of the instance."""
+    place = body.lookup.this(body, word, node.owner.span)
+    record = place.type
+    assert isinstance(record, Record)
+    member = record.members.get(node.name.upper())
+    if member is None or member.hidden:
+        raise no_member(body, record, node)
+    scope, body.scope = body.scope, replace(body.scope, frame=None, instance=record, externals={})
+    try:
+        return body.lookup.variable(body, node.name, node.span)
+    finally:
+        body.scope = scope
+
+
+def variable(body: Body, name: str, span: Span) -> Found:
+    """The variable of this name, as the body of the POU sees it."""
+    place, member = declared(body, name, span)
+    if body.pous.ambiguous and member is not None and body.scope.globals.members.get(name.upper()) is member:
+        choices = body.pous.ambiguous.get(name.upper())
+        if choices:
+            raise body.report.reject("T001", f"`{name}` may be {' or '.join(choices)}; write which.", span)
+    if member is not None and member.access == "PRIVATE":
+        _not_of_base(body, member, span)
+    return (place if body.scope.this is None else own(body, place)), member
+
+
+def _not_of_base(body: Body, member: Member, span: Span) -> None:
+    """Refuses a PRIVATE variable that this class has from its base."""
+    instance, owner = body.scope.instance, own_class(body)
+    if instance is None or owner is None or instance.members.get(member.name.upper()) is not member:
+        return
+    if member.home not in ("", owner.name):
+        raise body.report.reject("T014", f"`{member.name}` is PRIVATE of `{member.home}`.", span)
+
+
+def unknown(body: Body, name: str, span: Span) -> Rejected:
+    """Reports a name that means nothing in this POU or instance."""
+    instance = body.scope.instance
+    result = (body.scope.pou.upper(), name.upper())
+    if result in body.declarations.broken:
+        return Rejected()
+    if instance is not None and (instance.open or is_broken(body, instance, name)):
+        return Rejected()
+    owner = own_class(body)
+    if owner is not None and owner.find(name.upper()) is not None:
+        return body.report.reject("T010", f"`{name}` is a method; call it with `{name}(...)`.", span)
+    return undeclared(body, name, span)
+
+
+def may_use(body: Body, record: Record, member: Member) -> bool:
+    """Whether this POU may use the member of a block, which is not an input or output."""
+    if member.hidden or member.section is not Section.VAR:
+        return False
+    if member.access in ("PUBLIC", "INTERNAL"):
+        return is_open(body, member.access, None, body.pous.classes.of(record))
+    # an instance may look into another of its own class, as in `equals(other)`
+    home = body.pous.classes.by_key.get((member.home or record.name).upper())
+    return is_open(body, member.access, own_class(body), home)
+
+
+def is_open(body: Body, access: str, user: Class | None, home: Class | None) -> bool:
+    """Whether something of the class `home` with this access can be used here, by the class `user`."""
+    if access == "PUBLIC" or home is None:
+        return True
+    if access == "INTERNAL":
+        return home.declaration.namespace.upper() in ("", *body.scope.space.around())
+    if user is None:
+        return False
+    return user is home or (access == "PROTECTED" and home in user.ancestors())
 
 
 def named_itself(node: tree.Expression, word: str) -> bool:
@@ -25,123 +162,3 @@ def dotted(node: tree.Expression) -> str | None:
         parts.append(node.name)
         node = node.owner
     return ".".join([node.name, *reversed(parts)]) if isinstance(node, tree.Name) else None
-
-
-class ObjectChecker(ArgumentChecker):
-    def own_class(self) -> Class | None:
-        """The class whose body or method this is."""
-        return self.pous.classes.of(self.scope.instance)
-
-    def self_place(self, name: str, span: Span) -> Place:
-        """The instance that runs: THIS, or as its base SUPER."""
-        owner = self.own_class()
-        if owner is None or owner.record is None:
-            raise self.report.reject("T010", f"{name} is the instance that runs; a FUNCTION has none.", span)
-        record = owner.record
-        if name.upper() == "SUPER":
-            if record.open and owner.base is None:
-                raise Rejected
-            if owner.base is None or owner.base.record is None:
-                raise self.report.reject("T010", f"`{owner.name}` extends nothing, so it has no SUPER.", span)
-            record = owner.base.record
-        return self.own(Place(record, Base.SELF, 0))
-
-    def own(self, place: Place) -> Place:
-        """A place of the instance, as the body sees it: behind the slot of THIS in a method."""
-        this = self.scope.this
-        if this is None:
-            return place
-        if place.slot is not None:
-            return replace(place, slot=self.own(place.slot))
-        if place.base is not Base.SELF:
-            return place
-        return replace(place, base=Base.FRAME, slot=this, null_trap=self._this_trap(), variable="")
-
-    def _this_trap(self) -> int:
-        pou = self.pou
-        assert pou is not None
-        site = TrapSite(TrapKind.NULL, pou.span, self.scope.pou, "THIS refers to no instance")
-        known = self.pous.this_traps.get(pou.name, 0)
-        if not known or self.report.traps[known - 1 : known] != [site]:  # new, or undone meanwhile
-            known = self.trap(site.kind, site.span, site.message)
-            self.pous.this_traps[pou.name] = known
-        return known
-
-    def qualified_place(self, node: tree.MemberOf) -> tuple[Place, Member | None] | None:
-        for word in ("THIS", "SUPER"):
-            if named_itself(node.owner, word):
-                return self._own_member(node, word)
-        full = self._qualified_variable(node)
-        return None if full is None else super()._named(full, node.span)
-
-    def _qualified_variable(self, node: tree.MemberOf) -> str | None:
-        """`Namespace.x` or `List.x`: the name that the global variable is kept under."""
-        path = dotted(node)
-        if path is None or self.scope.find(path.split(".")[0]) is not None:
-            return None
-        alias = self.pous.aliases.get(path.upper())
-        if alias is not None:
-            return alias
-        return path if self.scope.find(path) is not None else None
-
-    def _own_member(self, node: tree.MemberOf, word: str) -> tuple[Place, Member | None] | None:
-        """`THIS.x`; None where x is something else of the instance."""
-        place = self.self_place(word, node.owner.span)
-        record = place.type
-        assert isinstance(record, Record)
-        member = record.members.get(node.name.upper())
-        if member is None or member.hidden:
-            raise self.no_member(record, node)
-        scope, self.scope = self.scope, replace(self.scope, frame=None, instance=record, externals={})
-        try:
-            return self._named(node.name, node.span)
-        finally:
-            self.scope = scope
-
-    def _named(self, name: str, span: Span) -> tuple[Place, Member | None]:
-        place, member = super()._named(name, span)
-        if self.pous.ambiguous and member is not None and self.scope.globals.members.get(name.upper()) is member:
-            choices = self.pous.ambiguous.get(name.upper())
-            if choices:
-                raise self.report.reject("T001", f"`{name}` may be {' or '.join(choices)}; write which.", span)
-        if member is not None and member.access == "PRIVATE":
-            self._not_of_base(member, span)
-        return (place if self.scope.this is None else self.own(place)), member
-
-    def _not_of_base(self, member: Member, span: Span) -> None:
-        """Refuses a PRIVATE variable that this class has from its base."""
-        instance, owner = self.scope.instance, self.own_class()
-        if instance is None or owner is None or instance.members.get(member.name.upper()) is not member:
-            return
-        if member.home not in ("", owner.name):
-            raise self.report.reject("T014", f"`{member.name}` is PRIVATE of `{member.home}`.", span)
-
-    def unknown(self, name: str, span: Span) -> Rejected:
-        instance = self.scope.instance
-        result = (self.scope.pou.upper(), name.upper())
-        if result in self.declarations.broken:
-            return Rejected()
-        if instance is not None and (instance.open or self.is_broken(instance, name)):
-            return Rejected()
-        owner = self.own_class()
-        if owner is not None and owner.find(name.upper()) is not None:
-            return self.report.reject("T010", f"`{name}` is a method; call it with `{name}(...)`.", span)
-        return super().unknown(name, span)
-
-    def may_use(self, record: Record, member: Member) -> bool:
-        if member.hidden or member.section is not Section.VAR:
-            return False
-        if member.access in ("PUBLIC", "INTERNAL"):
-            return self._open(member.access, None, self.pous.classes.of(record))
-        # an instance may look into another of its own class, as in `equals(other)`
-        home = self.pous.classes.by_key.get((member.home or record.name).upper())
-        return self._open(member.access, self.own_class(), home)
-
-    def _open(self, access: str, user: Class | None, home: Class | None) -> bool:
-        if access == "PUBLIC" or home is None:
-            return True
-        if access == "INTERNAL":
-            return home.declaration.namespace.upper() in ("", *self.scope.space.around())
-        if user is None:
-            return False
-        return user is home or (access == "PROTECTED" and home in user.ancestors())

@@ -1,7 +1,11 @@
 """Operators -> typed operations: both operands brought to one type, every conversion written out."""
 
 from scanbench.check.body import fold
-from scanbench.check.body.literals import LiteralChecker
+from scanbench.check.body.coercion import coerce, conversion_hint
+from scanbench.check.body.context import Body
+from scanbench.check.body.literals import as_text, in_64_bits, literal_as
+from scanbench.check.body.references import compare_references, pointer_arithmetic
+from scanbench.check.body.subrange_checks import plain
 from scanbench.problems import Span
 from scanbench.program.numbers import round_real
 from scanbench.program.program import (
@@ -27,7 +31,6 @@ from scanbench.program.types import (
     Elementary,
     Enumeration,
     Kind,
-    Record,
     Reference,
     StringType,
     Type,
@@ -38,187 +41,191 @@ from scanbench.program.untyped import ANY_INT, ANY_REAL, bounds, common, is_unty
 COMPARISONS = ("eq", "ne", "lt", "le", "gt", "ge")
 NUMERIC = (Kind.INT, Kind.UINT, Kind.REAL)
 MOMENTS = (Kind.TIME, Kind.DATE)
-SHORT = {"TIME_OF_DAY": "TOD", "LTIME_OF_DAY": "LTOD", "DATE_AND_TIME": "DT", "LDATE_AND_TIME": "LDT"}
-"""As the names of conversions have it."""
 DAY_NS = 86_400_000_000_000
 
 
-class OperatorChecker(LiteralChecker):
-    def operate(self, op: str, left: Expr, right: Expr, span: Span, wanted: Type | None = None) -> Expr:
-        """`left op right`, both brought to one type."""
-        left, right = self.plain(left, span), self.plain(right, span)
-        if op in ("and_then", "or_else"):
-            return self._short_circuit(op, left, right, span)
-        if op in COMPARISONS:
-            return self._compare(op, left, right, span)
-        if isinstance(left.type, Reference) or isinstance(right.type, Reference):
-            return self.pointer_arithmetic(op, left, right, span)
-        if _is_moment(left) or _is_moment(right):
-            return self._time(op, left, right, span)
-        if op == "pow":
-            return self._power(left, right, span, wanted)
-        left, right, type = self._same(op, _number(left), _number(right), span, wanted)
-        if op in ("and", "or", "xor"):
-            fits = type.kind in (Kind.BOOL, Kind.BITS) or type == ANY_INT
-            need = "BOOL or bit strings"
-        else:
-            fits = type.kind in NUMERIC and not (op == "mod" and type.kind is Kind.REAL)
-            need = "integers" if op == "mod" else "numbers"
-        if not fits:
-            raise self.report.reject("T002", f"`{OPERATORS[op]}` needs {need}, not {type}.{_unsigned(type)}", span)
-        return self._arithmetic(op, type, left, right, span)
+def operate(body: Body, op: str, left: Expr, right: Expr, span: Span, wanted: Type | None = None) -> Expr:
+    """`left op right`, both brought to one type."""
+    left, right = plain(body, left, span), plain(body, right, span)
+    if op in ("and_then", "or_else"):
+        return _short_circuit(body, op, left, right, span)
+    if op in COMPARISONS:
+        return _compare(body, op, left, right, span)
+    if isinstance(left.type, Reference) or isinstance(right.type, Reference):
+        return pointer_arithmetic(body, op, left, right, span)
+    if _is_moment(left) or _is_moment(right):
+        return _time(body, op, left, right, span)
+    if op == "pow":
+        return _power(body, left, right, span, wanted)
+    left, right, type = _same(body, op, _number(left), _number(right), span, wanted)
+    if op in ("and", "or", "xor"):
+        fits = type.kind in (Kind.BOOL, Kind.BITS) or type == ANY_INT
+        need = "BOOL or bit strings"
+    else:
+        fits = type.kind in NUMERIC and not (op == "mod" and type.kind is Kind.REAL)
+        need = "integers" if op == "mod" else "numbers"
+    if not fits:
+        raise body.report.reject("T002", f"`{OPERATORS[op]}` needs {need}, not {type}.{_unsigned(type)}", span)
+    return _arithmetic(body, op, type, left, right, span)
 
-    def _compare(self, op: str, left: Expr, right: Expr, span: Span) -> Expr:
-        left, right = self._characters(left, right, span), self._characters(right, left, span)
-        a, b = left.type, right.type
-        if isinstance(a, StringType) and isinstance(b, StringType):
-            if a.width != b.width:
-                raise self.report.reject(
-                    "T002",
-                    f"`{OPERATORS[op]}` cannot join STRING and WSTRING; convert one with STRING_TO_WSTRING.",
-                    span,
-                )
-            return fold.compare(op, BOOL, left, right)
-        if isinstance(a, Reference) or isinstance(b, Reference):
-            return self.compare_references(op, left, right, span)
-        if isinstance(a, Enumeration) and isinstance(b, Enumeration) and a != b:
-            raise self.report.reject(
-                "T002", f"`{OPERATORS[op]}` cannot join {a} and {b}: they are different enumerations.", span
+
+def _compare(body: Body, op: str, left: Expr, right: Expr, span: Span) -> Expr:
+    left, right = _characters(body, left, right, span), _characters(body, right, left, span)
+    a, b = left.type, right.type
+    if isinstance(a, StringType) and isinstance(b, StringType):
+        if a.width != b.width:
+            raise body.report.reject(
+                "T002",
+                f"`{OPERATORS[op]}` cannot join STRING and WSTRING; convert one with STRING_TO_WSTRING.",
+                span,
             )
-        left, right, _ = self._same(op, _number(left), _number(right), span)
         return fold.compare(op, BOOL, left, right)
+    if isinstance(a, Reference) or isinstance(b, Reference):
+        return compare_references(body, op, left, right, span)
+    if isinstance(a, Enumeration) and isinstance(b, Enumeration) and a != b:
+        raise body.report.reject(
+            "T002", f"`{OPERATORS[op]}` cannot join {a} and {b}: they are different enumerations.", span
+        )
+    left, right, _ = _same(body, op, _number(left), _number(right), span)
+    return fold.compare(op, BOOL, left, right)
 
-    def _characters(self, one: Expr, other: Expr, span: Span) -> Expr:
-        """A text beside a character: a literal of one character is that, and a character beside a string is a string."""
-        if other.type is None:
-            return one
-        constant = isinstance(one, Const)
-        if isinstance(other.type, StringType) and not constant and isinstance(other, Const) and _is_character(one):
-            return one  # the literal becomes a character instead
-        return self.as_text(one, other.type, span) or one
 
-    def _arithmetic(self, op: str, type: Elementary, left: Expr, right: Expr, span: Span) -> Expr:
-        trap = 0
-        if op == "div" and type.kind is not Kind.REAL:
-            if isinstance(right, Const) and right.value == 0:
-                raise self.report.reject("S004", "This divides by the constant zero.", span)
-            if not isinstance(right, Const):
-                trap = self.trap(TrapKind.DIVISION, span, "division by zero")
-        made = fold.binary(op, type, left, right, trap)
-        return self.in_64_bits(made, span) if isinstance(made, Const) and type == ANY_INT else made
+def _characters(body: Body, one: Expr, other: Expr, span: Span) -> Expr:
+    """A text beside a character: a literal of one character is that, and a character beside a string is a string."""
+    if other.type is None:
+        return one
+    constant = isinstance(one, Const)
+    if isinstance(other.type, StringType) and not constant and isinstance(other, Const) and _is_character(one):
+        return one  # the literal becomes a character instead
+    return as_text(body, one, other.type, span) or one
 
-    def _same(
-        self, op: str, left: Expr, right: Expr, span: Span, wanted: Type | None = None
-    ) -> tuple[Expr, Expr, Elementary]:
-        """Both operands in their common type."""
-        a, b = left.type, right.type
-        if not isinstance(a, Elementary) or not isinstance(b, Elementary):
-            both = f"{settle(left).type} and {settle(right).type}"
-            raise self.report.reject("T002", f"`{OPERATORS[op]}` cannot join {both}.", span)
-        if is_untyped(left) and is_untyped(right):
-            type = ANY_REAL if ANY_REAL in (a, b) else ANY_INT
-            return Const(type, _plain(left)), Const(type, _plain(right)), type
-        if is_untyped(left):
-            left, a = self._beside(left, b, span, wanted), b
-        elif is_untyped(right):
-            right, b = self._beside(right, a, span, wanted), a
-        assert isinstance(left.type, Elementary)
-        assert isinstance(right.type, Elementary)
-        type_or_none = common(left.type, right.type)
-        if type_or_none is None:
-            hint = conversion_hint(right.type, left.type)
-            raise self.report.reject("T002", f"`{OPERATORS[op]}` cannot join {left.type} and {right.type}.{hint}", span)
-        return fold.convert(type_or_none, left), fold.convert(type_or_none, right), type_or_none
 
-    def _beside(self, literal: Expr, type: Elementary, span: Span, wanted: Type | None) -> Expr:
-        """An untyped literal beside an operand of `type`: that type, or a larger one where it does not fit."""
-        assert isinstance(literal, Const)
-        if literal.type == ANY_INT and type.kind in (Kind.INT, Kind.UINT):
-            low, high = bounds(type)
-            if not low <= int(literal.value) <= high:
-                return settle(literal)
-        if literal.type == ANY_REAL and type.kind in (Kind.INT, Kind.UINT):
-            return self.literal_as(literal, real_beside([type], wanted), span, "The other operand")
-        return self.literal_as(literal, type, span, "The other operand")
+def _arithmetic(body: Body, op: str, type: Elementary, left: Expr, right: Expr, span: Span) -> Expr:
+    trap = 0
+    if op == "div" and type.kind is not Kind.REAL:
+        if isinstance(right, Const) and right.value == 0:
+            raise body.report.reject("S004", "This divides by the constant zero.", span)
+        if not isinstance(right, Const):
+            trap = body.trap(TrapKind.DIVISION, span, "division by zero")
+    made = fold.binary(op, type, left, right, trap)
+    return in_64_bits(body, made, span) if isinstance(made, Const) and type == ANY_INT else made
 
-    # ---- durations and dates ----------------------------------------------------------------------------
 
-    def _time(self, op: str, left: Expr, right: Expr, span: Span) -> Expr:
-        a, b = left.type, right.type
-        if isinstance(a, Elementary) and isinstance(b, Elementary):
-            if a.kind in MOMENTS and b.kind in MOMENTS and op in ("add", "sub"):
-                made = self._moments(op, left, right, a, b)
-                if made is not None:
-                    return made
-            if a.kind is Kind.TIME and op in ("mul", "div"):
-                return self._scaled(op, left, a, right, span)
-            if b.kind is Kind.TIME and op == "mul":
-                return self._scaled(op, right, b, left, span)
-        raise self._no_time(op, left, right, span)
-
-    def _no_time(self, op: str, left: Expr, right: Expr, span: Span) -> Exception:
+def _same(
+    body: Body, op: str, left: Expr, right: Expr, span: Span, wanted: Type | None = None
+) -> tuple[Expr, Expr, Elementary]:
+    """Both operands in their common type."""
+    a, b = left.type, right.type
+    if not isinstance(a, Elementary) or not isinstance(b, Elementary):
         both = f"{settle(left).type} and {settle(right).type}"
-        return self.report.reject(
-            "T002", f"`{OPERATORS[op]}` cannot join {both}; a TIME can be added to a TIME, DT or TOD, or scaled by a "
-            "number, and the difference of two dates is a TIME.", span,
-        )  # fmt: skip
+        raise body.report.reject("T002", f"`{OPERATORS[op]}` cannot join {both}.", span)
+    if is_untyped(left) and is_untyped(right):
+        type = ANY_REAL if ANY_REAL in (a, b) else ANY_INT
+        return Const(type, _plain(left)), Const(type, _plain(right)), type
+    if is_untyped(left):
+        left, a = _beside(body, left, b, span, wanted), b
+    elif is_untyped(right):
+        right, b = _beside(body, right, a, span, wanted), a
+    assert isinstance(left.type, Elementary)
+    assert isinstance(right.type, Elementary)
+    type_or_none = common(left.type, right.type)
+    if type_or_none is None:
+        hint = conversion_hint(right.type, left.type)
+        raise body.report.reject("T002", f"`{OPERATORS[op]}` cannot join {left.type} and {right.type}.{hint}", span)
+    return fold.convert(type_or_none, left), fold.convert(type_or_none, right), type_or_none
 
-    def _moments(self, op: str, left: Expr, right: Expr, a: Elementary, b: Elementary) -> Expr | None:
-        """Sums and differences of durations and dates."""
-        long = LTIME if a.name.startswith("L") or b.name.startswith("L") else TIME
-        if a.kind is Kind.TIME and b.kind is Kind.TIME:
-            return fold.binary(op, long, fold.convert(long, left), fold.convert(long, right))
-        if a.kind is Kind.DATE and b.kind is Kind.DATE:
-            if op != "sub" or a.name.removeprefix("L") != b.name.removeprefix("L"):
-                return None
-            return fold.binary("sub", long, fold.convert(long, left), fold.convert(long, right))
-        if a.kind is Kind.TIME:
-            if op != "add":
-                return None
-            left, right, a = right, left, b
-        if a.name.removeprefix("L") == "DATE":
+
+def _beside(body: Body, literal: Expr, type: Elementary, span: Span, wanted: Type | None) -> Expr:
+    """An untyped literal beside an operand of `type`: that type, or a larger one where it does not fit."""
+    assert isinstance(literal, Const)
+    if literal.type == ANY_INT and type.kind in (Kind.INT, Kind.UINT):
+        low, high = bounds(type)
+        if not low <= int(literal.value) <= high:
+            return settle(literal)
+    if literal.type == ANY_REAL and type.kind in (Kind.INT, Kind.UINT):
+        return literal_as(body, literal, real_beside([type], wanted), span, "The other operand")
+    return literal_as(body, literal, type, span, "The other operand")
+
+
+def _time(body: Body, op: str, left: Expr, right: Expr, span: Span) -> Expr:
+    a, b = left.type, right.type
+    if isinstance(a, Elementary) and isinstance(b, Elementary):
+        if a.kind in MOMENTS and b.kind in MOMENTS and op in ("add", "sub"):
+            made = _moments(body, op, left, right, a, b)
+            if made is not None:
+                return made
+        if a.kind is Kind.TIME and op in ("mul", "div"):
+            return _scaled(body, op, left, a, right, span)
+        if b.kind is Kind.TIME and op == "mul":
+            return _scaled(body, op, right, b, left, span)
+    raise _no_time(body, op, left, right, span)
+
+
+def _no_time(body: Body, op: str, left: Expr, right: Expr, span: Span) -> Exception:
+    both = f"{settle(left).type} and {settle(right).type}"
+    return body.report.reject(
+        "T002", f"`{OPERATORS[op]}` cannot join {both}; a TIME can be added to a TIME, DT or TOD, or scaled by a "
+        "number, and the difference of two dates is a TIME.", span,
+    )  # fmt: skip
+
+
+def _moments(body: Body, op: str, left: Expr, right: Expr, a: Elementary, b: Elementary) -> Expr | None:
+    """Sums and differences of durations and dates."""
+    long = LTIME if a.name.startswith("L") or b.name.startswith("L") else TIME
+    if a.kind is Kind.TIME and b.kind is Kind.TIME:
+        return fold.binary(op, long, fold.convert(long, left), fold.convert(long, right))
+    if a.kind is Kind.DATE and b.kind is Kind.DATE:
+        if op != "sub" or a.name.removeprefix("L") != b.name.removeprefix("L"):
             return None
-        made = fold.binary(op, a, left, fold.convert(a, right))
-        if a.name.removeprefix("L") == "TIME_OF_DAY":
-            # the clock begins again at midnight
-            day = Const(a, DAY_NS)
-            made = fold.binary("mod", a, fold.binary("add", a, fold.binary("mod", a, made, day), day), day)
-        return made
+        return fold.binary("sub", long, fold.convert(long, left), fold.convert(long, right))
+    if a.kind is Kind.TIME:
+        if op != "add":
+            return None
+        left, right, a = right, left, b
+    if a.name.removeprefix("L") == "DATE":
+        return None
+    made = fold.binary(op, a, left, fold.convert(a, right))
+    if a.name.removeprefix("L") == "TIME_OF_DAY":
+        # the clock begins again at midnight
+        day = Const(a, DAY_NS)
+        made = fold.binary("mod", a, fold.binary("add", a, fold.binary("mod", a, made, day), day), day)
+    return made
 
-    def _scaled(self, op: str, time: Expr, type: Elementary, factor: Expr, span: Span) -> Expr:
-        factor = settle(factor)
-        if isinstance(factor.type, Elementary) and factor.type.kind in (Kind.INT, Kind.UINT):
-            return self._arithmetic(op, type, time, fold.convert(type, factor), span)
-        if isinstance(factor.type, Elementary) and factor.type.kind is Kind.REAL:
-            scaled = fold.binary(op, LREAL, fold.convert(LREAL, time), fold.convert(LREAL, factor))
-            return fold.convert(type, scaled)
-        raise self._no_time(op, time, factor, span)
 
-    # ---- others -----------------------------------------------------------------------------------------
+def _scaled(body: Body, op: str, time: Expr, type: Elementary, factor: Expr, span: Span) -> Expr:
+    factor = settle(factor)
+    if isinstance(factor.type, Elementary) and factor.type.kind in (Kind.INT, Kind.UINT):
+        return _arithmetic(body, op, type, time, fold.convert(type, factor), span)
+    if isinstance(factor.type, Elementary) and factor.type.kind is Kind.REAL:
+        scaled = fold.binary(op, LREAL, fold.convert(LREAL, time), fold.convert(LREAL, factor))
+        return fold.convert(type, scaled)
+    raise _no_time(body, op, time, factor, span)
 
-    def _power(self, left: Expr, right: Expr, span: Span, wanted: Type | None) -> Expr:
-        if is_untyped(left) and isinstance(wanted, Elementary) and wanted.kind is Kind.REAL:
-            left = Const(wanted, round_real(float(_plain(left)), wanted))
-        left, right = settle(left), settle(right)
-        types = (left.type, right.type)
-        if not all(isinstance(type, Elementary) and type.kind in NUMERIC for type in types):
-            raise self.report.reject("T002", f"`**` needs numbers, not {types[0]} and {types[1]}.", span)
-        type = ELEMENTARY["REAL"] if left.type == ELEMENTARY["REAL"] else LREAL
-        return Intrinsic("EXPT", type, (fold.convert(type, left), fold.convert(type, right)))
 
-    def _short_circuit(self, op: str, left: Expr, right: Expr, span: Span) -> Expr:
-        """The right side is only evaluated where it decides."""
-        left = self.coerce(left, BOOL, span, "Each operand")
-        right = self.coerce(right, BOOL, span, "Each operand")
-        plain = "and" if op == "and_then" else "or"
-        if isinstance(left, Const) or _is_harmless(right):
-            if isinstance(left, Const) and bool(left.value) == (op == "or_else"):
-                return left
-            return Binary(plain, BOOL, left, right, short=True) if not isinstance(left, Const) else right
-        held = self.temporary(BOOL, span)
-        goes_on: Expr = Load(held) if op == "and_then" else fold.unary("not", BOOL, Load(held))
-        decide = If(((goes_on, (Assign(held, right, span),)),), (), span)
-        return Sequence((Assign(held, left, span), decide), Load(held))
+def _power(body: Body, left: Expr, right: Expr, span: Span, wanted: Type | None) -> Expr:
+    if is_untyped(left) and isinstance(wanted, Elementary) and wanted.kind is Kind.REAL:
+        left = Const(wanted, round_real(float(_plain(left)), wanted))
+    left, right = settle(left), settle(right)
+    types = (left.type, right.type)
+    if not all(isinstance(type, Elementary) and type.kind in NUMERIC for type in types):
+        raise body.report.reject("T002", f"`**` needs numbers, not {types[0]} and {types[1]}.", span)
+    type = ELEMENTARY["REAL"] if left.type == ELEMENTARY["REAL"] else LREAL
+    return Intrinsic("EXPT", type, (fold.convert(type, left), fold.convert(type, right)))
+
+
+def _short_circuit(body: Body, op: str, left: Expr, right: Expr, span: Span) -> Expr:
+    """The right side is only evaluated where it decides."""
+    left = coerce(body, left, BOOL, span, "Each operand")
+    right = coerce(body, right, BOOL, span, "Each operand")
+    operator = "and" if op == "and_then" else "or"
+    if isinstance(left, Const) or _is_harmless(right):
+        if isinstance(left, Const) and bool(left.value) == (op == "or_else"):
+            return left
+        return Binary(operator, BOOL, left, right, short=True) if not isinstance(left, Const) else right
+    held = body.temporary(BOOL, span)
+    goes_on: Expr = Load(held) if op == "and_then" else fold.unary("not", BOOL, Load(held))
+    decide = If(((goes_on, (Assign(held, right, span),)),), (), span)
+    return Sequence((Assign(held, left, span), decide), Load(held))
 
 
 def _is_harmless(expr: Expr) -> bool:
@@ -256,22 +263,6 @@ def _plain(expr: Expr) -> int | float:
     assert isinstance(expr, Const)
     assert not isinstance(expr.value, bytes)
     return expr.value
-
-
-def conversion_hint(source: Type | None, target: Type) -> str:
-    """` Convert it with INT_TO_REAL.`, where there is such a function."""
-    if isinstance(source, Reference) or isinstance(target, Reference | Record):
-        return ""
-    first, second = (_short(type) for type in (source, target))
-    known = {*ELEMENTARY, *SHORT.values(), "STRING", "WSTRING"}
-    return f" Convert it with {first}_TO_{second}." if {first, second} <= known else ""
-
-
-def _short(type: Type | None) -> str:
-    if isinstance(type, StringType):
-        return "WSTRING" if type.width == 2 else "STRING"
-    name = str(base_of(type)) if isinstance(type, Elementary) else str(type)
-    return SHORT.get(name, name)
 
 
 def _unsigned(type: Elementary) -> str:

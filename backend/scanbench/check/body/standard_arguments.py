@@ -4,117 +4,105 @@ import re
 from dataclasses import replace
 
 from scanbench.check.body import fold
-from scanbench.check.body.expressions import ExpressionChecker
+from scanbench.check.body.coercion import coerce
+from scanbench.check.body.context import Body
 from scanbench.check.context import did_you_mean
-from scanbench.check.declare.names import LIBRARY
 from scanbench.check.standard.functions import Row
 from scanbench.problems import Span
-from scanbench.program.program import Assign, CallFunction, Const, Expr, Load, Stmt
+from scanbench.program.program import Assign, Const, Expr, Load, Stmt
 from scanbench.program.types import LINT, Elementary, Kind, StringType, Type
 from scanbench.program.untyped import ANY_REAL, common, is_untyped, real_beside, settle
 from scanbench.syntax import tree
 
 
-class StandardArguments(ExpressionChecker):
-    """What the checks of standard functions share."""
+def ordered(body: Body, node: tree.Call, name: str, row: Row) -> list[tree.Expression]:
+    """The arguments in the order of the formals, however they were given."""
+    given: dict[int, tree.Expression] = {}
+    for index, argument in enumerate(node.arguments):
+        if argument.output or argument.value is None:
+            shown = argument.name or ""
+            raise body.report.reject("T004", f"`{name}` has no output `{shown}`.", argument.span)
+        position = index if argument.name is None else _position(body, argument, name, row)
+        if position in given:
+            raise body.report.reject("T004", f"`{argument.name}` of `{name}` is given twice.", argument.span)
+        given[position] = argument.value
+    count = max(len(given), len(row.formals))
+    if (len(given) > len(row.formals) and not row.variadic) or sorted(given) != list(range(count)):
+        missing = [formal for index, formal in enumerate(row.formals) if index not in given]
+        takes = f"{', '.join(row.formals)}{', ...' if row.variadic else ''}" or "nothing"
+        hint = f" `{missing[0]}` is missing." if missing else ""
+        takes = f"{len(row.formals)} argument{'s' if len(row.formals) != 1 else ''} ({takes})"
+        raise body.report.reject("T004", f"`{name}` takes {takes}, not {len(given)}.{hint}", node.span)
+    return [given[index] for index in range(count)]
 
-    def arguments(self, node: tree.Call, name: str, row: Row) -> list[tree.Expression]:
-        """The arguments in the order of the formals, however they were given."""
-        given: dict[int, tree.Expression] = {}
-        for index, argument in enumerate(node.arguments):
-            if argument.output or argument.value is None:
-                shown = argument.name or ""
-                raise self.report.reject("T004", f"`{name}` has no output `{shown}`.", argument.span)
-            position = index if argument.name is None else self._position(argument, name, row)
-            if position in given:
-                raise self.report.reject("T004", f"`{argument.name}` of `{name}` is given twice.", argument.span)
-            given[position] = argument.value
-        count = max(len(given), len(row.formals))
-        if (len(given) > len(row.formals) and not row.variadic) or sorted(given) != list(range(count)):
-            missing = [formal for index, formal in enumerate(row.formals) if index not in given]
-            takes = f"{', '.join(row.formals)}{', ...' if row.variadic else ''}" or "nothing"
-            hint = f" `{missing[0]}` is missing." if missing else ""
-            takes = f"{len(row.formals)} argument{'s' if len(row.formals) != 1 else ''} ({takes})"
-            raise self.report.reject("T004", f"`{name}` takes {takes}, not {len(given)}.{hint}", node.span)
-        return [given[index] for index in range(count)]
 
-    def _position(self, argument: tree.Argument, name: str, row: Row) -> int:
-        """Of a formal argument; those behind the last formal count on: IN3, IN4."""
-        assert argument.name is not None
-        key = argument.name.upper()
-        if key in row.formals:
-            return row.formals.index(key)
-        last = re.fullmatch(r"([A-Z]+)(\d+)", row.formals[-1]) if row.variadic else None
-        if last is not None and re.fullmatch(rf"{last.group(1)}[1-9]\d{{0,3}}", key):
-            further = int(key[len(last.group(1)) :]) - int(last.group(2))
-            if further > 0:
-                return len(row.formals) - 1 + further
-        hint = did_you_mean(key, row.formals) or f" It takes {', '.join(row.formals) or 'nothing'}."
-        raise self.report.reject("T004", f"`{name}` has no argument `{argument.name}`.{hint}", argument.span)
+def _position(body: Body, argument: tree.Argument, name: str, row: Row) -> int:
+    """Of a formal argument; those behind the last formal count on: IN3, IN4."""
+    assert argument.name is not None
+    key = argument.name.upper()
+    if key in row.formals:
+        return row.formals.index(key)
+    last = re.fullmatch(r"([A-Z]+)(\d+)", row.formals[-1]) if row.variadic else None
+    if last is not None and re.fullmatch(rf"{last.group(1)}[1-9]\d{{0,3}}", key):
+        further = int(key[len(last.group(1)) :]) - int(last.group(2))
+        if further > 0:
+            return len(row.formals) - 1 + further
+    hint = did_you_mean(key, row.formals) or f" It takes {', '.join(row.formals) or 'nothing'}."
+    raise body.report.reject("T004", f"`{name}` has no argument `{argument.name}`.{hint}", argument.span)
 
-    def values(self, node: tree.Call, name: str, row: Row, wanted: Type | None = None) -> list[Expr]:
-        """The arguments, checked; `wanted` helps literals inside them."""
-        return [self.expr(value, wanted) for value in self.arguments(node, name, row)]
 
-    # ---- types ------------------------------------------------------------------------------------------
+def checked(body: Body, node: tree.Call, name: str, row: Row, wanted: Type | None = None) -> list[Expr]:
+    """The arguments, checked; `wanted` helps literals inside them."""
+    return [body.expression(value, wanted) for value in ordered(body, node, name, row)]
 
-    def unify(self, values: list[Expr], span: Span, name: str, wanted: Type | None = None) -> list[Expr]:
-        """All in one common type; literals alone take the one that is wanted."""
-        what = f"Each argument of `{name}`"
-        if isinstance(wanted, Elementary) and all(_is_literal_of(value, wanted) for value in values):
-            return [self.coerce(value, wanted, span, what) for value in values]
-        typed = [value for value in values if not is_untyped(value)]
-        if typed and all(value.type == typed[0].type for value in typed):
-            type: Type | None = typed[0].type
-        else:
-            type = self._join(typed or [settle(value) for value in values], span, name)
-        assert type is not None
-        real = any(value.type == ANY_REAL for value in values)
-        if real and isinstance(type, Elementary) and type.kind is not Kind.REAL:
-            literal = Const(real_beside([value.type for value in typed], wanted), 0.0)
-            type = self._join([*typed, literal], span, name)
-        return [self.coerce(value, type, span, what) for value in values]
 
-    def _join(self, values: list[Expr], span: Span, name: str) -> Type:
-        type = values[0].type
-        for value in values[1:]:
-            joined = _common(type, value)
-            if joined is None:
-                raise self.report.reject(
-                    "T002", f"The arguments of `{name}` have no common type: {type} and {value.type}.", span
-                )
-            type = joined
-        if type is None:
-            raise self.report.reject("T002", f"`{name}` needs values, and this gives none.", span)
-        return type
+def unify(body: Body, values: list[Expr], span: Span, name: str, wanted: Type | None = None) -> list[Expr]:
+    """All in one common type; literals alone take the one that is wanted."""
+    what = f"Each argument of `{name}`"
+    if isinstance(wanted, Elementary) and all(_is_literal_of(value, wanted) for value in values):
+        return [coerce(body, value, wanted, span, what) for value in values]
+    typed = [value for value in values if not is_untyped(value)]
+    if typed and all(value.type == typed[0].type for value in typed):
+        type: Type | None = typed[0].type
+    else:
+        type = _join(body, typed or [settle(value) for value in values], span, name)
+    assert type is not None
+    real = any(value.type == ANY_REAL for value in values)
+    if real and isinstance(type, Elementary) and type.kind is not Kind.REAL:
+        literal = Const(real_beside([value.type for value in typed], wanted), 0.0)
+        type = _join(body, [*typed, literal], span, name)
+    return [coerce(body, value, type, span, what) for value in values]
 
-    def integer(self, value: Expr, span: Span, name: str) -> Expr:
-        """A count, position or selector, as LINT."""
-        value = settle(value)
-        if not isinstance(value.type, Elementary) or value.type.kind not in (Kind.INT, Kind.UINT):
-            raise self.report.reject("T002", f"`{name}` needs an integer here, not {value.type}.", span)
-        return fold.convert(LINT, value)
 
-    # ---- values that are used more than once --------------------------------------------------------------
+def _join(body: Body, values: list[Expr], span: Span, name: str) -> Type:
+    type = values[0].type
+    for value in values[1:]:
+        joined = _common(type, value)
+        if joined is None:
+            raise body.report.reject(
+                "T002", f"The arguments of `{name}` have no common type: {type} and {value.type}.", span
+            )
+        type = joined
+    if type is None:
+        raise body.report.reject("T002", f"`{name}` needs values, and this gives none.", span)
+    return type
 
-    def held(self, value: Expr, span: Span) -> tuple[tuple[Stmt, ...], Expr]:
-        """What must run first, and a value that may then be read any number of times."""
-        if isinstance(value, Const):
-            return (), value
-        assert value.type is not None
-        place = self.temporary(value.type, span)
-        return (Assign(place, value, span),), Load(place)
 
-    # ---- the library's own functions ----------------------------------------------------------------------
+def integer(body: Body, value: Expr, span: Span, name: str) -> Expr:
+    """A count, position or selector, as LINT."""
+    value = settle(value)
+    if not isinstance(value.type, Elementary) or value.type.kind not in (Kind.INT, Kind.UINT):
+        raise body.report.reject("T002", f"`{name}` needs an integer here, not {value.type}.", span)
+    return fold.convert(LINT, value)
 
-    def library(self, name: str, *args: Expr) -> Expr | None:
-        """A call of a FUNCTION of the ST library, if there is one of that name."""
-        functions = self.pous.functions
-        callee = functions.get(f"{LIBRARY}.{name}") or functions.get(name)
-        if callee is None or not callee.inline:
-            return None
-        self.pous.use(self.pou, callee)
-        return CallFunction(callee, callee.result, args)
+
+def hold(body: Body, value: Expr, span: Span) -> tuple[tuple[Stmt, ...], Expr]:
+    """What must run first, and a value that may then be read any number of times."""
+    if isinstance(value, Const) or body.effects.repeats(value):
+        return (), value
+    assert value.type is not None
+    place = body.temporary(value.type, span)
+    return (Assign(place, value, span),), Load(place)
 
 
 def _common(type: Type | None, value: Expr) -> Type | None:

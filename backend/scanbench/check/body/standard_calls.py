@@ -1,9 +1,14 @@
 """Calls of standard functions -> intrinsics and operations."""
 
 import re
+from functools import partial
 
 from scanbench.check.body import conversions, fold, standard_fold
-from scanbench.check.body.standard_choice import ChoiceFunctions
+from scanbench.check.body.coercion import as_type, coerce
+from scanbench.check.body.context import Body
+from scanbench.check.body.operators import operate
+from scanbench.check.body.standard_arguments import checked, integer, ordered
+from scanbench.check.body.standard_choice import alike, chain, limit, mux, same, sel
 from scanbench.check.context import did_you_mean
 from scanbench.check.standard.functions import (
     FUNCTIONS,
@@ -40,216 +45,221 @@ LARGEST = {4: 3.4028234663852886e38, 8: 1.7976931348623157e308}
 """The largest finite number of a REAL and an LREAL."""
 
 
-class StandardCallChecker(ChoiceFunctions):
-    def standard(self, node: tree.Call, name: str, wanted: Type | None, eno: Place | None = None) -> Expr | None:
-        """The call of a standard function by its upper-case name; None where there is no such function.
+def standard_call(body: Body, node: tree.Call, name: str, wanted: Type | None, eno: Place | None = None) -> Expr | None:
+    """The call of a standard function by its upper-case name; None where there is no such function.
 
-        EN and ENO are not among the arguments any more. `eno` is TRUE before, and set to FALSE where the function
-        itself finds that its result is not right.
-        """
-        row = FUNCTIONS.get(name)
-        if row is None and in_library(node.span):
-            row = INTERNAL.get(name)
-        if row is not None:
-            return self._row(node, name, name, row, wanted, None, eno)
-        conversion = self._conversion(node, name, wanted)
-        if conversion is not None:
-            return conversion
-        match = TYPED.fullmatch(name)
-        typed = ELEMENTARY.get(match.group(2)) if match else None
-        row = FUNCTIONS.get(match.group(1)) if match else None
-        if match is None or row is None or typed is None:
-            return None
-        return self._row(node, name, match.group(1), row, wanted, typed, eno)
+    EN and ENO are not among the arguments any more. `eno` is TRUE before, and set to FALSE where the function
+    itself finds that its result is not right.
+    """
+    row = FUNCTIONS.get(name)
+    if row is None and in_library(node.span):
+        row = INTERNAL.get(name)
+    if row is not None:
+        return _row(body, node, name, name, row, wanted, None, eno)
+    conversion = _conversion(body, node, name, wanted)
+    if conversion is not None:
+        return conversion
+    match = TYPED.fullmatch(name)
+    typed = ELEMENTARY.get(match.group(2)) if match else None
+    row = FUNCTIONS.get(match.group(1)) if match else None
+    if match is None or row is None or typed is None:
+        return None
+    return _row(body, node, name, match.group(1), row, wanted, typed, eno)
 
-    def _row(
-        self, node: tree.Call, name: str, base: str, row: Row, wanted: Type | None, typed: Elementary | None,
-        eno: Place | None,
-    ) -> Expr:  # fmt: skip
-        """`name` as written; `base` without the type in it, `typed`."""
-        match row:
-            case Same():
-                return self.same(node, name, row, wanted, typed)
-            case Chain():
-                return self.chain(node, name, row, typed)
-            case Shift():
-                return self._shift(node, name, row, wanted, typed)
-            case StringFunction():
-                return self._string_function(node, name, row)
-            case Operator():
-                return self._operator(node, name, row, wanted, typed)
-            case Special():
-                match base:
-                    case "SEL":
-                        return self.sel(node, name, row, wanted, typed)
-                    case "MUX":
-                        return self.mux(node, name, row, wanted, typed)
-                    case "LIMIT":
-                        return self.limit(node, name, row, wanted, typed, eno)
-                return self._special(node, name, base, row, wanted, typed)
 
-    def _operator(
-        self, node: tree.Call, name: str, row: Operator, wanted: Type | None, typed: Elementary | None
-    ) -> Expr:
-        values = self.values(node, name, row, typed or (None if row.types else wanted))
-        if row.types is not None:
-            values = [
-                self.coerce(value, type, node.span, f"`{formal}` of `{name}`")
-                for value, type, formal in zip(values, row.types, row.formals, strict=True)
-            ]
-        elif typed is not None:
-            values = self.alike(values, node.span, name, None, typed)
-        result = values[0]
-        for value in values[1:]:
-            result = self.operate(row.op, result, value, node.span, wanted)
-        return result
+def _row(body: Body, node: tree.Call, name: str, base: str, row: Row, wanted: Type | None, typed: Elementary | None,
+    eno: Place | None,
+) -> Expr:  # fmt: skip
+    """`name` as written; `base` without the type in it, `typed`."""
+    match row:
+        case Same():
+            return same(body, node, name, row, wanted, typed)
+        case Chain():
+            return chain(body, node, name, row, typed)
+        case Shift():
+            return _shift(body, node, name, row, wanted, typed)
+        case StringFunction():
+            return _string_function(body, node, name, row)
+        case Operator():
+            return _operator(body, node, name, row, wanted, typed)
+        case Special():
+            match base:
+                case "SEL":
+                    return sel(body, node, name, row, wanted, typed)
+                case "MUX":
+                    return mux(body, node, name, row, wanted, typed)
+                case "LIMIT":
+                    return limit(body, node, name, row, wanted, typed, eno)
+            return _special(body, node, name, base, row, wanted, typed)
 
-    def _shift(self, node: tree.Call, name: str, row: Shift, wanted: Type | None, typed: Elementary | None) -> Expr:
-        bits_tree, count_tree = self.arguments(node, name, row)
-        bits = self.expr(bits_tree, typed or wanted)
-        if typed is not None:
-            bits = self.coerce(bits, typed, bits_tree.span, "`IN`")
-        elif isinstance(bits, Const) and isinstance(wanted, Elementary) and wanted.kind is Kind.BITS:
-            bits = self.coerce(bits, wanted, bits_tree.span, "`IN`")
-        type = settle(bits).type
-        if not isinstance(bits.type, Elementary) or bits.type.kind is not Kind.BITS or not bits.type.size:
-            hint = ""
-            if isinstance(type, Elementary) and type.kind in (Kind.INT, Kind.UINT):
-                same = {1: "BYTE", 2: "WORD", 4: "DWORD", 8: "LWORD"}[type.size]
-                hint = f" Convert it with {type}_TO_{same}, or write {same}#..."
-            raise self.report.reject("T002", f"`{name}` needs a bit string, not {type}.{hint}", bits_tree.span)
-        count = self.integer(self.expr(count_tree), count_tree.span, name)
-        return standard_fold.intrinsic(row.intrinsic, bits.type, (bits, count))
 
-    # ---- strings ----------------------------------------------------------------------------------------
+def _operator(
+    body: Body, node: tree.Call, name: str, row: Operator, wanted: Type | None, typed: Elementary | None
+) -> Expr:
+    values = checked(body, node, name, row, typed or (None if row.types else wanted))
+    if row.types is not None:
+        values = [
+            coerce(body, value, type, node.span, f"`{formal}` of `{name}`")
+            for value, type, formal in zip(values, row.types, row.formals, strict=True)
+        ]
+    elif typed is not None:
+        values = alike(body, values, node.span, name, None, typed)
+    result = values[0]
+    for value in values[1:]:
+        result = operate(body, row.op, result, value, node.span, wanted)
+    return result
 
-    def _string_function(self, node: tree.Call, name: str, row: StringFunction) -> Expr:
-        values = self.values(node, name, row)
-        args: list[Expr] = []
-        for value, kind in zip(values, row.kinds.ljust(len(values), "s"), strict=True):
-            if kind == "n":
-                args.append(self.integer(value, node.span, name))
-                continue
-            if isinstance(value.type, Elementary) and value.type.kind is Kind.CHAR:
-                value = standard_fold.intrinsic("CHAR_STR", StringType(1, value.type.size), (value,))
-            if not isinstance(value.type, StringType):
-                raise self.report.reject("T002", f"`{name}` needs a STRING, not {settle(value).type}.", node.span)
-            args.append(value)
-        strings = [arg.type for arg in args if isinstance(arg.type, StringType)]
-        if any(each.width != strings[0].width for each in strings):
-            raise self.report.reject(
-                "T002", f"`{name}` cannot join STRING and WSTRING; convert one with STRING_TO_WSTRING.", node.span
-            )
-        if row.result == "INT":
-            return standard_fold.intrinsic(row.intrinsic, INT, tuple(args))
-        if row.variadic:
-            result = args[0]
-            for arg in args[1:]:
-                result = standard_fold.intrinsic(row.intrinsic, _capacity(result, arg), (result, arg))
-            return result
-        kept = args[:1] if row.result == "first" else args
-        return standard_fold.intrinsic(row.intrinsic, _capacity(*kept), tuple(args))
 
-    # ---- the rest ---------------------------------------------------------------------------------------
+def _shift(body: Body, node: tree.Call, name: str, row: Shift, wanted: Type | None, typed: Elementary | None) -> Expr:
+    bits_tree, count_tree = ordered(body, node, name, row)
+    bits = body.expression(bits_tree, typed or wanted)
+    if typed is not None:
+        bits = coerce(body, bits, typed, bits_tree.span, "`IN`")
+    elif isinstance(bits, Const) and isinstance(wanted, Elementary) and wanted.kind is Kind.BITS:
+        bits = coerce(body, bits, wanted, bits_tree.span, "`IN`")
+    type = settle(bits).type
+    if not isinstance(bits.type, Elementary) or bits.type.kind is not Kind.BITS or not bits.type.size:
+        hint = ""
+        if isinstance(type, Elementary) and type.kind in (Kind.INT, Kind.UINT):
+            same = {1: "BYTE", 2: "WORD", 4: "DWORD", 8: "LWORD"}[type.size]
+            hint = f" Convert it with {type}_TO_{same}, or write {same}#..."
+        raise body.report.reject("T002", f"`{name}` needs a bit string, not {type}.{hint}", bits_tree.span)
+    count = integer(body, body.expression(count_tree), count_tree.span, name)
+    return standard_fold.intrinsic(row.intrinsic, bits.type, (bits, count))
 
-    def _special(
-        self, node: tree.Call, name: str, base: str, row: Special, wanted: Type | None, typed: Elementary | None
-    ) -> Expr:
-        values = self.values(node, name, row, typed or wanted)
-        if typed is not None and base not in ("IS_VALID", "TIME", "LTIME"):
-            values = self.alike(values, node.span, name, None, typed)
-        match base:
-            case "TIME" | "LTIME":
-                return standard_fold.intrinsic("CLOCK", LTIME if base == "LTIME" else TIME, ())
-            case "MOVE":
-                return values[0]
-            case "NOT":
-                return self._not(node, values[0], wanted)
-            case "IS_VALID":
-                return self._is_valid(node, name, settle(values[0]))
-            case "__CODE_AT":
-                position = self.integer(values[1], node.span, name)
-                return fold.convert(INT, standard_fold.intrinsic("CHAR_AT", CHAR, (values[0], position)))
-            case "MUL_TIME" | "DIV_TIME" | "MUL_LTIME" | "DIV_LTIME" | "MULTIME" | "DIVTIME":
-                time = self.coerce(values[0], LTIME if "_L" in base else TIME, node.span, "`IN1`")
-                return self.operate(base[:3].lower(), time, values[1], node.span)
-        return self._byte_order(node, name, values[0], wanted)
 
-    def _not(self, node: tree.Call, value: Expr, wanted: Type | None) -> Expr:
-        value = settle(value) if wanted is None else value
-        if isinstance(wanted, Elementary) and wanted.kind is Kind.BITS and isinstance(value, Const):
-            value = self.coerce(value, wanted, node.span, "`IN`")
-        if not isinstance(value.type, Elementary) or value.type.kind not in (Kind.BOOL, Kind.BITS):
-            raise self.report.reject("T002", f"`NOT` needs BOOL or a bit string, not {settle(value).type}.", node.span)
-        return fold.unary("not", value.type, value)
-
-    def _is_valid(self, node: tree.Call, name: str, value: Expr) -> Expr:
-        if not isinstance(value.type, Elementary) or value.type.kind is not Kind.REAL:
-            raise self.report.reject("T002", f"`{name}` needs a REAL or LREAL, not {value.type}.", node.span)
-        size = standard_fold.intrinsic("ABS", value.type, (value,))
-        return Compare("le", BOOL, size, Const(value.type, LARGEST[value.type.size]))
-
-    def _byte_order(self, node: tree.Call, name: str, value: Expr, wanted: Type | None) -> Expr:
-        """The image is little endian; big endian is the other way round."""
-        if isinstance(value, Const) and isinstance(wanted, Elementary) and wanted.kind in conversions.WHOLE:
-            value = self.coerce(value, wanted, node.span, "`IN`")
-        value = settle(value)
-        type = value.type
-        if not isinstance(type, Elementary) or type.kind in (Kind.REAL, Kind.REF):
-            hint = ""
-            if isinstance(type, Elementary) and type.kind is Kind.REAL:
-                hint = f" Take its bits with {type}_TO_{'DWORD' if type.size == 4 else 'LWORD'} first."
-            raise self.report.reject("T002", f"`{name}` cannot work on {type}.{hint}", node.span)
-        return (
-            standard_fold.intrinsic("SWAP", type, (value,)) if name.endswith("BIG_ENDIAN") and type.size > 1 else value
+def _string_function(body: Body, node: tree.Call, name: str, row: StringFunction) -> Expr:
+    values = checked(body, node, name, row)
+    args: list[Expr] = []
+    for value, kind in zip(values, row.kinds.ljust(len(values), "s"), strict=True):
+        if kind == "n":
+            args.append(integer(body, value, node.span, name))
+            continue
+        if isinstance(value.type, Elementary) and value.type.kind is Kind.CHAR:
+            value = standard_fold.intrinsic("CHAR_STR", StringType(1, value.type.size), (value,))
+        if not isinstance(value.type, StringType):
+            raise body.report.reject("T002", f"`{name}` needs a STRING, not {settle(value).type}.", node.span)
+        args.append(value)
+    strings = [arg.type for arg in args if isinstance(arg.type, StringType)]
+    if any(each.width != strings[0].width for each in strings):
+        raise body.report.reject(
+            "T002", f"`{name}` cannot join STRING and WSTRING; convert one with STRING_TO_WSTRING.", node.span
         )
-
-    # ---- conversions ------------------------------------------------------------------------------------
-
-    def _user_type(self, name: str, node: tree.Call) -> Type | None:
-        if not self.declarations.find_type(name, node.span):
-            return None
-        type = self.declarations.named(name, node.span)
-        return type if isinstance(type, Elementary | StringType) else None
-
-    def _misspelt(self, node: tree.Call, name: str) -> None:
-        """Refuses `INT_TO_FOO` by the part of it that is no type."""
-        source, _, target = name.partition("_TO_")
-        known = [*ELEMENTARY, *conversions.SHORT, *conversions.STRINGS]
-        for part, other in ((target, source), (source, target)):
-            if other in known and part and part not in known:
-                hint = did_you_mean(part, known)
-                raise self.report.reject(
-                    "T001", f"There is no function `{name}`: `{part}` is no type to convert.{hint}", node.span
-                )
-
-    def _conversion(self, node: tree.Call, name: str, wanted: Type | None) -> Expr | None:
-        parsed = conversions.parse_name(name, lambda part: self._user_type(part, node))
-        if parsed is None:
-            self._misspelt(node, name)
-            return None
-        value_tree = self.arguments(node, name, Special(("IN",), ""))[0]
-        source, target = parsed.source, parsed.target
-        if source is None:
-            value = settle(self.expr(value_tree))
-        else:
-            value = self.as_type(value_tree, source, f"What {name} takes")
-        if target is None:
-            whole = isinstance(wanted, Elementary) and wanted.kind in (Kind.INT, Kind.UINT)
-            target = wanted if whole and wanted is not None else DINT
-        raw = in_library(node.span)
-        result = conversions.convert(value, target, parsed.way, self.library, raw)
-        if isinstance(result, str):
-            raise self.report.reject("T002", f"There is no conversion {name}{result}", node.span)
-        if not raw and isinstance(value.type, Elementary) and (value.type.name, target.name) in conversions.BITCASTS:
-            number = "UDINT" if value.type.size == 4 else "ULINT"
-            self.report.warn(
-                "W003",
-                f"`{name}` copies the bits, as the standard says; other tools convert the number. For the number write "
-                f"{number}_TO_{target}({value.type}_TO_{number}(...)).",
-                node.span,
-            )
+    if row.result == "INT":
+        return standard_fold.intrinsic(row.intrinsic, INT, tuple(args))
+    if row.variadic:
+        result = args[0]
+        for arg in args[1:]:
+            result = standard_fold.intrinsic(row.intrinsic, _capacity(result, arg), (result, arg))
         return result
+    kept = args[:1] if row.result == "first" else args
+    return standard_fold.intrinsic(row.intrinsic, _capacity(*kept), tuple(args))
+
+
+def _special(
+    body: Body, node: tree.Call, name: str, base: str, row: Special, wanted: Type | None, typed: Elementary | None
+) -> Expr:
+    values = checked(body, node, name, row, typed or wanted)
+    if typed is not None and base not in ("IS_VALID", "TIME", "LTIME"):
+        values = alike(body, values, node.span, name, None, typed)
+    match base:
+        case "TIME" | "LTIME":
+            return standard_fold.intrinsic("CLOCK", LTIME if base == "LTIME" else TIME, ())
+        case "MOVE":
+            return values[0]
+        case "NOT":
+            return _not(body, node, values[0], wanted)
+        case "IS_VALID":
+            return _is_valid(body, node, name, settle(values[0]))
+        case "__CODE_AT":
+            position = integer(body, values[1], node.span, name)
+            return fold.convert(INT, standard_fold.intrinsic("CHAR_AT", CHAR, (values[0], position)))
+        case "MUL_TIME" | "DIV_TIME" | "MUL_LTIME" | "DIV_LTIME" | "MULTIME" | "DIVTIME":
+            time = coerce(body, values[0], LTIME if "_L" in base else TIME, node.span, "`IN1`")
+            return operate(body, base[:3].lower(), time, values[1], node.span)
+    return _byte_order(body, node, name, values[0], wanted)
+
+
+def _not(body: Body, node: tree.Call, value: Expr, wanted: Type | None) -> Expr:
+    value = settle(value) if wanted is None else value
+    if isinstance(wanted, Elementary) and wanted.kind is Kind.BITS and isinstance(value, Const):
+        value = coerce(body, value, wanted, node.span, "`IN`")
+    if not isinstance(value.type, Elementary) or value.type.kind not in (Kind.BOOL, Kind.BITS):
+        raise body.report.reject("T002", f"`NOT` needs BOOL or a bit string, not {settle(value).type}.", node.span)
+    return fold.unary("not", value.type, value)
+
+
+def _is_valid(body: Body, node: tree.Call, name: str, value: Expr) -> Expr:
+    if not isinstance(value.type, Elementary) or value.type.kind is not Kind.REAL:
+        raise body.report.reject("T002", f"`{name}` needs a REAL or LREAL, not {value.type}.", node.span)
+    size = standard_fold.intrinsic("ABS", value.type, (value,))
+    return Compare("le", BOOL, size, Const(value.type, LARGEST[value.type.size]))
+
+
+def _byte_order(body: Body, node: tree.Call, name: str, value: Expr, wanted: Type | None) -> Expr:
+    """The image is little endian; big endian is the other way round."""
+    if isinstance(value, Const) and isinstance(wanted, Elementary) and wanted.kind in conversions.WHOLE:
+        value = coerce(body, value, wanted, node.span, "`IN`")
+    value = settle(value)
+    type = value.type
+    if not isinstance(type, Elementary) or type.kind in (Kind.REAL, Kind.REF):
+        hint = ""
+        if isinstance(type, Elementary) and type.kind is Kind.REAL:
+            hint = f" Take its bits with {type}_TO_{'DWORD' if type.size == 4 else 'LWORD'} first."
+        raise body.report.reject("T002", f"`{name}` cannot work on {type}.{hint}", node.span)
+    return standard_fold.intrinsic("SWAP", type, (value,)) if name.endswith("BIG_ENDIAN") and type.size > 1 else value
+
+
+def _user_type(body: Body, name: str, node: tree.Call) -> Type | None:
+    if not body.declarations.find_type(name, node.span):
+        return None
+    type = body.declarations.named(name, node.span)
+    return type if isinstance(type, Elementary | StringType) else None
+
+
+def _misspelt(body: Body, node: tree.Call, name: str) -> None:
+    """Refuses `INT_TO_FOO` by the part of it that is no type."""
+    source, _, target = name.partition("_TO_")
+    known = [*ELEMENTARY, *conversions.SHORT, *conversions.STRINGS]
+    for part, other in ((target, source), (source, target)):
+        if other in known and part and part not in known:
+            hint = did_you_mean(part, known)
+            raise body.report.reject(
+                "T001", f"There is no function `{name}`: `{part}` is no type to convert.{hint}", node.span
+            )
+
+
+def _conversion(body: Body, node: tree.Call, name: str, wanted: Type | None) -> Expr | None:
+    parsed = conversions.parse_name(name, lambda part: _user_type(body, part, node))
+    if parsed is None:
+        _misspelt(body, node, name)
+        return None
+    value_tree = ordered(body, node, name, Special(("IN",), ""))[0]
+    source, target = parsed.source, parsed.target
+    if source is None:
+        value = settle(body.expression(value_tree))
+    else:
+        value = as_type(body, value_tree, source, f"What {name} takes")
+    if target is None:
+        whole = isinstance(wanted, Elementary) and wanted.kind in (Kind.INT, Kind.UINT)
+        target = wanted if whole and wanted is not None else DINT
+    raw = in_library(node.span)
+    result = conversions.convert(value, target, parsed.way, partial(_library, body), raw)
+    if isinstance(result, str):
+        raise body.report.reject("T002", f"There is no conversion {name}{result}", node.span)
+    if not raw and isinstance(value.type, Elementary) and (value.type.name, target.name) in conversions.BITCASTS:
+        number = "UDINT" if value.type.size == 4 else "ULINT"
+        body.report.warn(
+            "W003",
+            f"`{name}` copies the bits, as the standard says; other tools convert the number. For the number write "
+            f"{number}_TO_{target}({value.type}_TO_{number}(...)).",
+            node.span,
+        )
+    return result
+
+
+def _library(body: Body, name: str, *args: Expr) -> Expr | None:
+    return body.effects.library(body, name, args)
 
 
 def _capacity(*args: Expr) -> StringType:

@@ -4,12 +4,11 @@ A value outside of its subrange is brought back to the nearer bound and recorded
 with what it may count on. What can be proven needless is listed, but not run; `redundant_checks.py` finds more of it.
 """
 
-from abc import abstractmethod
 from collections.abc import Iterator
 from contextlib import contextmanager
 from dataclasses import replace
 
-from scanbench.check.body.checker import PouChecker
+from scanbench.check.body.context import Body
 from scanbench.check.body.harmless import again, again_at, limited
 from scanbench.check.body.notes import note_of
 from scanbench.problems import Span
@@ -27,9 +26,7 @@ from scanbench.program.program import (
     Load,
     Place,
     Sequence,
-    Violates,
 )
-from scanbench.program.shown import shown
 from scanbench.program.types import BOOL, Elementary, Kind, Member, Subrange, base_of
 from scanbench.program.untyped import bounds
 from scanbench.syntax import tree
@@ -37,125 +34,109 @@ from scanbench.syntax import tree
 WHOLE = (Kind.INT, Kind.UINT, Kind.BITS)
 
 
-class SubrangeChecker(PouChecker):
-    explicit: tuple[tree.Expression, ...] = ()
-    """Arguments of calls with EN or ENO that are being checked."""
+def read(body: Body, place: Place, span: Span, variable: str) -> Expr:
+    """The value of a variable; that of a subrange variable is checked, and has the base type."""
+    if not isinstance(place.type, Subrange):
+        return Load(place)
+    if not body.effects.embeds:
+        return Load(replace(place, type=base_of(place.type)))
+    return _limit(body, Load(place), place.type, span, variable)
 
-    def read(self, place: Place, span: Span, variable: str) -> Expr:
-        """The value of a variable; that of a subrange variable is checked, and has the base type."""
-        if not isinstance(place.type, Subrange):
-            return Load(place)
-        return self._limit(Load(place), place.type, span, variable)
 
-    def plain(self, expr: Expr, span: Span, variable: str = "the value") -> Expr:
-        """Checks a subrange value that comes from elsewhere than `read`."""
-        if not isinstance(expr.type, Subrange):
-            return expr
-        match expr:
-            case Load(place):
-                return self.read(place, span, variable)
-            case CallFunction(type=Elementary() as type):
-                return replace(expr, type=base_of(type))  # checked where the function assigned it
-            case Sequence(body, value):
-                return Sequence(body, self.plain(value, span, variable))
-        raise AssertionError(expr)
+def plain(body: Body, expr: Expr, span: Span, variable: str = "the value") -> Expr:
+    """Checks a subrange value that comes from elsewhere than `read`."""
+    if not isinstance(expr.type, Subrange):
+        return expr
+    match expr:
+        case Load(place):
+            return read(body, place, span, variable)
+        case CallFunction(type=Elementary() as type):
+            return replace(expr, type=base_of(type))  # checked where the function assigned it
+        case Sequence(first, value):
+            return Sequence(first, plain(body, value, span, variable))
+    raise AssertionError(expr)
 
-    def into(self, expr: Expr, type: Subrange, span: Span, variable: str) -> Expr:
-        """A value of the base type, checked on its way into a subrange variable."""
-        if isinstance(expr, Const):
-            value = expr.value
-            if isinstance(value, int) and not type.low <= value <= type.high:
-                raise self.report.reject("S004", f"{value} is outside of {_named(type)}.", span)
-        return self._limit(expr, type, span, variable)
 
-    def _limit(self, expr: Expr, type: Subrange, span: Span, variable: str) -> Expr:
-        if self.pou is None:
-            return expr  # among declarations everything is constant
-        base = base_of(type)
-        site = CheckSite(span, self.scope.pou, variable, type.low, type.high, _proof(expr, type))
-        number = self.report.check(site)
-        return expr if site.needless else Limit(base, expr, type.low, type.high, number)
+def into(body: Body, expr: Expr, type: Subrange, span: Span, variable: str) -> Expr:
+    """A value of the base type, checked on its way into a subrange variable."""
+    if isinstance(expr, Const):
+        value = expr.value
+        if isinstance(value, int) and not type.low <= value <= type.high:
+            raise body.report.reject("S004", f"{value} is outside of {_named(type)}.", span)
+    return _limit(body, expr, type, span, variable)
 
-    # ---- explicit mode ----------------------------------------------------------------------------------
 
-    def explicit_check(self, node: tree.Call, name: str) -> Expr:
-        """`EN_CHECK(ENO)` records the place when ENO is FALSE; `SUBRANGE_ERROR(v)` only looks. Both are TRUE then."""
-        if len(node.arguments) != 1 or node.arguments[0].value is None or node.arguments[0].output:
-            formal = "ENO" if name == "EN_CHECK" else "IN"
-            raise self.report.reject("T004", f"`{name}` takes one argument, {formal}.", node.span)
-        value = node.arguments[0].value
-        if name == "EN_CHECK":
-            eno = self.coerce(self.expr(value, BOOL), BOOL, value.span, "`ENO`")
-            number = self.report.check(CheckSite(node.span, self.scope.pou, "EN_CHECK", 1, 1))
-            return Violates(BOOL, eno, 1, 1, number)
-        place, member = self.place(value)
-        if not isinstance(place.type, Subrange):
-            raise self.report.reject(
-                "T002",
-                f"`SUBRANGE_ERROR` needs a variable with a subrange; `{shown(value)}` is {place.type}.",
-                node.span,
-            )
-        return Violates(BOOL, self.as_written(place, member), place.type.low, place.type.high, 0)
+def _limit(body: Body, expr: Expr, type: Subrange, span: Span, variable: str) -> Expr:
+    if body.pou is None:
+        return expr  # among declarations everything is constant
+    base = base_of(type)
+    site = CheckSite(span, body.scope.pou, variable, type.low, type.high, _proof(expr, type))
+    number = body.report.check(site)
+    return expr if site.needless else Limit(base, expr, type.low, type.high, number)
 
-    @contextmanager
-    def explicitly(self, node: tree.Call) -> Iterator[None]:
-        """The variables that this call takes, which has EN or ENO, are read as they were written meanwhile."""
-        before = self.explicit
-        self.explicit = (
-            *before,
-            *(each.value for each in node.arguments if each.value is not None and not each.output),
-        )
-        try:
-            yield
-        finally:
-            self.explicit = before
 
-    def as_written(self, place: Place, member: Member | None) -> Expr:
-        """The value of a subrange variable before any check limits it, as one of the base type."""
-        type = place.type
-        assert isinstance(type, Subrange)
-        base = base_of(type)
-        there, note = Load(replace(place, type=base)), self.note(place, member)
-        if note is None:
-            return there
-        kept = Load(note)
-        valid = Compare("eq", BOOL, limited(base, kept, type.low, type.high), there)
-        once_more = again(there)
-        assert once_more is not None
-        return Intrinsic("SEL", base, (valid, once_more, kept))
+@contextmanager
+def explicitly(body: Body, node: tree.Call) -> Iterator[None]:
+    """The variables that this call takes, which has EN or ENO, are read as they were written meanwhile."""
+    before = body.explicit
+    body.explicit = (
+        *before,
+        *(each.value for each in node.arguments if each.value is not None and not each.output),
+    )
+    try:
+        yield
+    finally:
+        body.explicit = before
 
-    def note(self, place: Place, member: Member | None) -> Place | None:
-        """Where the variable's value is kept as it was written."""
-        same = None if member is None or member.note is None else again_at(place)
-        if same is None or member is None:
-            return None
-        found = self.scope.find(member.name)
-        own = found is not None and found[0] is member and self.scope.this is None
-        return note_of(same, member, found[1] if own and found is not None else None)
 
-    def noting(self, place: Place, member: Member | None) -> Place | None:
-        """The note that an assignment to the variable writes."""
-        return self.note(place, member)
+def as_written(body: Body, place: Place, member: Member | None) -> Expr:
+    """The value of a subrange variable before any check limits it, as one of the base type."""
+    type = place.type
+    assert isinstance(type, Subrange)
+    base = base_of(type)
+    there, note = Load(replace(place, type=base)), _note_of(body, place, member)
+    if note is None:
+        return there
+    kept = Load(note)
+    valid = Compare("eq", BOOL, limited(base, kept, type.low, type.high), there)
+    once_more = again(there)
+    assert once_more is not None
+    return Intrinsic("SEL", base, (valid, once_more, kept))
 
-    def with_note(self, value: Expr, type: Subrange, span: Span) -> tuple[Expr, Expr]:
-        """An argument that is a subrange value, and the same as it was before it was limited."""
-        same = again(value.value if isinstance(value, Limit) else value)
-        if same is not None:
-            return value, same
-        kept = self.temporary(base_of(type), span)
-        return self.keeping(value, kept, span), Load(kept)
 
-    def keeping(self, value: Expr, note: Place | None, span: Span) -> Expr:
-        """A value on its way into a subrange variable; the note takes it as it is before it is limited."""
-        if note is None:
-            return value
-        if isinstance(value, Limit):
-            return Sequence((Assign(note, value.value, span),), replace(value, value=Load(note)))
-        return Sequence((Assign(note, value, span),), value if isinstance(value, Const) else Load(note))
+def _note_of(body: Body, place: Place, member: Member | None) -> Place | None:
+    """Where the variable's value is kept as it was written."""
+    same = None if member is None or member.note is None else again_at(place)
+    if same is None or member is None:
+        return None
+    found = body.scope.find(member.name)
+    own = found is not None and found[0] is member and body.scope.this is None
+    return note_of(same, member, found[1] if own and found is not None else None)
 
-    @abstractmethod
-    def place(self, node: tree.Expression) -> tuple[Place, Member | None]:
-        """The variable itself; see `PlaceChecker`."""
+
+def noting(body: Body, place: Place, member: Member | None) -> Place | None:
+    """The note that an assignment to the variable writes."""
+    return _note_of(body, place, member) if body.effects.embeds else None
+
+
+def with_note(body: Body, value: Expr, type: Subrange, span: Span) -> tuple[Expr, Expr]:
+    """An argument that is a subrange value, and the same as it was before it was limited."""
+    if not body.effects.embeds:
+        return value, value
+    same = again(value.value if isinstance(value, Limit) else value)
+    if same is not None:
+        return value, same
+    kept = body.temporary(base_of(type), span)
+    return keeping(body, value, kept, span), Load(kept)
+
+
+def keeping(body: Body, value: Expr, note: Place | None, span: Span) -> Expr:
+    """A value on its way into a subrange variable; the note takes it as it is before it is limited."""
+    if note is None:
+        return value
+    if isinstance(value, Limit):
+        return Sequence((Assign(note, value.value, span),), replace(value, value=Load(note)))
+    return Sequence((Assign(note, value, span),), value if isinstance(value, Const) else Load(note))
 
 
 def _proof(expr: Expr, type: Subrange) -> str:

@@ -1,6 +1,8 @@
 """What a CONFIGURATION wires once everything has a place: inputs and outputs of program instances, events of tasks."""
 
-from scanbench.check.body.calls import CallChecker
+from scanbench.check.body.bodies import body_of
+from scanbench.check.body.coercion import as_type, coerce
+from scanbench.check.body.targets import target
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare.declare import Declarations
 from scanbench.check.declare.scopes import Pous, Scope
@@ -44,12 +46,12 @@ class Wiring:
             externals=_roots(variables, instances, resources),
             system=(declarations.symbols,),
         )
-        self._checker = CallChecker(report, declarations, pous, scope, None)
+        self._body = body_of(report, declarations, pous, scope, None)
 
     def event(self, node: tree.Expression) -> Place | None:
         """The BOOL whose rising edge starts a task."""
         try:
-            place, _ = self._checker.place(node)
+            place, _ = self._body.place(node)
             if place.type != BOOL:
                 raise self._report.reject("D010", f"SINGLE is a BOOL variable, not {place.type}.", node.span)
             self._fixed(place, node.span)
@@ -61,7 +63,7 @@ class Wiring:
         self, instance: ProgramInstance, declaration: tree.ProgramDeclaration
     ) -> tuple[tuple[Stmt, ...], tuple[Stmt, ...]]:
         """What is copied before the program runs, and after."""
-        self._checker.pou = instance.pou  # values are run, so subranges are checked
+        self._body.pou = instance.pou  # values are run, so subranges are checked
         before: list[Stmt] = []
         after: list[Stmt] = []
         seen: set[str] = set()
@@ -98,12 +100,12 @@ class Wiring:
             raise self._report.reject(
                 "T004", "A program is connected to a variable, an address or a literal; compute in the program.", value.span
             )  # fmt: skip
-        own, _ = self._checker.place(_path(instance.name, member.name, span))
+        own, _ = self._body.place(_path(instance.name, member.name, span))
         if argument.output:
-            target = self._checker.target(value)
-            self._fixed(target, value.span)
-            return Assign(target, self._checker.coerce(Load(own), target.type, span, f"`{shown(value)}`"), span)
-        checked = self._checker.as_type(value, own.type, f"`{member.name}`")
+            wired = target(self._body, value)
+            self._fixed(wired, value.span)
+            return Assign(wired, coerce(self._body, Load(own), wired.type, span, f"`{shown(value)}`"), span)
+        checked = as_type(self._body, value, own.type, f"`{member.name}`")
         if isinstance(checked, Load):
             self._fixed(checked.place, value.span)
         return Assign(own, checked, span)

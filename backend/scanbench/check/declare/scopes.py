@@ -2,7 +2,6 @@
 
 import struct
 from dataclasses import dataclass, field
-from typing import TYPE_CHECKING
 
 from scanbench.check.declare.classes import Classes
 from scanbench.check.declare.names import Space
@@ -22,9 +21,6 @@ from scanbench.program.types import (
     base_of,
 )
 from scanbench.syntax import tree
-
-if TYPE_CHECKING:
-    from scanbench.check.body.generic import Instance
 
 
 @dataclass(slots=True)
@@ -102,6 +98,14 @@ def decode(type: Type, data: bytes) -> Const | None:
     return Const(plain, int.from_bytes(data, "little", signed=type.signed))
 
 
+@dataclass(frozen=True, slots=True)
+class Instance:
+    """A generic FUNCTION for certain types; its body is checked when all others are."""
+
+    pou: Pou
+    declaration: tree.PouDeclaration
+
+
 @dataclass(slots=True)
 class Pous:
     """The POUs that can be called, by upper-case name, and who calls whom."""
@@ -111,7 +115,7 @@ class Pous:
     classes: Classes = field(default_factory=Classes)
     generic: dict[str, tree.PouDeclaration] = field(default_factory=dict)
     """FUNCTIONs with parameters of ANY_NUM and its like."""
-    instances: dict[str, "Instance"] = field(default_factory=dict)
+    instances: dict[str, Instance] = field(default_factory=dict)
     """Those that are called, for each combination of types."""
     dispatchers: dict[str, Pou] = field(default_factory=dict)
     """Generated POUs that go on to the method or body of an instance's class, by name."""

@@ -7,7 +7,9 @@ inputs are refreshed in every scan; so who wants to try something else forces it
 import re
 from dataclasses import dataclass, field, replace
 
-from scanbench.check.body.calls import CallChecker
+from scanbench.check.body.bodies import body_of
+from scanbench.check.body.context import Body
+from scanbench.check.body.targets import target, writable
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare.declare import Declarations
 from scanbench.check.declare.scopes import Pous, Scope, place_of
@@ -97,14 +99,14 @@ class StimulusChecker:
     pou: Pou = field(init=False)
     driven: list[Driven] = field(init=False, default_factory=list)
     """What its columns drive, as far as they are right."""
-    _checker: CallChecker = field(init=False)
+    _body: Body = field(init=False)
 
     def __post_init__(self) -> None:
         name = name_of(self.stimulus)
         instance, frame = Record(name, Kind.BLOCK), Record(name, Kind.STRUCT)
         self.pou = Pou(name, "program", instance, frame, (), None, self.stimulus.span)
         scope = Scope(name, self.variables, frame=frame, system=(self.declarations.symbols,), who="engine")
-        self._checker = CallChecker(self.report, self.declarations, self.pous, scope, None)
+        self._body = body_of(self.report, self.declarations, self.pous, scope, None)
 
     def make(self) -> Pou:
         """The program; without a body when something is wrong."""
@@ -116,7 +118,7 @@ class StimulusChecker:
             except Rejected:
                 continue
         if len(made) == len(self.stimulus.columns):
-            self.pou.body = _Body(self.report, self.pou, self.stimulus).statements(made)
+            self.pou.body = _Statements(self.report, self.pou, self.stimulus).statements(made)
         return self.pou
 
     # ---- where values go ----------------------------------------------------------------------------------
@@ -137,8 +139,8 @@ class StimulusChecker:
             raise self.report.reject("S003", "This column has no name: write an address or a variable.", span)
         first = _FIRST.match(text)
         name = first.group(1) if first else ""
-        if name and self._checker.scope.find(name) is not None:
-            return self._simple(self._checker.target(self._parsed(text, span)), text, span)
+        if name and self._body.scope.find(name) is not None:
+            return self._simple(target(self._body, self._parsed(text, span)), text, span)
         record = self.programs.get(name.upper())
         if record is not None and first is not None:
             return self._located(record, text, text[first.end() :].lstrip(". "), span)
@@ -154,7 +156,7 @@ class StimulusChecker:
             raise self.report.reject("T001", f"There is no variable and no address `{text}`.{hint}", span)
         offset = self.declarations.areas[location.area.name] + location.byte
         place = Place(_ADDRESSED[location.bits], Base.IMAGE, offset, bit=location.bit, variable="@")
-        self._checker.writable(place, span)
+        writable(self._body, place, span)
         return place
 
     def _parsed(self, text: str, span: Span) -> tree.Expression:
@@ -190,7 +192,7 @@ class StimulusChecker:
                 "Use an address or a VAR_GLOBAL.", span,
             )  # fmt: skip
         place = place_of(member, Base.IMAGE, record, 0)
-        self._checker.writable(place, span)
+        writable(self._body, place, span)
         return self._simple(place, text, span)
 
     # ---- what goes there ----------------------------------------------------------------------------------
@@ -237,7 +239,7 @@ class StimulusChecker:
         return data.ljust(type.size, b"\0")
 
 
-class _Body:
+class _Statements:
     """The statements: which row it is, then what that row and those before it say."""
 
     def __init__(self, report: Report, pou: Pou, stimulus: tree.Stimulus) -> None:

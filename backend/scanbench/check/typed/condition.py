@@ -7,21 +7,27 @@ A condition looks, and changes nothing: no calls but of standard functions, no r
 
 import re
 from collections.abc import Callable
-from dataclasses import dataclass, replace
+from dataclasses import dataclass
 from functools import cached_property
 from typing import TypeVar
 
-from scanbench.check.body.calls import CallChecker
+from scanbench.check.body import objects, places
+from scanbench.check.body.bodies import body_of
+from scanbench.check.body.coercion import constant
+from scanbench.check.body.context import Body, Call, Found, Lookup
+from scanbench.check.body.enumerations import value_of_type
 from scanbench.check.body.objects import dotted
-from scanbench.check.body.places import Found
+from scanbench.check.body.standard_calls import standard_call
+from scanbench.check.body.subrange_checks import plain
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare.declare import Declarations
 from scanbench.check.declare.scopes import Pous, Scope
 from scanbench.check.standard.functions import FUNCTIONS
+from scanbench.check.typed.looking import NOWHERE, Looking
 from scanbench.check.typed.passed_on import Unclear, behind_copies, passed_on
 from scanbench.plcmodel.model import Location
 from scanbench.problems import Problem, Span, perhaps
-from scanbench.program.program import Base, Const, Convert, Expr, Load, Place, Program, Stmt
+from scanbench.program.program import Base, Const, Expr, Place, Program
 from scanbench.program.types import (
     BOOL,
     ArrayType,
@@ -33,9 +39,7 @@ from scanbench.program.types import (
     Record,
     Reference,
     Section,
-    Subrange,
     Type,
-    base_of,
     has_instance,
 )
 from scanbench.program.untyped import settle
@@ -56,7 +60,7 @@ EXAMPLES = {
     "assignment": "Write one, e.g. `a := 1;`",
 }
 """What may be wanted of a text."""
-NOWHERE = Span("condition", 1, 1, 1, 1)
+LOOKING = Looking()
 _SPACED = re.compile(r"'(?:\$.|[^$'])*'|\"(?:\$.|[^$\"])*\"|\b([A-Za-z]+) (\d{1,9}(?:\.\d{1,2})?)\b")
 """`CIO 0.00`, which has a space inside; texts in quotes are passed over."""
 
@@ -99,23 +103,24 @@ class BadCondition:
 
 def compile_condition(program: Program, text: str) -> Condition | BadCondition:
     """The condition that the text says about this program, or what is wrong with it."""
-    return _compiled(program, text, "condition", lambda checker, node: Condition(text, checker.condition(node)))
+    return _compiled(program, text, "condition", lambda body, node: Condition(text, condition_of(body, node)))
 
 
 def compile_signal(program: Program, text: str) -> Signal | BadCondition:
     """The value that the text says about this program: a number, a BOOL, a time; or what is wrong with it."""
-    return _compiled(program, text, "signal", lambda checker, node: checker.signal(node, text))
+    return _compiled(program, text, "signal", lambda body, node: _signal_of(body, node, text))
 
 
 def _compiled(
-    program: Program, text: str, what: str, made: Callable[["ProgramChecker", tree.Expression], Made]
+    program: Program, text: str, what: str, made: Callable[[Body, tree.Expression], Made]
 ) -> Made | BadCondition:
     node = unreadable(text, what) or parsed(joined(program, text), what)
     if isinstance(node, BadCondition):
         return node
     report = Report()
     try:
-        return made(ProgramChecker(Visible(program), report), node)
+        visible = Visible(program)
+        return made(program_body(visible, report, visible.scope, ProgramLookup(visible), _call), node)
     except Rejected:
         problem = report.problems[0]
         return bad_condition(problem, near_names(program, text, problem) if problem.code == "T001" else (), what)
@@ -194,151 +199,118 @@ class Visible:
         return Calls(self.program)
 
 
-class ProgramChecker(CallChecker):
-    """The checker of expressions, in a scope that is made of a whole program: all of it can be seen, nothing changed."""
+class ProgramLookup:
+    """What names mean of a whole program: all of it can be seen; `Lookup` says what each method does."""
 
-    def __init__(self, visible: Visible, report: Report, scope: Scope | None = None) -> None:
-        layout = visible.program.layout
-        declarations = Declarations(report, layout.model, layout.areas, self._constant)
-        for type in visible.enumerations:
-            declarations.types[type.name.upper()] = type
-            declarations.values.add_inline("GLOBAL", type)
-        super().__init__(report, declarations, Pous(), scope or visible.scope, None)
-        self.program = visible.program
-        self.visible = visible
+    def __init__(self, visible: Visible) -> None:
+        self._visible = visible
+        self._program = visible.program
 
-    def condition(self, node: tree.Expression) -> Expr:
-        """The whole condition."""
-        value = settle(self.plain(self.expr(node, BOOL), node.span))
-        if value.type != BOOL:
-            raise self.report.reject(
-                "T006", f"The condition is {value.type}, and it must be BOOL{_how(value)}", node.span
-            )
-        return value
-
-    def signal(self, node: tree.Expression, text: str) -> Signal:
-        """A whole signal."""
-        value = settle(self.plain(self.expr(node, None), node.span))
-        if not isinstance(value.type, Elementary) or isinstance(value.type, Reference):
-            raise self.report.reject(
-                "T006", f"`{text.strip()}` is {value.type}, and what is recorded over time must be a number, a BOOL or a "
-                "time: name one of its parts.", node.span,
-            )  # fmt: skip
-        return Signal(text, value, value.type)
-
-    def _constant(self, node: tree.Expression, type: Type | None) -> Const:
-        return self.constant(node, type)
-
-    # ---- names ------------------------------------------------------------------------------------------
-
-    def _named(self, name: str, span: Span) -> Found:
-        if self.scope.find(name) is None:
-            access = next((each for each in self.program.accesses if each.name.upper() == name.upper()), None)
+    def variable(self, body: Body, name: str, span: Span) -> Found:
+        if body.scope.find(name) is None:
+            access = next((each for each in self._program.accesses if each.name.upper() == name.upper()), None)
             if access is not None:
                 inner = parsed(access.path)
                 assert not isinstance(inner, BadCondition), inner
-                return self.place(inner)
-            location = self.program.layout.model.locate(name)
+                return body.place(inner)
+            location = self._program.layout.model.locate(name)
             if location is not None:
                 return self._at(location), None
-        return super()._named(name, span)
+        return objects.variable(body, name, span)
 
-    def raw_place(self, node: tree.Expression) -> Found:
-        if isinstance(node, tree.PartialAccess) and isinstance(node.owner, tree.Name) and node.size == "X":
-            name = node.owner.name
-            located = self.program.layout.model.locate(f"{name}.{node.index}")
-            if located is not None and self.scope.find(name) is None:
-                return self._at(located), None
-        return super().raw_place(node)
+    def bit(self, body: Body, node: tree.PartialAccess) -> Place | None:
+        if not isinstance(node.owner, tree.Name) or node.size != "X" or body.scope.find(node.owner.name) is not None:
+            return None
+        location = self._program.layout.model.locate(f"{node.owner.name}.{node.index}")
+        return None if location is None else self._at(location)
 
-    def inside(self, place: Place, record: Record, member: Member, span: Span) -> Place:
-        """Of an in-out the variable itself, as everywhere in tools: also where blocks passed on their copies."""
-        inner = super().inside(place, record, member, span)
-        copies = self.program.layout.copies.all
+    def _at(self, location: Location) -> Place:
+        offset = self._program.layout.areas[location.area.name] + location.byte
+        return Place(RAW_TYPES[location.bits], Base.IMAGE, offset, bit=location.bit, variable="@")
+
+    def unknown(self, body: Body, name: str, span: Span) -> Rejected:
+        try:
+            resolve(self._program, name)
+        except UnknownPath as error:
+            return body.report.reject("T001", f"{error.message}{perhaps(error.near)}", span)
+        return objects.unknown(body, name, span)
+
+    def inside(self, body: Body, place: Place, record: Record, member: Member, span: Span) -> Place:
+        try:
+            return self.followed(place, record, member)
+        except Unclear as error:
+            raise body.report.reject(
+                "X001", f"Which variable the in-out `{member.name}` is cannot be told here: {error}. Name the variable itself, or "
+                "the instance with its path and numbers as indices.", span,
+            ) from error  # fmt: skip
+
+    def followed(self, place: Place, record: Record, member: Member) -> Place:
+        """Of an in-out the variable itself, as everywhere in tools: also where blocks passed on their copies. Raises `Unclear`."""
+        inner = places.inside(place, record, member)
+        copies = self._program.layout.copies.all
         if member.section is not Section.IN_OUT or inner.slot is None or not copies or has_instance(member.type):
             return inner
         known = place.base is Base.IMAGE and place.slot is None and place.reference is None and not place.indices
-        try:
-            found = passed_on(self.program, self.visible.calls, place.offset if known else None, record, member)
-        except Unclear as error:
-            return self.unclear(inner, member, str(error), span)
+        found = passed_on(self._program, self._visible.calls, place.offset if known else None, record, member)
         return behind_copies(inner.slot, member, found) if found else inner
 
-    def unclear(self, inner: Place, member: Member, reason: str, span: Span) -> Place:
-        """Where an in-out may have been passed on, and nobody knows by whom; `inner` is what its own call passed."""
-        raise self.report.reject(
-            "X001", f"Which variable the in-out `{member.name}` is cannot be told here: {reason}. Name the variable itself, or "
-            "the instance with its path and numbers as indices.", span,
-        )  # fmt: skip
+    def this(self, body: Body, word: str, span: Span) -> Place:
+        return objects.this(body, word, span)
 
-    def part(self, place: Place, size: str, index: int, span: Span) -> Place:
-        return super().part(place, size.upper(), index, span)
+    def this_trap(self, body: Body) -> int:
+        return objects.this_trap(body)
 
-    def _part_value(self, node: tree.PartialAccess) -> Expr:
-        if isinstance(node.owner, tree.Name) and self.scope.find(node.owner.name) is None:
-            return Load(self.place(node)[0])
-        return super()._part_value(node)
-
-    def _at(self, location: Location) -> Place:
-        offset = self.program.layout.areas[location.area.name] + location.byte
-        return Place(RAW_TYPES[location.bits], Base.IMAGE, offset, bit=location.bit, variable="@")
-
-    def unknown(self, name: str, span: Span) -> Rejected:
-        try:
-            resolve(self.program, name)
-        except UnknownPath as error:
-            return self.report.reject("T001", f"{error.message}{perhaps(error.near)}", span)
-        return super().unknown(name, span)
-
-    def may_use(self, record: Record, member: Member) -> bool:
+    def may_use(self, body: Body, record: Record, member: Member) -> bool:
         return not member.hidden
 
-    def qualified_value(self, node: tree.MemberOf) -> Const | None:
-        """`Color.RED`."""
+    def qualified_value(self, body: Body, node: tree.MemberOf) -> Const | None:
         owner = dotted(node.owner)
-        if owner is None or self.scope.find(owner.split(".")[0]) is not None:
+        if owner is None or body.scope.find(owner.split(".")[0]) is not None:
             return None
-        type = self.declarations.types.get(owner.upper())
-        return self.value_of_type(owner, node.name, node.span) if isinstance(type, Enumeration) else None
+        type = body.declarations.types.get(owner.upper())
+        return value_of_type(body, owner, node.name, node.span) if isinstance(type, Enumeration) else None
 
-    # ---- nothing is changed -----------------------------------------------------------------------------
 
-    def read(self, place: Place, span: Span, variable: str) -> Expr:
-        """What is there, unchecked: a check would record a violation."""
-        return Load(replace(place, type=base_of(place.type)) if isinstance(place.type, Subrange) else place)
+def program_body(visible: Visible, report: Report, scope: Scope, lookup: Lookup, call: Call) -> Body:
+    """What checks an expression in a scope that is made of a whole program; nothing of it is changed."""
+    layout = visible.program.layout
+    declarations = Declarations(report, layout.model, layout.areas, lambda node, type: constant(body, node, type))
+    for each in visible.enumerations:
+        declarations.types[each.name.upper()] = each
+        declarations.values.add_inline("GLOBAL", each)
+    body = body_of(report, declarations, Pous(), scope, None, lookup, LOOKING, call)
+    return body
 
-    def temporary(self, type: Type, span: Span, name: str = "t") -> Place:
-        raise self.report.reject(
-            "X001", "This would have to keep a value meanwhile, which a condition cannot: write AND and OR instead of "
-            "AND_THEN and OR_ELSE (a trap counts as FALSE), and let the program compute the rest into a variable.", span,
+
+def condition_of(body: Body, node: tree.Expression) -> Expr:
+    """The whole condition."""
+    value = settle(plain(body, body.expression(node, BOOL), node.span))
+    if value.type != BOOL:
+        raise body.report.reject("T006", f"The condition is {value.type}, and it must be BOOL{_how(value)}", node.span)
+    return value
+
+
+def _signal_of(body: Body, node: tree.Expression, text: str) -> Signal:
+    value = settle(plain(body, body.expression(node), node.span))
+    if not isinstance(value.type, Elementary) or isinstance(value.type, Reference):
+        raise body.report.reject(
+            "T006", f"`{text.strip()}` is {value.type}, and what is recorded over time must be a number, a BOOL or a "
+            "time: name one of its parts.", node.span,
         )  # fmt: skip
+    return Signal(text, value, value.type)
 
-    def held(self, value: Expr, span: Span) -> tuple[tuple[Stmt, ...], Expr]:
-        """A variable may be read twice instead, as nothing changes it meanwhile."""
-        plain = value.operand if isinstance(value, Convert) else value
-        return ((), value) if isinstance(plain, Load) else super().held(value, span)
 
-    def call(self, node: tree.Call, wanted: Type | None = None) -> Expr:
-        name = dotted(node.callee) or "this"
-        value = self.standard(node, name.upper(), wanted) if "." not in name else None
-        if value is not None:
-            return value
-        hint = "" if "." in name else did_you_mean(name, FUNCTIONS)
-        raise self.report.reject(
-            "X001", f"`{name}` is none of the standard functions that a condition can call.{hint} Code of the program "
-            "and its library is not run for it: store the result in a variable, and name that.", node.span,
-        )  # fmt: skip
-
-    def explicit_check(self, node: tree.Call, name: str) -> Expr:
-        if name == "EN_CHECK":
-            raise self.report.reject("X001", "`EN_CHECK` records what it finds, and a condition only looks.", node.span)
-        return super().explicit_check(node, name)
-
-    def library(self, name: str, *args: Expr) -> Expr | None:
-        raise self.report.reject(
-            "X001", f"`{name}` is written in ST, and a condition runs no such code: store the result in a variable, and "
-            "name that.", NOWHERE,
-        )  # fmt: skip
+def _call(body: Body, node: tree.Call, wanted: Type | None) -> Expr:
+    """Standard functions only."""
+    name = dotted(node.callee) or "this"
+    value = standard_call(body, node, name.upper(), wanted) if "." not in name else None
+    if value is not None:
+        return value
+    hint = "" if "." in name else did_you_mean(name, FUNCTIONS)
+    raise body.report.reject(
+        "X001", f"`{name}` is none of the standard functions that a condition can call.{hint} Code of the program "
+        "and its library is not run for it: store the result in a variable, and name that.", node.span,
+    )  # fmt: skip
 
 
 def _everything(program: Program) -> Record:

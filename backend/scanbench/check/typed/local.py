@@ -5,31 +5,39 @@ in a condition besides: instance paths and addresses. FUNCTIONs of the program c
 cannot. Nothing embeds a check here: whoever stores a value looks at its type.
 """
 
-from collections.abc import Iterator
 from dataclasses import dataclass, replace
 
-from scanbench.check.body.assignments import AssignmentChecker
-from scanbench.check.body.objects import dotted, named_itself
+from scanbench.check.body.arguments import as_value, invoke
+from scanbench.check.body.assignments import assign, latch
+from scanbench.check.body.callees import hides
+from scanbench.check.body.context import Body, Found
+from scanbench.check.body.objects import dotted, named_itself, own
+from scanbench.check.body.places import inside
+from scanbench.check.body.standard_calls import standard_call
+from scanbench.check.body.subrange_checks import plain
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare.names import Space
 from scanbench.check.declare.scopes import Scope, place_of
 from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.check.typed.condition import (
-    NOWHERE,
     BadCondition,
-    ProgramChecker,
+    ProgramLookup,
     Visible,
     bad_condition,
+    condition_of,
     joined,
     near_names,
     parsed,
+    program_body,
     unreadable,
 )
+from scanbench.check.typed.looking import NOWHERE
+from scanbench.check.typed.passed_on import Unclear
 from scanbench.problems import Span
 from scanbench.program.origin import in_library, is_system
-from scanbench.program.program import Assign, Base, Expr, If, Load, Place, Pou, Program, TrapKind, TrapSite
+from scanbench.program.program import Assign, Base, Const, Expr, If, Load, Place, Pou, Program, TrapKind, TrapSite
 from scanbench.program.shown import shown
-from scanbench.program.types import BOOL, Member, Record, Subrange, Type
+from scanbench.program.types import BOOL, Member, Record, Type
 from scanbench.program.untyped import settle
 from scanbench.syntax import tree
 from scanbench.syntax.cursor import Unexpected
@@ -121,35 +129,35 @@ class Locals:
         node = self._parsed(text, "variable")
         if isinstance(node, Bad):
             return node
-        checker = self._checker(pou)
+        typed = self._typed(pou)
         try:
-            place, member = checker.place(node)
+            place, member = typed.body.place(node)
         except Rejected:
-            return self._why(checker, text)
-        return LocalPlace(text, pou, place, member, tuple(checker.report.traps), checker.calls_made)
+            return self._why(typed, text)
+        return LocalPlace(text, pou, place, member, tuple(typed.report.traps), typed.calls)
 
     def assignments(self, pou: Pou | None, text: str) -> LocalAssignments | Bad:
         """`a := a + 1; b := TRUE;`, the last `;` may be left out."""
         nodes = self._parsed_statements(text)
         if isinstance(nodes, Bad):
             return nodes
-        checker = self._checker(pou)
+        typed = self._typed(pou)
         try:
-            made = tuple(each for node in nodes for each in checker.assignments(node))
+            made = tuple(typed.assignment(node) for node in nodes)
         except Rejected:
-            return self._why(checker, text)
-        return LocalAssignments(text, pou, made, tuple(checker.report.traps), checker.calls_made)
+            return self._why(typed, text)
+        return LocalAssignments(text, pou, made, tuple(typed.report.traps), typed.calls)
 
     def _value(self, pou: Pou | None, text: str, wanted: Type | None) -> Local | Bad:
         node = self._parsed(text, "condition" if wanted == BOOL else "expression")
         if isinstance(node, Bad):
             return node
-        checker = self._checker(pou)
+        typed = self._typed(pou)
         try:
-            expr = checker.condition(node) if wanted == BOOL else checker.any_value(node)
+            expr = condition_of(typed.body, node) if wanted == BOOL else typed.value(node)
         except Rejected:
-            return self._why(checker, text)
-        return Local(text, pou, expr, tuple(checker.report.traps), checker.calls_made)
+            return self._why(typed, text)
+        return Local(text, pou, expr, tuple(typed.report.traps), typed.calls)
 
     # ---- parsing ----------------------------------------------------------------------------------------
 
@@ -178,21 +186,21 @@ class Locals:
             made.append(each)
         return tuple(made)
 
-    def _why(self, checker: "_LocalChecker", text: str) -> Bad:
-        problem = checker.report.problems[0]
+    def _why(self, typed: "_Text", text: str) -> Bad:
+        problem = typed.report.problems[0]
         if problem.code != "T001":
             return bad_condition(problem)
-        local = tuple(each for each in dict.fromkeys(checker.scope.names()) if f"`{each}`" in problem.message)
+        local = tuple(each for each in dict.fromkeys(typed.body.scope.names()) if f"`{each}`" in problem.message)
         return bad_condition(problem, local or near_names(self.program, text, problem))
 
     # ---- scopes -----------------------------------------------------------------------------------------
 
-    def _checker(self, pou: Pou | None) -> "_LocalChecker":
+    def _typed(self, pou: Pou | None) -> "_Text":
         scope = self._visible.scope if pou is None else self._scopes.get(pou)
         if scope is None:
             assert pou is not None
             scope = self._scopes[pou] = self._scope(pou)
-        return _LocalChecker(self._visible, scope, self._functions)
+        return _Text(self._visible, scope, self._functions)
 
     def _scope(self, pou: Pou) -> Scope:
         space = Space(pou.name.rpartition(".")[0])
@@ -230,94 +238,105 @@ def _ours(pou: Pou) -> bool:
     return is_system(pou.span) or in_library(pou.span) or pou.name.startswith("__")
 
 
-class _LocalChecker(ProgramChecker, AssignmentChecker):
-    """The checker of one text."""
+class LocalLookup:
+    """What names mean in the scope of a POU, and of the whole program besides; `Lookup` says what each method does."""
+
+    def __init__(self, program: ProgramLookup) -> None:
+        self._program = program
+
+    def variable(self, body: Body, name: str, span: Span) -> Found:
+        return self._program.variable(body, name, span)
+
+    def bit(self, body: Body, node: tree.PartialAccess) -> Place | None:
+        return self._program.bit(body, node)
+
+    def unknown(self, body: Body, name: str, span: Span) -> Rejected:
+        hint = did_you_mean(name, body.scope.names())
+        if not hint:
+            return self._program.unknown(body, name, span)
+        return body.report.reject("T001", f"There is no `{name}` here.{hint}", span)
+
+    def inside(self, body: Body, place: Place, record: Record, member: Member, span: Span) -> Place:
+        try:
+            return self._program.followed(place, record, member)
+        except Unclear:  # what its own call passed, as the statements of the POU see it
+            return inside(place, record, member)
+
+    def this(self, body: Body, word: str, span: Span) -> Place:
+        record = body.scope.instance
+        if record is None:
+            raise body.report.reject("T010", f"{word} is the instance that runs; there is none here.", span)
+        if word.upper() == "SUPER":
+            if record.base is None:
+                raise body.report.reject("T010", f"`{record.name}` extends nothing, so it has no SUPER.", span)
+            record = record.base
+        return own(body, Place(record, Base.SELF, 0))
+
+    def this_trap(self, body: Body) -> int:
+        return body.trap(TrapKind.NULL, NOWHERE, "THIS refers to no instance")
+
+    def may_use(self, body: Body, record: Record, member: Member) -> bool:
+        return self._program.may_use(body, record, member)
+
+    def qualified_value(self, body: Body, node: tree.MemberOf) -> Const | None:
+        return self._program.qualified_value(body, node)
+
+
+class _Text:
+    """One text under check."""
 
     def __init__(self, visible: Visible, scope: Scope, functions: dict[str, Pou]) -> None:
-        super().__init__(visible, Report(), scope)
-        self.pous.functions = functions
-        self.declarations.names.space = scope.space
-        self.calls_made = False
-        self._counters = []
+        self.report = Report()
+        self.calls = False
+        """Whether it runs code of the program."""
+        lookup = LocalLookup(ProgramLookup(visible))
+        self.body = program_body(visible, self.report, scope, lookup, self._call)
+        self.body.pous.functions = functions
+        self.body.declarations.names.space = scope.space
 
-    def any_value(self, node: tree.Expression) -> Expr:
+    def value(self, node: tree.Expression) -> Expr:
         """A whole expression."""
         if named_itself(node, "THIS"):
-            return Load(self.self_place("THIS", node.span))
-        expr = settle(self.plain(self.expr(node, None), node.span))
+            return Load(self.body.lookup.this(self.body, "THIS", node.span))
+        expr = settle(plain(self.body, self.body.expression(node), node.span))
         if expr.type is None:
             raise self.report.reject("T010", "This has no value.", node.span)
         return expr
 
-    def assignments(self, node: tree.Assignment) -> Iterator[LocalAssignment]:
+    def assignment(self, node: tree.Assignment) -> LocalAssignment:
         """What one assignment does."""
-        _, member = self.place(node.target)
-        made, condition = self.assign(node), None
-        if isinstance(made, If):  # S= and R=
+        body, condition = self.body, None
+        _, member = body.place(node.target)
+        if node.operator in ("S=", "R="):
+            made = latch(body, node, condition_of(body, node.value))
+            assert isinstance(made, If), made
             condition, (made,) = made.branches[0]
+        else:
+            made = assign(body, node)
         assert isinstance(made, Assign), made
-        yield LocalAssignment(made.target, member, made.value, condition, shown(node.target))
+        return LocalAssignment(made.target, member, made.value, condition, shown(node.target))
 
-    # ---- names ------------------------------------------------------------------------------------------
-
-    def self_place(self, name: str, span: Span) -> Place:
-        record = self.scope.instance
-        if record is None:
-            raise self.report.reject("T010", f"{name} is the instance that runs; there is none here.", span)
-        if name.upper() == "SUPER":
-            if record.base is None:
-                raise self.report.reject("T010", f"`{record.name}` extends nothing, so it has no SUPER.", span)
-            record = record.base
-        return self.own(Place(record, Base.SELF, 0))
-
-    def _this_trap(self) -> int:
-        return self.trap(TrapKind.NULL, NOWHERE, "THIS refers to no instance")
-
-    def unknown(self, name: str, span: Span) -> Rejected:
-        hint = did_you_mean(name, self.scope.names())
-        if not hint:
-            return super().unknown(name, span)
-        return self.report.reject("T001", f"There is no `{name}` here.{hint}", span)
-
-    def unclear(self, inner: Place, member: Member, reason: str, span: Span) -> Place:
-        """As the statements of the POU see it."""
-        return inner
-
-    def assignable(self, place: Place, member: Member | None, span: Span) -> None:
-        """Anything but constants: what a tool may write, whoever stores the value looks at."""
-        if member is not None and member.constant:
-            raise self.report.reject("T003", f"`{member.name}` is a CONSTANT and cannot be assigned.", span)
-
-    def _limit(self, expr: Expr, type: Subrange, span: Span, variable: str) -> Expr:
-        return expr
-
-    def noting(self, place: Place, member: Member | None) -> Place | None:
-        return None  # only what the program itself writes is noted
-
-    def with_note(self, value: Expr, type: Subrange, span: Span) -> tuple[Expr, Expr]:
-        return value, value
-
-    # ---- calls ------------------------------------------------------------------------------------------
-
-    def call(self, node: tree.Call, wanted: Type | None = None) -> Expr:
+    def _call(self, body: Body, node: tree.Call, wanted: Type | None) -> Expr:
+        """FUNCTIONs of the program, and standard functions."""
         name = dotted(node.callee) or "this"
-        callee = self._function(name)
+        callee = _function(body, name)
         if callee is not None:
             if any((each.name or "").upper() in ("EN", "ENO") for each in node.arguments):
-                raise self.report.reject("X001", "EN and ENO cannot stand here.", node.span)
-            self.calls_made = True
-            return self.as_value(self.invoke(node, callee, callee.name, None, None), node.span)
-        value = self.standard(node, name.upper(), wanted) if "." not in name else None
+                raise body.report.reject("X001", "EN and ENO cannot stand here.", node.span)
+            self.calls = True
+            return as_value(body, invoke(body, node, callee, callee.name, None, None), node.span)
+        value = standard_call(body, node, name.upper(), wanted) if "." not in name else None
         if value is not None:
             return value
-        hint = did_you_mean(name, [*FUNCTIONS, *(each.name for each in self.pous.functions.values())])
-        raise self.report.reject(
+        hint = did_you_mean(name, [*FUNCTIONS, *(each.name for each in body.pous.functions.values())])
+        raise body.report.reject(
             "X001", f"`{name}` is no FUNCTION that can be called here.{hint} Function blocks and methods are not run for an "
             "expression: name their variables instead.", node.span,
         )  # fmt: skip
 
-    def _function(self, name: str) -> Pou | None:
-        if self._hides(name):
-            return None
-        candidates = self.scope.space.candidates(name.upper())
-        return next((self.pous.functions[each] for each in candidates if each in self.pous.functions), None)
+
+def _function(body: Body, name: str) -> Pou | None:
+    if hides(body, name):
+        return None
+    candidates = body.scope.space.candidates(name.upper())
+    return next((body.pous.functions[each] for each in candidates if each in body.pous.functions), None)

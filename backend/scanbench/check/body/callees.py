@@ -1,0 +1,111 @@
+"""What a call runs: a FUNCTION, a method, a standard function."""
+
+from scanbench.check.body.arguments import Invocation, invoke
+from scanbench.check.body.context import Body
+from scanbench.check.body.generic import instantiated
+from scanbench.check.body.methods import send
+from scanbench.check.body.objects import dotted
+from scanbench.check.body.receivers import Receiver, is_qualified, method_called
+from scanbench.check.body.standard_calls import standard_call
+from scanbench.check.context import Rejected, did_you_mean
+from scanbench.check.declare.classes import Method
+from scanbench.check.declare.names import Names
+from scanbench.check.standard.functions import FUNCTIONS
+from scanbench.program.origin import in_library
+from scanbench.program.program import Expr, Place, Pou
+from scanbench.program.types import Record, Reference, Type
+from scanbench.syntax import tree
+
+
+def called(body: Body, callee: tree.Expression) -> Pou | None:
+    """The FUNCTION or method that a call would run; None for instances and standard functions."""
+    found = callee_of(body, callee)
+    return found if found is None or isinstance(found, Pou) else found[1].pou
+
+
+def callee_of(
+    body: Body, callee: tree.Expression, node: tree.Call | None = None
+) -> Pou | tuple[Receiver, Method] | None:
+    """The FUNCTION or method that is called; None for instances and standard functions.
+
+    Of a generic FUNCTION it is the one for the arguments of `node`.
+    """
+    method = method_called(body, callee)
+    if method is not None:
+        return method
+    name = dotted(callee)
+    if name is None or hides(body, name):
+        return None
+    names: Names = body.declarations.names
+    key = names.find(name, callee.span, body.pous.functions, body.pous.generic)
+    found = body.pous.functions.get(key) if key is not None else None
+    if in_library(callee.span) and (found is None or not found.inline):
+        return None  # the library means its own, which is no POU
+    if key in body.pous.generic:
+        return instantiated(body, body.pous.generic[key], node or tree.Call(callee, (), callee.span))
+    return found
+
+
+def hides(body: Body, path: str) -> bool:
+    """Whether this is a variable, and no function: a plain value of the same name, as a result, hides none."""
+    found = body.scope.find(path.split(".")[0])
+    return found is not None and ("." in path or isinstance(found[0].type, Record | Reference))
+
+
+def invoked(body: Body, callee: Pou | tuple[Receiver, Method], node: tree.Call, eno: Place | None = None) -> Invocation:
+    """The call of a FUNCTION or method. `eno` receives its ENO, where it has one."""
+    if isinstance(callee, Pou):
+        return invoke(body, node, callee, callee.name, None, eno)
+    return send(body, *callee, node, eno)
+
+
+def standard_function(body: Body, node: tree.Call, wanted: Type | None, eno: Place | None = None) -> Expr:
+    """A function that is no POU; `eno` becomes FALSE where it finds that its result is not right."""
+    if not isinstance(node.callee, tree.Name):
+        path = dotted(node.callee)
+        if path is not None and _is_qualified_name(body, node.callee):
+            hint = did_you_mean(path, [pou.name for pou in body.pous.functions.values()])
+            raise body.report.reject("T001", f"There is no function `{path}`.{hint}", node.span)
+        _no_value(body, node.callee)
+        raise body.report.reject(
+            "T010", "Only functions, methods and instances of function blocks can be called.", node.span
+        )
+    name = node.callee.name
+    key = name.upper()
+    if hides(body, name):
+        _no_value(body, node.callee)
+    declared = body.declarations.block_trees.get(key)
+    if declared is not None and declared.kind == "program" and not in_library(node.span):  # which means its own
+        raise body.report.reject(
+            "X001",
+            f"`{name}` is a PROGRAM, which a task runs and nobody calls. Make it a FUNCTION_BLOCK, and declare an "
+            "instance in VAR.",
+            node.span,
+        )
+    standard = standard_call(body, node, key, wanted, eno)
+    if standard is not None:
+        return standard
+    known = [*(pou.name for pou in body.pous.functions.values() if not pou.name.startswith("__")), *FUNCTIONS]
+    hint = did_you_mean(name, known)
+    if body.declarations.find_type(name, node.span) in body.declarations.block_trees:
+        hint = f" `{name}` is a FUNCTION_BLOCK: declare an instance in VAR and call that."
+    untyped = {(body.scope.pou.upper(), key), ("GLOBAL", key)} & body.declarations.broken
+    if key in body.pous.broken or untyped or (body.scope.instance is not None and body.scope.instance.open):
+        raise Rejected
+    if body.scope.find(name) is not None:
+        raise body.report.reject("T010", f"`{name}` is a variable; it cannot be called.", node.span)
+    raise body.report.reject("T001", f"There is no function `{name}`.{hint}", node.span)
+
+
+def _is_qualified_name(body: Body, callee: tree.Expression) -> bool:
+    return isinstance(callee, tree.MemberOf) and is_qualified(body, callee)
+
+
+def _no_value(body: Body, callee: tree.Expression) -> None:
+    """Refuses an instance of a block that is called for a value."""
+    place, _ = body.place(callee)
+    if isinstance(place.type, Record):
+        raise body.report.reject(
+            "T010", f"This is an instance of {place.type}; call it as a statement, then use its outputs.",
+            callee.span,
+        )  # fmt: skip

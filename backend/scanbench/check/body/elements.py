@@ -1,0 +1,137 @@
+"""Elements of arrays, characters of strings, and what a pointer with an index points to."""
+
+from dataclasses import replace
+
+from scanbench.check.body import fold
+from scanbench.check.body.context import Body, Found
+from scanbench.check.body.harmless import harmless
+from scanbench.check.body.references import behind, moved
+from scanbench.program.program import Const, Expr, Index, Intrinsic, Load, Place, TrapKind
+from scanbench.program.shown import shown
+from scanbench.program.types import (
+    CHAR,
+    LINT,
+    SLOT_BYTES,
+    WCHAR,
+    ArrayType,
+    Elementary,
+    Kind,
+    Member,
+    OpenArray,
+    Reference,
+    StringType,
+)
+from scanbench.program.untyped import settle
+from scanbench.syntax import tree
+
+
+def element(body: Body, place: Place, member: Member | None, node: tree.IndexOf) -> Found:
+    """The element of an array, or what a pointer with an index points to."""
+    type, indices = place.type, list(node.indices)
+    if isinstance(type, Reference) and type.pointer and len(indices) == 1:
+        address = moved(body, "add", Load(place), body.expression(indices[0]), node.span, of_target=True)
+        return behind(body, address, node.span, shown(node.array)), None
+    while indices:
+        if isinstance(type, StringType) and len(indices) == 1:
+            return _character_place(body, replace(place, type=type), type, indices[0]), member
+        if not isinstance(type, ArrayType | OpenArray):
+            raise body.report.reject("T010", f"{type} is not an array and has no index.", node.span)
+        count = len(type.bounds) if isinstance(type, ArrayType) else type.dimensions
+        if len(indices) < count:
+            raise body.report.reject("T010", f"{type} needs {count} indices, not {len(indices)}.", node.span)
+        for dimension, index in enumerate(indices[:count]):
+            if isinstance(type, ArrayType):
+                place = _index(body, place, type, dimension, index)
+            else:
+                place = _open_index(body, place, type, dimension, index)
+        type, indices = type.element, indices[count:]
+    return replace(place, type=type), member
+
+
+def character_index(body: Body, node: tree.Expression, type: StringType) -> Expr:
+    """The position of a character, which counts from 1."""
+    index = fold.convert(LINT, _index_value(body, node))
+    if isinstance(index, Const):
+        number = int(index.value)
+        if number == 0:
+            body.report.warn(
+                "W005",
+                "The first character is number 1; this traps. Tools that count from 0 mean the first character here.",
+                node.span,
+            )
+        elif not 1 <= number <= type.capacity:
+            raise body.report.reject("T012", f"A {type} has no character {number}, only 1..{type.capacity}.", node.span)
+    return index
+
+
+def _character_place(body: Body, place: Place, type: StringType, node: tree.Expression) -> Place:
+    """A character that is there: what is beyond the current length cannot be written or referred to."""
+    index = character_index(body, node, type)
+    if not harmless(Load(place)):
+        raise body.report.reject(
+            "T003", "Only a string without calls in its own index has characters here; assign the index first.",
+            node.span,
+        )  # fmt: skip
+    trap = body.trap(
+        TrapKind.BOUNDS, node.span, "the string has no character there: it is shorter, or the index below 1"
+    )
+    low, length = Const(LINT, 1), Intrinsic("LEN", LINT, (Load(place),))
+    one = Index(index, low, length, Const(LINT, type.width), trap)
+    return replace(place, type=character_of(type), offset=place.offset + 2, indices=(*place.indices, one))
+
+
+def _index_value(body: Body, node: tree.Expression) -> Expr:
+    index = settle(body.expression(node))
+    if not isinstance(index.type, Elementary) or index.type.kind not in (Kind.INT, Kind.UINT):
+        raise body.report.reject("T002", f"An index is an integer, not {index.type}.", node.span)
+    return index
+
+
+def _index(body: Body, place: Place, type: ArrayType, dimension: int, node: tree.Expression) -> Place:
+    low, high = type.bounds[dimension]
+    stride = type.stride(dimension)
+    index = _index_value(body, node)
+    if isinstance(index, Const):
+        number = int(index.value)
+        if not low <= number <= high:
+            raise body.report.reject("T012", f"Index {number} is outside of {low}..{high}.", node.span)
+        return replace(place, offset=place.offset + (number - low) * stride)
+    trap = body.trap(TrapKind.BOUNDS, node.span, f"index outside of {low}..{high}")
+    return replace(place, indices=(*place.indices, Index(index, low, high, stride, trap)))
+
+
+def _open_index(body: Body, place: Place, type: OpenArray, dimension: int, node: tree.Expression) -> Place:
+    limits = array_bounds(place)
+    stride: Expr = Const(LINT, type.element.size)
+    for low, high in limits[dimension + 1 :]:
+        count = fold.binary("add", LINT, fold.binary("sub", LINT, high, low), Const(LINT, 1))
+        stride = fold.binary("mul", LINT, stride, count)
+    trap = body.trap(TrapKind.BOUNDS, node.span, "index outside of the bounds of this ARRAY[*]")
+    index = Index(_index_value(body, node), *limits[dimension], stride, trap)
+    return replace(place, indices=(*place.indices, index))
+
+
+def array_bounds(place: Place) -> list[tuple[Expr, Expr]]:
+    """Lower and upper bound of each dimension of an array: for ARRAY[*], what came with the call."""
+    type = place.type
+    if isinstance(type, ArrayType):
+        return [(Const(LINT, low), Const(LINT, high)) for low, high in type.bounds]
+    assert isinstance(type, OpenArray)
+    slot = place.slot
+    assert slot is not None
+    made: list[tuple[Expr, Expr]] = []
+    for dimension in range(type.dimensions):
+        low, high = (
+            replace(
+                slot, type=LINT, offset=slot.offset + SLOT_BYTES * (1 + 2 * dimension + upper),
+                variable=f"{slot.variable}${'HIGH' if upper else 'LOW'}{dimension + 1}" if slot.variable else "",
+            )
+            for upper in (0, 1)
+        )  # fmt: skip
+        made.append((Load(low), Load(high)))
+    return made
+
+
+def character_of(type: StringType) -> Elementary:
+    """The type of a character of such a string."""
+    return CHAR if type.width == 1 else WCHAR

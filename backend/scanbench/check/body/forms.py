@@ -1,0 +1,132 @@
+"""Calls whose argument is not a value but a variable, an array or a type: REF, SIZEOF, UPPER_BOUND, SUBRANGE_ERROR and others."""
+
+from scanbench.check.body import fold
+from scanbench.check.body.coercion import coerce
+from scanbench.check.body.context import Body
+from scanbench.check.body.elements import array_bounds
+from scanbench.check.body.places import VARIABLES, raw_place
+from scanbench.check.body.references import reference_type
+from scanbench.check.body.subrange_checks import as_written
+from scanbench.check.body.targets import writable
+from scanbench.program.program import Base, CheckSite, Const, Expr, Load, RefOf, Violates
+from scanbench.program.shown import shown
+from scanbench.program.types import BOOL, DINT, LINT, NULL, UDINT, ArrayType, OpenArray, Reference, Subrange
+from scanbench.program.untyped import ANY_INT, settle
+from scanbench.syntax import tree
+
+FORMS = ("REF", "ADR", "SIZEOF", "LOWER_BOUND", "UPPER_BOUND", "EN_CHECK", "SUBRANGE_ERROR", "__ISVALIDREF")
+"""Calls whose argument is not a value: a variable, an array, a type."""
+
+
+def _explicit_check(body: Body, node: tree.Call, name: str) -> Expr:
+    """`EN_CHECK(ENO)` records the place when ENO is FALSE; `SUBRANGE_ERROR(v)` only looks. Both are TRUE then."""
+    if name == "EN_CHECK":
+        body.effects.record(body, node.span)
+    if len(node.arguments) != 1 or node.arguments[0].value is None or node.arguments[0].output:
+        formal = "ENO" if name == "EN_CHECK" else "IN"
+        raise body.report.reject("T004", f"`{name}` takes one argument, {formal}.", node.span)
+    value = node.arguments[0].value
+    if name == "EN_CHECK":
+        eno = coerce(body, body.expression(value, BOOL), BOOL, value.span, "`ENO`")
+        number = body.report.check(CheckSite(node.span, body.scope.pou, "EN_CHECK", 1, 1))
+        return Violates(BOOL, eno, 1, 1, number)
+    place, member = body.place(value)
+    if not isinstance(place.type, Subrange):
+        raise body.report.reject(
+            "T002",
+            f"`SUBRANGE_ERROR` needs a variable with a subrange; `{shown(value)}` is {place.type}.",
+            node.span,
+        )
+    return Violates(BOOL, as_written(body, place, member), place.type.low, place.type.high, 0)
+
+
+def _bound_of(body: Body, node: tree.Call, upper: bool) -> Expr:
+    """`LOWER_BOUND(array, dimension)` and `UPPER_BOUND`."""
+    name = "UPPER_BOUND" if upper else "LOWER_BOUND"
+    values = [argument.value for argument in node.arguments if argument.value is not None]
+    if len(values) != 2 or len(node.arguments) != 2:
+        raise body.report.reject("T004", f"`{name}` takes an array and the number of a dimension.", node.span)
+    place, _ = body.place(values[0])
+    if not isinstance(place.type, ArrayType | OpenArray):
+        raise body.report.reject("T002", f"`{name}` needs an array, not {place.type}.", node.span)
+    limits = array_bounds(place)
+    number = settle(body.expression(values[1]))
+    if not isinstance(number, Const) or not isinstance(number.value, int) or not 1 <= number.value <= len(limits):
+        raise body.report.reject("T012", f"The dimension is a constant from 1 to {len(limits)}.", values[1].span)
+    bound = limits[number.value - 1][upper]
+    return Const(ANY_INT, bound.value) if isinstance(bound, Const) else fold.convert(DINT, bound)
+
+
+def _reference_to(body: Body, node: tree.Call, name: str) -> Expr:
+    """`REF(variable)`, or `ADR(variable)`, which gives a pointer."""
+    values = [argument.value for argument in node.arguments if argument.value is not None and not argument.output]
+    if len(values) != 1 or len(node.arguments) != 1:
+        raise body.report.reject("T004", f"`{name}` takes one variable.", node.span)
+    return refer(body, values[0], name == "ADR")
+
+
+def refer(body: Body, node: tree.Expression, pointer: bool = False) -> RefOf:
+    """A reference to the variable; not to one that is gone after the call."""
+    if not isinstance(node, VARIABLES):
+        raise body.report.reject("T013", "Only a variable can be referred to.", node.span)
+    place, member = body.place(node)
+    if member is not None and member.constant:
+        raise body.report.reject("T013", f"`{member.name}` is a CONSTANT and cannot be referred to.", node.span)
+    if place.base is Base.FRAME and place.slot is None and place.reference is None:
+        raise body.report.reject(
+            "T013",
+            f"`{shown(node)}` is temporary, gone when this call ends; declare it in VAR of a block.",
+            node.span,
+        )
+    if isinstance(place.type, OpenArray):
+        raise body.report.reject("T013", "An ARRAY[*] cannot be referred to; refer to an element.", node.span)
+    writable(body, place, node.span)
+    return RefOf(place, reference_type(place.type, pointer))
+
+
+def _size_of(body: Body, node: tree.Call) -> Expr:
+    """`SIZEOF(variable or type)`, in bytes."""
+    values = [argument.value for argument in node.arguments if argument.value is not None]
+    if len(values) != 1 or len(node.arguments) != 1:
+        raise body.report.reject("T004", "`SIZEOF` takes one variable or type.", node.span)
+    value = values[0]
+    if isinstance(value, tree.Name) and body.scope.find(value.name) is None:
+        return Const(ANY_INT, body.declarations.named(value.name, value.span).size)
+    place, _ = body.place(value)
+    if not isinstance(place.type, OpenArray):
+        return Const(ANY_INT, place.type.size)
+    size: Expr = Const(LINT, place.type.element.size)
+    for low, high in array_bounds(place):
+        count = fold.binary("add", LINT, fold.binary("sub", LINT, high, low), Const(LINT, 1))
+        size = fold.binary("mul", LINT, size, count)
+    return fold.convert(UDINT, size)
+
+
+def _is_bound(body: Body, node: tree.Call) -> Expr:
+    """`__ISVALIDREF(reference)` of vendors: whether it refers to something."""
+    values = [argument.value for argument in node.arguments if argument.value is not None]
+    if len(values) != 1 or not isinstance(values[0], VARIABLES):
+        raise body.report.reject("T004", "`__ISVALIDREF` takes one reference.", node.span)
+    place, _ = raw_place(body, values[0])
+    if not isinstance(place.type, Reference):
+        raise body.report.reject("T002", f"`__ISVALIDREF` takes a reference, not {place.type}.", node.span)
+    return fold.compare("ne", BOOL, Load(place), Const(NULL, 0))
+
+
+def form(body: Body, node: tree.Call) -> Expr | None:
+    """One of `FORMS`, unless the user declared something of that name."""
+    if not isinstance(node.callee, tree.Name):
+        return None
+    name = node.callee.name.upper()
+    if name not in FORMS or name in body.pous.functions or body.scope.find(name) is not None:
+        return None
+    match name:
+        case "REF" | "ADR":
+            return _reference_to(body, node, name)
+        case "SIZEOF":
+            return _size_of(body, node)
+        case "LOWER_BOUND" | "UPPER_BOUND":
+            return _bound_of(body, node, name == "UPPER_BOUND")
+        case "__ISVALIDREF":
+            return _is_bound(body, node)
+    return _explicit_check(body, node, name)

@@ -1,0 +1,57 @@
+"""The body of a POU, in ST or IL -> checked statements."""
+
+from functools import partial
+
+from scanbench.check.body.by_value import around
+from scanbench.check.body.context import Body
+from scanbench.check.body.edges import edges
+from scanbench.check.body.il import InstructionList
+from scanbench.check.body.notes import SUFFIX as NOTE
+from scanbench.check.body.redundant_checks import without_needless
+from scanbench.check.body.statements import block
+from scanbench.check.declare.scopes import decode, place_of
+from scanbench.program.program import Assign, Base, SetBytes, Stmt, TrapKind
+from scanbench.program.types import Member, Section, StringType
+from scanbench.syntax import tree
+
+
+def pou_body(body: Body, written: tuple[tree.Statement, ...] | tree.IlBody) -> tuple[Stmt, ...]:
+    """The body of a POU, in ST or IL."""
+    body.counters, body.loops = [], 0
+    prologue, checks = _prologue(body), len(body.report.checks)
+    if body.pou is not None and body.pou.kind != "function":
+        prologue += edges(body.pou.instance)
+    made = InstructionList(body, written).statements() if isinstance(written, tree.IlBody) else block(body, written)
+    if len(body.report.checks) > checks:
+        made = without_needless(body.report, tuple(made))
+    if body.pou is not None and body.pou.kind == "function_block":
+        made = around(body.pou.instance, tuple(made), partial(_not_connected, body))
+    return (*prologue, *made)
+
+
+def _not_connected(body: Body, member: Member) -> int:
+    return body.trap(TrapKind.NULL, member.span, f"the in-out {member.name} is not connected")
+
+
+def _prologue(body: Body) -> list[Stmt]:
+    """Temporaries start afresh at every call."""
+    frame = body.scope.frame
+    made: list[Stmt] = []
+    for member in frame.members.values() if frame else ():
+        made_up = member.hidden and not member.name.endswith(NOTE)
+        if member.section in (Section.INPUT, Section.IN_OUT) or frame is None or made_up:
+            continue
+        place = place_of(member, Base.FRAME, frame, 0)
+        data = member.initial or bytes(member.type.size)
+        constant = decode(member.type, data)
+        if constant is not None and not isinstance(member.type, StringType):
+            made.append(Assign(place, constant, member.span))
+        else:
+            made.append(SetBytes(place, data, member.span))
+    instance = body.scope.instance
+    if body.pou is not None and body.pou.kind == "function_block" and instance is not None:
+        # what this block wrote to an in-out at an earlier call says nothing of what is bound to it now
+        for each in instance.members.values():
+            if each.section is Section.IN_OUT and each.note is not None:
+                made.append(SetBytes(place_of(each.note, Base.SELF, instance, 0), each.note.initial, each.span))
+    return made

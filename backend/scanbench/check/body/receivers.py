@@ -1,0 +1,145 @@
+"""The instance that a call of a method, or the use of a property, goes to."""
+
+from dataclasses import dataclass
+
+from scanbench.check.body.context import Body
+from scanbench.check.body.objects import dotted, named_itself, own_class
+from scanbench.check.body.variables import is_broken
+from scanbench.check.context import Rejected, did_you_mean
+from scanbench.check.declare.classes import Class, Method
+from scanbench.program.program import Base, Expr, Load, Place, TrapKind
+from scanbench.program.types import Record, Reference, Section
+from scanbench.syntax import tree
+
+
+@dataclass(frozen=True, slots=True)
+class Receiver:
+    """The instance that a call goes to."""
+
+    place: Place
+    owner: Class
+    exact: bool
+    """Whether the instance is of this class, and of none that extends it."""
+    above: bool = False
+    """SUPER: the call goes to what the class had from its base."""
+
+
+def method_called(body: Body, callee: tree.Expression) -> tuple[Receiver, Method] | None:
+    """The instance and the method that this names; None when it names something else."""
+    return _looked_up(body, callee, "")
+
+
+def _looked_up(body: Body, node: tree.Expression, half: str) -> tuple[Receiver, Method] | None:
+    if isinstance(node, tree.Name):
+        owner = own_class(body)
+        found = owner.find(f"{node.name.upper()}{half}") if owner and _free(body, node.name) else None
+        if owner is None or found is None:
+            return None
+        return Receiver(body.lookup.this(body, "THIS", node.span), owner, exact=False), found
+    if not isinstance(node, tree.MemberOf) or is_qualified(body, node):
+        return None
+    receiver = receiver_of(body, node.owner)
+    if receiver is None:
+        return None
+    method = receiver.owner.find(f"{node.name.upper()}{half}")
+    if method is None:
+        record = receiver.owner.record
+        if half or (record is not None and node.name.upper() in record.members):
+            return None
+        if record is not None and (record.open or is_broken(body, record, node.name)):
+            raise Rejected
+        known = [each.declaration.name for parent in (receiver.owner, *receiver.owner.ancestors())
+                 for each in parent.methods.values()]  # fmt: skip
+        raise body.report.reject(
+            "T001",
+            f"`{receiver.owner.name}` has no method `{node.name}`.{did_you_mean(node.name, known)}",
+            node.span,
+        )
+    return receiver, method
+
+
+def _free(body: Body, name: str) -> bool:
+    """Whether no variable has this name; the result of a getter is no variable to other readers."""
+    return body.scope.find(name) is None
+
+
+def is_qualified(body: Body, node: tree.MemberOf) -> bool:
+    """`Namespace.name`, and nothing of an instance."""
+    path = dotted(node)
+    first = path.split(".")[0] if path else ""
+    return (
+        bool(path)
+        and first.upper() not in ("THIS", "SUPER")
+        and body.scope.find(first) is None
+        and (not _property_of_own(body, first))
+    )
+
+
+def _property_of_own(body: Body, name: str) -> bool:
+    owner = own_class(body)
+    return owner is not None and owner.find(f"{name.upper()}.GET") is not None
+
+
+def receiver_of(body: Body, node: tree.Expression) -> Receiver | None:
+    """The instance that this expression names; None when it names none."""
+    for word in ("THIS", "SUPER"):
+        if named_itself(node, word):
+            place = body.lookup.this(body, word, node.span)
+            owner = body.pous.classes.of(place.type)
+            assert owner is not None
+            return Receiver(place, owner, exact=False, above=word == "SUPER")
+    value = _reference_value(body, node)
+    if value is not None:
+        return _referred(body, value, node)
+    place, member = body.place(node)
+    if isinstance(place.type, Reference):
+        return _referred(body, Load(place), node)
+    owner = body.pous.classes.of(place.type)
+    if owner is None or not isinstance(place.type, Record):
+        return None
+    declared = member is not None and member.type is place.type and member.section is not Section.IN_OUT
+    return Receiver(place, owner, exact=declared or isinstance(node, tree.IndexOf))
+
+
+def _reference_value(body: Body, node: tree.Expression) -> Expr | None:
+    """A call or property that gives a reference to the instance."""
+    if isinstance(node, tree.Call):
+        value = body.call(node)
+    else:
+        got = body.property_value(node)
+        if got is None:
+            return None
+        value = got
+    if not isinstance(value.type, Reference):
+        raise body.report.reject("T010", f"This is {value.type}, which has no methods.", node.span)
+    return value
+
+
+def _referred(body: Body, value: Expr, node: tree.Expression) -> Receiver | None:
+    type = value.type
+    assert isinstance(type, Reference)
+    owner = body.pous.classes.of(type.target)
+    if owner is None or owner.record is None:
+        return None
+    if owner.kind != "interface" and not type.automatic:
+        raise body.report.reject("T010", "This is a reference; write `^` to get at the instance.", node.span)
+    trap = body.trap(TrapKind.NULL, node.span, "this refers to no instance")
+    place = Place(owner.record, Base.IMAGE, 0, reference=value, null_trap=trap)
+    return Receiver(place, owner, exact=False)
+
+
+def accessor(body: Body, node: tree.Expression, half: str) -> tuple[Receiver, Method] | None:
+    """The getter or setter, as `half` says, of a property and its instance; None when this is no property."""
+    properties = body.pous.classes.properties
+    if not isinstance(node, tree.Name | tree.MemberOf) or node.name.upper() not in properties:
+        return None
+    found = _looked_up(body, node, half)
+    if found is None and _looked_up(body, node, ".SET" if half == ".GET" else ".GET") is not None:
+        can = "read" if half == ".SET" else "assigned"
+        raise body.report.reject("T010", f"The property `{node.name}` can only be {can}.", node.span)
+    return found
+
+
+def is_variable(body: Body, node: tree.Expression) -> bool:
+    """Whether this names something that has a place: no property."""
+    return accessor(body, node, ".GET") is None if body.pous.classes.properties else True

@@ -1,0 +1,59 @@
+"""Places that may be written."""
+
+from scanbench.check.body.context import Body, Found
+from scanbench.problems import Span
+from scanbench.program.own_variables import SYSTEM
+from scanbench.program.program import Place
+from scanbench.program.types import Member, OpenArray, Section
+from scanbench.syntax import tree
+
+
+def target(body: Body, node: tree.Expression) -> Place:
+    """A place that may be written."""
+    return declared_target(body, node)[0]
+
+
+def declared_target(body: Body, node: tree.Expression) -> Found:
+    """The same, and the declared variable that it is, or is inside of."""
+    place, member = body.place(node)
+    body.effects.assignable(body, place, member, node.span)
+    return place, member
+
+
+def assignable(body: Body, place: Place, member: Member | None, span: Span) -> None:
+    """Refuses what cannot be assigned: constants, outputs of others, memory that the model protects."""
+    if member is not None:
+        if member.constant and member.section is Section.IN_OUT and isinstance(member.type, OpenArray):
+            raise body.report.reject("T003", f"`{member.name}` can only be read here.", span)
+        if member.constant:
+            what = "is a CONSTANT and cannot" if member.home != SYSTEM.name else "counts by itself and cannot"
+            raise body.report.reject("T003", f"`{member.name}` {what} be assigned.", span)
+        owner = body.scope.find(member.name)
+        own = owner is not None and owner[0] is member
+        if member.section is Section.INPUT and own and body.scope.instance is not None and place.slot is None:
+            body.report.warn("W001", f"`{member.name}` is an input; the next call overwrites this.", span)
+        if member.section is Section.OUTPUT and not own and not _own(body, member):
+            raise body.report.reject("T003", f"`{member.name}` is an output; only its block writes it.", span)
+    writable(body, place, span)
+
+
+def _own(body: Body, member: Member) -> bool:
+    """Whether it is a member of the instance that runs, as in THIS.member."""
+    instance = body.scope.instance
+    return instance is not None and instance.members.get(member.name.upper()) is member
+
+
+def writable(body: Body, place: Place, span: Span) -> None:
+    """Refuses memory that the model protects from the program."""
+    if place.variable != "@":
+        return
+    model = body.declarations.model
+    for area in model.areas:
+        start = body.declarations.areas[area.name]
+        if start <= place.offset < start + area.size:
+            word = (place.offset - start) // 2
+            if area.access(word, body.scope.who) != "write":
+                where = model.format(area, place.offset - start, place.bit, 1 if place.bit is not None else 16)
+                raise body.report.reject(
+                    "T011", f"{where} is read-only for the program on a {model.name}; it can only be read.", span
+                )

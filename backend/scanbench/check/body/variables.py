@@ -1,0 +1,75 @@
+"""Names -> variables, as they are declared."""
+
+from scanbench.check.body.context import Body, Found
+from scanbench.check.context import Rejected, did_you_mean
+from scanbench.check.declare.scopes import place_of
+from scanbench.problems import Span
+from scanbench.program.program import Base, Place, TrapKind
+from scanbench.program.types import Member, Record, Section
+from scanbench.syntax import tree
+
+INSTANCE = ("THIS", "SUPER")
+
+
+def declared(body: Body, name: str, span: Span) -> Found:
+    """The variable that is declared under this name; of an input with an edge, the edge."""
+    found = body.scope.find(name)
+    if name.upper() in INSTANCE and (found is None or found[0].hidden):
+        return body.lookup.this(body, name, span), None
+    if found is None:
+        raise body.lookup.unknown(body, name, span)
+    member, base, owner = found
+    null = 0
+    if member.bound:
+        null = body.trap(TrapKind.NULL, span, f"the in-out {member.name} is not connected")
+    return _edge(member, base, owner) or place_of(member, base, owner, null), member
+
+
+def _edge(member: Member, base: Base, owner: Record) -> Place | None:
+    """Of an input with R_EDGE or F_EDGE, inside its block: whether the edge is there."""
+    if member.section is not Section.INPUT or base is Base.IMAGE:
+        return None
+    for edge in ("R", "F"):
+        hidden = owner.members.get(f"{member.name}${edge}_EDGE".upper())
+        if hidden is not None:
+            return place_of(hidden, base, owner, 0)
+    return None
+
+
+def undeclared(body: Body, name: str, span: Span) -> Rejected:
+    """Reports a name that means nothing here."""
+    upper = name.upper()
+    if {(owner, upper) for owner in (body.scope.pou.upper(), "GLOBAL")} & body.declarations.broken:
+        return Rejected()
+    if upper in body.pous.functions:
+        return body.report.reject("T010", f"`{name}` is a FUNCTION; call it with `{name}(...)`.", span)
+    block = body.declarations.block_trees.get(upper)
+    if block is not None and block.kind == "program":
+        return body.report.reject(
+            "T010", f"`{name}` is a PROGRAM; declare in VAR_GLOBAL what others share with it.", span
+        )
+    if block is not None:
+        return body.report.reject("T010", f"`{name}` is a type; declare an instance of it in VAR.", span)
+    known = [*body.scope.names(), *(pou.name for pou in body.pous.functions.values())]
+    hint = did_you_mean(name, [*known, *body.declarations.values.names()])
+    if body.declarations.model.locate(name) is not None:  # after AT it needs no percent sign
+        hint += f" The address of the PLC is written `%{name}` in statements."
+    return body.report.reject("T001", f"`{name}` is not declared.{hint}", span)
+
+
+def no_member(body: Body, record: Record, node: tree.MemberOf) -> Rejected:
+    """Reports a member that is not there, unless its declaration was reported."""
+    if record.open or is_broken(body, record, node.name):
+        return Rejected()
+    hint = did_you_mean(node.name, [each.name for each in record.members.values() if not each.hidden])
+    return body.report.reject("T001", f"`{record.name}` has no member `{node.name}`.{hint}", node.span)
+
+
+def is_broken(body: Body, record: Record, name: str) -> bool:
+    """Whether it, or what it extends, declares this, and was refused there."""
+    known: Record | None = record
+    while known is not None:
+        if (known.name.upper(), name.upper()) in body.declarations.broken:
+            return True
+        known = known.base
+    return False
