@@ -12,30 +12,22 @@ from scanbench.check.body.coercion import as_type
 from scanbench.check.body.context import Body
 from scanbench.check.body.forms import FORMS
 from scanbench.check.body.il_flow import BROKEN, NOTHING, Current, Flow, Label
+from scanbench.check.body.il_operands import BINARY, callee, hidden, literal, negated, shown, type_of, wanted_by
 from scanbench.check.context import Rejected, did_you_mean
 from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.problems import Span
 from scanbench.program.program import Assign, Blocks, Const, If, Jump, Pou, Return, Stmt, TrapKind
 from scanbench.program.types import (
     BOOL,
-    ArrayType,
-    Elementary,
     Kind,
-    Member,
-    OpenArray,
     Record,
     Section,
     Type,
-    base_of,
     has_instance,
 )
-from scanbench.program.untyped import ANY_INT, is_untyped, settle
+from scanbench.program.untyped import ANY_INT, settle
 from scanbench.syntax import tree
 
-BINARY = {
-    "AND": "and", "&": "and", "OR": "or", "XOR": "xor", "ADD": "add", "SUB": "sub", "MUL": "mul", "DIV": "div",
-    "MOD": "mod", "GT": "gt", "GE": "ge", "EQ": "eq", "NE": "ne", "LE": "le", "LT": "lt",
-}  # fmt: skip
 MNEMONICS = (*BINARY, "LD", "ST", "S", "R", "NOT", "JMP", "CAL", "RET")
 NEGATABLE = ("LD", "ST", "AND", "&", "OR", "XOR")
 CONDITIONAL = ("JMP", "CAL", "RET")
@@ -103,16 +95,10 @@ class InstructionList:
                 fresh.append(self._flow.labels[node.label.upper()])
             if not node.operator:
                 continue
-            wanted = self._wanted_by(node)
+            wanted = wanted_by(self._body.scope, node)
             for label in fresh:
                 label.wanted = wanted
             fresh.clear()
-
-    def _wanted_by(self, node: tree.IlInstruction) -> Elementary | None:
-        """The type of what the instruction works on: that which a literal before it takes."""
-        takes = node.operator == "ST" or (node.operator in BINARY and not node.arguments)
-        type = self._type(node.operand) if takes and node.operand is not None else None
-        return base_of(type) if isinstance(type, Elementary) else None
 
     def _literal_for(self, name: str) -> None:
         """Before the way to a label: a literal is kept in the type that is wanted there."""
@@ -138,7 +124,7 @@ class InstructionList:
                 self._label(node.label, node.span)
             if not node.operator:
                 continue
-            self._wanted = None if after is None else self._wanted_by(after)
+            self._wanted = None if after is None else wanted_by(self._body.scope, after)
             if not self._flow.falls:
                 self._unreachable(node)
             try:
@@ -190,7 +176,7 @@ class InstructionList:
             raise Rejected
         if self._current.node is None:
             raise self._report.reject(
-                "T010", f"There is no current result for {_shown(node)}; load a value with LD first"
+                "T010", f"There is no current result for {shown(node)}; load a value with LD first"
                 f"{self._current.why}.", node.span,
             )  # fmt: skip
         result = self._current.node
@@ -206,13 +192,13 @@ class InstructionList:
         name = self._register(settled.type, span)
         place, _ = self._body.place(name)
         self._emit(Assign(place, settled, span))
-        literal = _literal(node, value)
-        self._current = Current(name if literal is None else literal, settled.type)
+        kept = literal(node, value)
+        self._current = Current(name if kept is None else kept, settled.type)
 
     def _register(self, type: Type, span: Span) -> tree.Name:
         """The hidden temporary for a current result of this type."""
         depth = len(self._open)
-        return tree.Name(_hidden(self._body, f"$cr{depth}.{type}", type, span).name, span)
+        return tree.Name(hidden(self._body, f"$cr{depth}.{type}", type, span).name, span)
 
     def _emit(self, statement: Stmt | None) -> None:
         if statement is not None and self._flow.falls:
@@ -235,15 +221,15 @@ class InstructionList:
             match node.operator:
                 case "LD":
                     operand = self._operand(node)
-                    self._set(_negated(operand) if node.negated else operand, node.span)
+                    self._set(negated(operand) if node.negated else operand, node.span)
                 case "ST":
                     target, result = self._operand(node), self._result(node)
-                    self._run(tree.Assignment(target, _negated(result) if node.negated else result, node.span))
+                    self._run(tree.Assignment(target, negated(result) if node.negated else result, node.span))
                 case "S" | "R":
                     target, result = self._operand(node), self._result(node)
                     self._run(tree.Assignment(target, result, node.span, f"{node.operator}="))
                 case "NOT" if node.operand is None and not node.arguments:
-                    self._set(_negated(self._result(node)), node.span)
+                    self._set(negated(self._result(node)), node.span)
                 case "JMP":
                     self._jump(node)
                 case "RET":
@@ -280,7 +266,7 @@ class InstructionList:
                 self._set(node.operand, node.span)
             return
         operand = self._operand(node)
-        operand = _negated(operand) if node.negated else operand
+        operand = negated(operand) if node.negated else operand
         self._set(tree.BinaryOp(BINARY[node.operator], before, operand, node.span), node.span, self._wanted)
 
     def _close(self, node: tree.IlInstruction) -> None:
@@ -291,7 +277,7 @@ class InstructionList:
             inside = self._result(node)
         finally:
             self._open.pop()
-        inside = _negated(inside) if left.node.negated else inside
+        inside = negated(inside) if left.node.negated else inside
         self._set(tree.BinaryOp(BINARY[left.node.operator], left.before, inside, node.span), node.span, self._wanted)
 
     # ---- jumps and calls --------------------------------------------------------------------------------
@@ -300,9 +286,9 @@ class InstructionList:
         operand = self._operand(node)
         labels = self._flow.labels
         if not isinstance(operand, tree.Name) or operand.name.upper() not in labels:
-            shown = operand.name if isinstance(operand, tree.Name) else "this"
-            hint = did_you_mean(shown, [label.name for label in labels.values()])
-            raise self._report.reject("T001", f"There is no label `{shown}` to jump to.{hint}", operand.span)
+            written = operand.name if isinstance(operand, tree.Name) else "this"
+            hint = did_you_mean(written, [label.name for label in labels.values()])
+            raise self._report.reject("T001", f"There is no label `{written}` to jump to.{hint}", operand.span)
         if self._open:
             raise self._report.reject("T010", "JMP stands inside parentheses; close them with `)` first.", node.span)
         target = labels[operand.name.upper()].block
@@ -325,10 +311,10 @@ class InstructionList:
             condition = Const(BOOL, condition.value)
         if condition.type != BOOL:
             raise self._report.reject(
-                "T006", f"{_shown(node)} asks for a current result of BOOL, not {settle(condition).type}.", node.span
+                "T006", f"{shown(node)} asks for a current result of BOOL, not {settle(condition).type}.", node.span
             )
         if node.negated:
-            condition = self._body.expression(_negated(result))
+            condition = self._body.expression(negated(result))
         self._emit(If(((condition, (statement,)),), (), node.span))
 
     def _call_block(self, node: tree.IlInstruction, call: tree.ExpressionStatement) -> None:
@@ -342,7 +328,7 @@ class InstructionList:
         if not isinstance(node.operand, tree.Name | tree.MemberOf | tree.IndexOf):
             return False
         named = node.operator in BLOCK_INPUTS or not (node.operator in MNEMONICS or self._is_function(node.operator))
-        record = self._type(node.operand) if named else None
+        record = type_of(self._body.scope, node.operand) if named else None
         if not isinstance(record, Record) or record.kind is not Kind.BLOCK:
             return False
         member = record.members.get(node.operator)
@@ -353,21 +339,6 @@ class InstructionList:
         inputs = [each.name for each in record.members.values() if each.section is Section.INPUT and not each.hidden]
         hint = did_you_mean(node.operator, inputs)
         raise self._report.reject("T001", f"{record.name} has no input `{node.operator}`.{hint}", node.span)
-
-    def _type(self, node: tree.Expression) -> Type | None:
-        """The type of a variable, without a word where there is none: nothing is checked yet."""
-        match node:
-            case tree.Name(name):
-                found = self._body.scope.find(name)
-                return found[0].type if found else None
-            case tree.MemberOf(owner, name):
-                record = self._type(owner)
-                member = record.members.get(name.upper()) if isinstance(record, Record) else None
-                return member.type if member else None
-            case tree.IndexOf(array):
-                type = self._type(array)
-                return type.element if isinstance(type, ArrayType | OpenArray) else None
-        return None
 
     def _feed(self, node: tree.IlInstruction) -> None:
         argument = tree.Argument(node.operator, False, self._result(node), node.span)
@@ -381,7 +352,7 @@ class InstructionList:
         pou = self._called(node)
         if node.operator in FORMS and node.operator != "EN_CHECK" and pou is None:
             operand = () if node.operand is None else (tree.Argument(None, False, node.operand, node.operand.span),)
-            self._set(tree.Call(_callee(node), (*operand, *node.arguments), node.span), node.span, self._wanted)
+            self._set(tree.Call(callee(node), (*operand, *node.arguments), node.span), node.span, self._wanted)
             return
         formal = any(argument.name is not None for argument in node.arguments)
         arguments = node.arguments
@@ -390,7 +361,7 @@ class InstructionList:
             arguments = (*(tree.Argument(None, False, value, value.span) for value in first), *arguments)
         elif node.operand is not None:
             raise self._report.reject("T004", f"`{node.operator}` takes no operand here.", node.span)
-        call = tree.Call(_callee(node), arguments, node.span)
+        call = tree.Call(callee(node), arguments, node.span)
         if pou is not None and pou.result is None:
             self._run(tree.ExpressionStatement(call, node.span))
             self._current = NOTHING
@@ -415,7 +386,7 @@ class InstructionList:
         """The FUNCTION or method that is called; what is neither that, an operator nor a standard function is refused."""
         name, functions = node.operator, self._body.pous.functions
         mark = self._report.mark()
-        pou = called(self._body, _callee(node))
+        pou = called(self._body, callee(node))
         self._report.undo(mark)
         if pou is None and not (
             name in FUNCTIONS or name in FORMS or "_" in name or "." in name or conversions.parse_name(name)
@@ -426,44 +397,3 @@ class InstructionList:
 
     def _is_function(self, name: str) -> bool:
         return name in self._body.pous.functions or name in FUNCTIONS
-
-
-def _hidden(body: Body, name: str, type: Type, span: Span) -> Member:
-    """The temporary of this name and type in the frame of the POU, made where there is none yet."""
-    frame = body.scope.frame
-    assert frame is not None
-    while (known := frame.members.get(name.upper())) is not None:
-        if known.type == type:
-            return known
-        name += "'"  # another type that is called the same
-    member = Member(name, type, Section.TEMP, span, hidden=True)
-    frame.place(member)
-    frame.close()
-    return member
-
-
-def _literal(node: tree.Expression, value: object) -> tree.Expression | None:
-    """The literal that goes on as current result, to take the type that it meets; None for what has its type."""
-    if not isinstance(value, Const):
-        return None
-    if is_untyped(value):
-        return tree.Literal("int" if value.type == ANY_INT else "real", value.value, None, node.span)
-    return node if isinstance(node, tree.Literal) and node.type_name is None else None
-
-
-def _negated(node: tree.Expression) -> tree.Expression:
-    return tree.UnaryOp("not", node, node.span)
-
-
-def _callee(node: tree.IlInstruction) -> tree.Expression:
-    first, *rest = node.operator.split(".")
-    callee: tree.Expression = tree.Name(first, node.span)
-    for name in rest:
-        callee = tree.MemberOf(callee, name, node.span)
-    return callee
-
-
-def _shown(node: tree.IlInstruction) -> str:
-    """The operator as it was written."""
-    conditional = "C" if node.conditional else ""
-    return f"{node.operator}{conditional}{'N' if node.negated else ''}{'(' if node.deferred else ''}"
