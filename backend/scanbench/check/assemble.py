@@ -6,7 +6,7 @@ from dataclasses import dataclass, field, replace
 from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare.configuration import PlannedBlock, PlannedInstance, PlannedTask, Planner
 from scanbench.check.declare.connections import Wiring, calls_instance
-from scanbench.check.declare.declare import Declarations
+from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.scopes import Pous
 from scanbench.check.declare.settings import Settings
 from scanbench.check.declare.start_references import bind_start_references

@@ -20,7 +20,9 @@ from scanbench.check.context import Rejected, Report, did_you_mean
 from scanbench.check.declare.class_rules import check_classes, check_instances
 from scanbench.check.declare.classes import Method, called_pou, collect, declare_methods
 from scanbench.check.declare.collect import Collector, declare_globals, globals_of
-from scanbench.check.declare.declare import Declarations
+from scanbench.check.declare.declarations import Declarations
+from scanbench.check.declare.declare import declarations_of
+from scanbench.check.declare.frames import frame
 from scanbench.check.declare.names import Space, qualified
 from scanbench.check.declare.scopes import Pous, Scope, place_of
 from scanbench.check.order import Order
@@ -181,7 +183,7 @@ class Checker:
     def declare(self) -> None:
         """Everything but bodies."""
         areas = place_areas(self.model)
-        self.declarations = Declarations(self.report, self.model, areas, self._constant)
+        self.declarations = declarations_of(self.report, self.model, areas, self._constant)
         self.declarations.reference_of = self._reference
         self.declarations.looked_at = self.looked_at
         self.system = system_of(self.model, areas)
@@ -283,18 +285,18 @@ class Checker:
             return
         if declaration.kind == "function":
             try:
-                frame = self.declarations.frame(declaration, Record(name, Kind.BLOCK))
+                made = frame(self.declarations, declaration, Record(name, Kind.BLOCK))
             except Rejected:
                 self.pous.broken.add(key)
                 return
-            pou = self.pous.functions[key] = called_pou(name, declaration, frame)
+            pou = self.pous.functions[key] = called_pou(name, declaration, made)
             pou.inline = inline
             return
         with suppress(Rejected):
             instance = self.declarations.named(declaration.name, declaration.span)
             if declaration.kind in ("program", "function_block") and isinstance(instance, Record):
-                frame = self.declarations.frame(declaration, instance)
-                pou = Pou(name, declaration.kind, instance, frame, (), None, declaration.span, inline=inline)
+                made = frame(self.declarations, declaration, instance)
+                pou = Pou(name, declaration.kind, instance, made, (), None, declaration.span, inline=inline)
                 self.pous.blocks[key] = pou
 
     # ---- bodies -----------------------------------------------------------------------------------------

@@ -5,7 +5,7 @@ from scanbench.check.body.context import Body, Call, Effects, Lookup
 from scanbench.check.body.effects import PouEffects
 from scanbench.check.body.lookup import PouLookup
 from scanbench.check.context import Report
-from scanbench.check.declare.declare import Declarations
+from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.scopes import Pous, Scope
 from scanbench.program.program import Pou
 

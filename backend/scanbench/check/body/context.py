@@ -9,7 +9,7 @@ from dataclasses import dataclass, field
 from typing import Protocol, TypeAlias
 
 from scanbench.check.context import Rejected, Report
-from scanbench.check.declare.declare import Declarations
+from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.scopes import Pous, Scope
 from scanbench.problems import Span
 from scanbench.program.program import Const, Expr, Place, Pou, TrapKind

@@ -5,6 +5,7 @@ from dataclasses import replace
 from scanbench.check.body.context import Body
 from scanbench.check.context import Rejected
 from scanbench.check.declare.classes import called_pou
+from scanbench.check.declare.frames import frame
 from scanbench.check.declare.names import Space, qualified
 from scanbench.check.declare.scopes import Instance
 from scanbench.problems import Span
@@ -112,12 +113,12 @@ def _make(
     with body.declarations.names.within(Space(declaration.namespace, declaration.using)):
         owners, body.declarations.owners = body.declarations.owners, []
         try:
-            frame = body.declarations.frame(made, Record(key, Kind.BLOCK))
+            own = frame(body.declarations, made, Record(key, Kind.BLOCK))
         finally:
             body.declarations.owners = owners
     if _generic_name(declaration.result) and result is declaration.result:
         raise Rejected
-    return Instance(called_pou(key, made, frame), made)
+    return Instance(called_pou(key, made, own), made)
 
 
 def is_generic(declaration: tree.PouDeclaration) -> bool:

@@ -8,6 +8,7 @@ from scanbench.check.body.objects import qualified_place
 from scanbench.check.body.parts import PARTED, WIDTHS, named_part, part
 from scanbench.check.body.references import behind
 from scanbench.check.body.variables import INSTANCE, no_member
+from scanbench.check.declare.addresses import offset_of
 from scanbench.problems import Span
 from scanbench.program.program import Base, Load, Place, TrapKind
 from scanbench.program.shown import shown
@@ -66,7 +67,7 @@ def raw_place(body: Body, node: tree.Expression) -> Found:
 
 def _addressed(body: Body, node: tree.DirectAddress) -> Place:
     type = _width(body, node.text)
-    offset, bit = body.declarations.place_of(node.text, type, node.span)
+    offset, bit = offset_of(body.declarations, node.text, type, node.span)
     return Place(type, Base.IMAGE, offset, bit=bit, variable="@")
 
 

@@ -4,7 +4,8 @@ from collections.abc import Callable, Iterator
 from dataclasses import dataclass, field, replace
 
 from scanbench.check.context import Rejected, did_you_mean
-from scanbench.check.declare.declare import Declarations
+from scanbench.check.declare.declarations import Declarations
+from scanbench.check.declare.frames import frame
 from scanbench.check.declare.names import Space, qualified
 from scanbench.program.program import Pou
 from scanbench.program.types import UDINT, Kind, Member, Record, Reference, Section
@@ -282,10 +283,10 @@ def _declare_method(
         section = tree.VariableSection("VAR_INPUT", (), (given,), declaration.span)
         declaration = replace(declaration, sections=(section, *declaration.sections))
     try:
-        frame = declarations.frame(declaration, Record(method.name, Kind.BLOCK), this=record)
+        made = frame(declarations, declaration, Record(method.name, Kind.BLOCK), this=record)
     except Rejected:
         return
-    method.pou = called_pou(method.name, declaration, frame)
+    method.pou = called_pou(method.name, declaration, made)
 
 
 def _same_name(first: tree.PouDeclaration, second: tree.PouDeclaration) -> bool:

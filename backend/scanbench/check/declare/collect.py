@@ -4,7 +4,8 @@ from collections.abc import Iterator
 from dataclasses import dataclass, field, fields, is_dataclass, replace
 
 from scanbench.check.context import Report
-from scanbench.check.declare.declare import Declarations
+from scanbench.check.declare.declarations import Declarations
+from scanbench.check.declare.members import declare
 from scanbench.check.declare.names import LIBRARY, Space, qualified
 from scanbench.check.declare.scopes import Pous
 from scanbench.check.standard.library import library
@@ -158,7 +159,7 @@ class _Lists:
         if section.list_name and key in variables.members and self.lists.get(key, "") not in ("", section.list_name):
             self.pous.ambiguous.setdefault(key, [f"{self.lists[key]}.{variable.name}"]).append(own)
             name = own
-        member = self.declarations.declare(variables, replace(variable, name=name), Section.GLOBAL, constant)
+        member = declare(self.declarations, variables, replace(variable, name=name), Section.GLOBAL, constant)
         if member is None:
             return
         member.retain = bool({"RETAIN", "PERSISTENT"} & set(section.qualifiers))

@@ -4,7 +4,7 @@ from collections.abc import Sequence
 from dataclasses import dataclass, field
 
 from scanbench.check.context import Rejected, Report, did_you_mean
-from scanbench.check.declare.declare import Declarations
+from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.scopes import Pous
 from scanbench.problems import Span
 from scanbench.program.program import Const, Pou

@@ -4,7 +4,7 @@ from scanbench.check.body.bodies import body_of
 from scanbench.check.body.coercion import as_type, coerce
 from scanbench.check.body.targets import target
 from scanbench.check.context import Rejected, Report, did_you_mean
-from scanbench.check.declare.declare import Declarations
+from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.scopes import Pous, Scope
 from scanbench.problems import Span
 from scanbench.program.program import (

@@ -2,19 +2,16 @@
 
 import math
 import struct
-from typing import TYPE_CHECKING
 
 from scanbench.check.context import Rejected, did_you_mean
+from scanbench.check.declare.declarations import Declarations
 from scanbench.program.numbers import round_real
 from scanbench.program.program import Const
 from scanbench.program.types import ArrayType, Elementary, Kind, Record, Section, StringType, Type, initial_of
 from scanbench.syntax import tree
 
-if TYPE_CHECKING:
-    from scanbench.check.declare.declare import Declarations
 
-
-def initial_image(declared: "Declarations", value: tree.Initial, type: Type) -> bytes:
+def initial_image(declared: Declarations, value: tree.Initial, type: Type) -> bytes:
     """The bytes of a variable of this type that starts with the value."""
     match value:
         case tree.ArrayInit():
@@ -27,7 +24,7 @@ def initial_image(declared: "Declarations", value: tree.Initial, type: Type) -> 
     return encode(type, declared.constant_of(value, type))
 
 
-def _array(declared: "Declarations", value: tree.ArrayInit, type: Type) -> bytes:
+def _array(declared: Declarations, value: tree.ArrayInit, type: Type) -> bytes:
     if not isinstance(type, ArrayType):
         raise declared.report.reject("D004", f"A list of values initialises an array, not {type}.", value.span)
     element = type.element
@@ -48,7 +45,7 @@ def _array(declared: "Declarations", value: tree.ArrayInit, type: Type) -> bytes
     return bytes(image + initial_of(element) * (total - given))
 
 
-def _record(declared: "Declarations", value: tree.StructInit, type: Type) -> bytes:
+def _record(declared: Declarations, value: tree.StructInit, type: Type) -> bytes:
     if not isinstance(type, Record):
         raise declared.report.reject("D004", f"Values by member initialise a structure, not {type}.", value.span)
     image = bytearray(type.initial())

@@ -5,7 +5,10 @@ from contextlib import suppress
 from dataclasses import replace
 
 from scanbench.check.context import Rejected, Report
-from scanbench.check.declare.declare import Declarations, own_memory
+from scanbench.check.declare.addresses import offset_of
+from scanbench.check.declare.declarations import Declarations
+from scanbench.check.declare.initial_values import initial_image
+from scanbench.check.declare.members import own_memory
 from scanbench.problems import Span, perhaps
 from scanbench.program.program import AccessPath, Program
 from scanbench.program.types import SLOT_BYTES, ArrayType, Member, Record, Section, Type
@@ -71,7 +74,7 @@ class Settings:
         elif setting.initial is None:
             raise self._report.reject("D004", f"Nothing is set here; give `{setting.name}` a value.", setting.span)
         if setting.initial is not None:
-            self._write(offset, bit, self._declarations.initial(setting.initial, type))
+            self._write(offset, bit, initial_image(self._declarations, setting.initial, type))
 
     def _located(self, address: str, member: Member, type: Type, span: Span) -> tuple[int, int | None]:
         letter = member.incomplete[1:2].upper()
@@ -79,7 +82,7 @@ class Settings:
             raise self._report.reject(
                 "D005", f"`{address}` does not complete `{member.incomplete}`; it begins with %{letter}.", span
             )
-        return self._declarations.place_of(address, type, span)
+        return offset_of(self._declarations, address, type, span)
 
     def _write(self, offset: int, bit: int | None, data: bytes) -> None:
         if bit is None:

@@ -1,36 +1,96 @@
-"""Type specifications -> types: enumerations, subranges, references, structures and unions."""
+"""Type specifications -> types."""
 
-import re
-from typing import TYPE_CHECKING
-
-from scanbench.check.context import Rejected
+from scanbench.check.declare.declarations import Declarations
+from scanbench.check.declare.members import MAX_BYTES, declare
 from scanbench.problems import Span
 from scanbench.program.types import (
     ELEMENTARY,
+    MAX_STRING,
     SLOT_BYTES,
+    ArrayType,
     Elementary,
     Enumeration,
     Kind,
-    Member,
     OpenArray,
     Record,
     Reference,
     Section,
+    StringType,
     Subrange,
+    Type,
     has_instance,
 )
 from scanbench.program.untyped import bounds
 from scanbench.syntax import tree
 
-if TYPE_CHECKING:
-    from scanbench.check.declare.declare import Declarations
-
-RELATIVE = re.compile(r"%([XBWDL])(\d+)(?:\.([0-7]))?", re.IGNORECASE)
-UNIT_BYTES = {"X": 1, "B": 1, "W": 2, "D": 4, "L": 8}
 COUNTED = (Kind.INT, Kind.UINT)
+DEFAULT_STRING = 80
 
 
-def enumeration(declared: "Declarations", spec: tree.EnumSpec, name: str) -> Enumeration:
+def type_of(declared: Declarations, spec: tree.TypeSpec) -> Type:
+    """The type that the specification says."""
+    match spec:
+        case tree.NamedType(name, span):
+            return declared.named(name, span)
+        case tree.StringSpec(length, span, wide):
+            return _string(declared, length, span, 2 if wide else 1)
+        case tree.ArraySpec():
+            return _array(declared, spec)
+        case tree.StructSpec():
+            record = structure(declared, f"STRUCT of line {spec.span.line}", spec)
+            record.written_out = True
+            return record
+        case tree.OpenArraySpec(dimensions, element):
+            return OpenArray(dimensions, _element(declared, element))
+        case tree.EnumSpec():
+            made = enumeration(declared, spec, "")
+            declared.values.add_inline(declared.owners[-1].name if declared.owners else "GLOBAL", made)
+            return made
+        case tree.SubrangeSpec():
+            return subrange(declared, spec, "")
+        case tree.ReferenceSpec():
+            return reference(declared, spec)
+
+
+def _string(declared: Declarations, length: tree.Expression | None, span: Span, width: int) -> Type:
+    if length is None:
+        return StringType(DEFAULT_STRING, width)
+    value = declared.constant_of(length, None).value
+    if not isinstance(value, int) or not 1 <= value <= MAX_STRING:
+        raise declared.report.reject("D006", f"A STRING holds 1 to {MAX_STRING} characters, not {value!r}.", span)
+    return StringType(value, width)
+
+
+def _element(declared: Declarations, spec: tree.TypeSpec) -> Type:
+    """The type of an array's elements."""
+    made = declared.type_of(spec)
+    if isinstance(made, OpenArray):
+        raise declared.report.reject("D008", "ARRAY[*] cannot be the element of an array; add dimensions.", spec.span)
+    return made
+
+
+def _array(declared: Declarations, spec: tree.ArraySpec) -> Type:
+    bounds = []
+    for low_tree, high_tree in spec.ranges:
+        low, high = declared.constant_of(low_tree, None).value, declared.constant_of(high_tree, None).value
+        if not isinstance(low, int) or not isinstance(high, int):
+            raise declared.report.reject("D006", "The bounds of an array are integers.", low_tree.span)
+        if not -(1 << 63) <= low <= high < 1 << 63 and low <= high:
+            raise declared.report.reject("D006", "The bounds of an array fit LINT.", low_tree.span)
+        if low > high:
+            raise declared.report.reject(
+                "D006", f"The lower bound {low} is above the upper bound {high}.", low_tree.span
+            )
+        bounds.append((low, high))
+    made = ArrayType(tuple(bounds), _element(declared, spec.element))
+    if made.size > MAX_BYTES:
+        raise declared.report.reject("D012", f"This array takes {made.size} bytes; at most {MAX_BYTES}.", spec.span)
+    if made.count > MAX_BYTES:  # of what takes no room
+        raise declared.report.reject("D012", f"This array has {made.count} elements; at most {MAX_BYTES}.", spec.span)
+    return made
+
+
+def enumeration(declared: Declarations, spec: tree.EnumSpec, name: str) -> Enumeration:
     """An enumeration; one that stands inline is named after its values."""
     base = declared.named(spec.base.name, spec.base.span) if spec.base else ELEMENTARY["INT"]
     if not isinstance(base, Elementary) or base.kind not in (*COUNTED, Kind.BITS) or base.name not in ELEMENTARY:
@@ -53,7 +113,7 @@ def enumeration(declared: "Declarations", spec: tree.EnumSpec, name: str) -> Enu
     return Enumeration(made, base.kind, base.size, tuple(shown), base.name)
 
 
-def subrange(declared: "Declarations", spec: tree.SubrangeSpec, name: str) -> Subrange:
+def subrange(declared: Declarations, spec: tree.SubrangeSpec, name: str) -> Subrange:
     """An integer with bounds; a subrange of a subrange stays inside of that."""
     base = declared.named(spec.base.name, spec.base.span)
     if not isinstance(base, Elementary) or base.kind not in COUNTED or isinstance(base, Enumeration):
@@ -66,7 +126,8 @@ def subrange(declared: "Declarations", spec: tree.SubrangeSpec, name: str) -> Su
     return Subrange(name or f"{base_name} ({low}..{high})", base.kind, base.size, low, high, base_name)
 
 
-def reference(declared: "Declarations", spec: tree.ReferenceSpec) -> Reference:
+def reference(declared: Declarations, spec: tree.ReferenceSpec) -> Reference:
+    """REF_TO, REFERENCE TO and POINTER TO."""
     target = declared.referred(spec.target)
     if isinstance(target, OpenArray):
         raise declared.report.reject("D002", "A reference needs an array with bounds, not ARRAY[*].", spec.span)
@@ -74,7 +135,7 @@ def reference(declared: "Declarations", spec: tree.ReferenceSpec) -> Reference:
     return Reference(f"{word} {target.name}", Kind.REF, SLOT_BYTES, target, spec.pointer, spec.automatic)
 
 
-def structure(declared: "Declarations", name: str, spec: tree.StructSpec) -> Record:
+def structure(declared: Declarations, name: str, spec: tree.StructSpec) -> Record:
     """A STRUCT or UNION with its members, those of its base first."""
     record = declared.record(name, Kind.UNION if spec.union else Kind.STRUCT)
     record.overlaps = spec.union or spec.overlap
@@ -84,116 +145,10 @@ def structure(declared: "Declarations", name: str, spec: tree.StructSpec) -> Rec
             raise declared.report.reject("D002", f"A STRUCT can only extend a STRUCT, not {base}.", spec.span)
         record.inherit(base)
     for variable in spec.members:
-        declared.declare(record, variable, Section.MEMBER, constant=False)
+        declare(declared, record, variable, Section.MEMBER, constant=False)
     if record.overlaps:
         for member in record.members.values():
             if has_instance(member.type):
                 declared.report.error("D008", "An instance of a block cannot share its bytes with others.", member.span)
     record.close()
     return record
-
-
-def is_relative(address: str) -> bool:
-    """Whether it counts from the start of a structure: `%B4`, `%X3.0`."""
-    return RELATIVE.fullmatch(address) is not None
-
-
-def place_relative(declared: "Declarations", owner: Record, member: Member, address: str, span: Span) -> None:
-    """Gives the member of a structure the place that it asks for."""
-    match = RELATIVE.fullmatch(address)
-    assert match is not None
-    letter, unit, bit = match.group(1).upper(), int(match.group(2)), match.group(3)
-    offset = unit * UNIT_BYTES[letter]
-    is_bit = isinstance(member.type, Elementary) and member.type.kind is Kind.BOOL
-    if (letter == "X") != is_bit:
-        need = "a bit, `%X3.0`" if is_bit else "a byte or larger, `%B4`"
-        raise declared.report.reject("D005", f"`{address}` does not fit {member.type}: it needs {need}.", span)
-    if letter == "X":
-        offset, member.bit = (unit, int(bit)) if bit is not None else divmod(unit, 8)
-    elif bit is not None:
-        raise declared.report.reject("D005", f"`{address}` has a bit number; only `%X` has one.", span)
-    first, last = _bits(member, offset)
-    for other in owner.members.values():
-        low, high = _bits(other, other.offset)
-        if not owner.overlaps and first < high and low < last:
-            raise declared.report.reject(
-                "D005",
-                f"`{member.name}` shares bytes with `{other.name}`; write STRUCT OVERLAP if that is meant.",
-                span,
-            )
-    owner.place_at(member, offset)
-
-
-def _bits(member: Member, offset: int) -> tuple[int, int]:
-    if member.bit is not None:
-        return 8 * offset + member.bit, 8 * offset + member.bit + 1
-    return 8 * offset, 8 * (offset + member.storage)
-
-
-def place_bounds(owner: Record, member: Member) -> None:
-    """The hidden bounds of an ARRAY[*] in-out, right behind its slot: low1, high1, low2, high2, ..."""
-    assert isinstance(member.type, OpenArray)
-    for dimension in range(1, member.type.dimensions + 1):
-        for end in ("low", "high"):
-            name = f"{member.name}${end}{dimension}"
-            owner.place(Member(name, ELEMENTARY["LINT"], Section.INPUT, member.span, hidden=True))
-
-
-def place_edge(owner: Record, member: Member, edge: str) -> None:
-    """What an input with R_EDGE or F_EDGE needs: its value at the last call, and whether the edge is there now."""
-    for name in ("previous", f"{edge.lower()}_edge"):
-        owner.place(Member(f"{member.name}${name}", ELEMENTARY["BOOL"], Section.VAR, member.span, hidden=True))
-
-
-class EnumerationValues:
-    """Which enumerations have a value of some name."""
-
-    def __init__(self, declared: "Declarations") -> None:
-        self._declared = declared
-        self._known = -1
-        self._by_value: dict[str, list[str]] = {}
-        self._inline: dict[str, list[tuple[str, Enumeration]]] = {}
-
-    def add_inline(self, owner: str, type: Enumeration) -> None:
-        """An enumeration that stands in a variable's declaration: known inside of that owner."""
-        for name, _ in type.values:
-            found = self._inline.setdefault(name.upper(), [])
-            if (owner.upper(), type) not in found:
-                found.append((owner.upper(), type))
-
-    def find(self, name: str, owners: set[str]) -> list[Enumeration]:
-        """All enumerations that have this value and are visible for one of `owners` (upper-case names)."""
-        found: list[Enumeration] = []
-        for key in self._named().get(name.upper(), []):
-            try:
-                made = self._declared.types.get(key) or self._declared.named(key, self._declared.type_trees[key].span)
-            except Rejected:
-                continue
-            if isinstance(made, Enumeration) and made not in found:
-                found.append(made)
-        trees = self._declared.type_trees
-        for owner, type in self._inline.get(name.upper(), []):
-            visible = owner in owners or owner in trees or owner == "GLOBAL" or owner.startswith("STRUCT OF ")
-            if visible and type not in found:
-                found.append(type)
-        return found
-
-    def names(self) -> list[str]:
-        """All values that are visible everywhere, for near matches."""
-        return [
-            name
-            for declaration in self._declared.type_trees.values()
-            if isinstance(declaration.type, tree.EnumSpec) and not declaration.qualified_only
-            for name, _, _ in declaration.type.values
-        ]
-
-    def _named(self) -> dict[str, list[str]]:
-        trees = self._declared.type_trees
-        if self._known != len(trees):
-            self._known = len(trees)
-            self._by_value = {}
-            for key, declaration in trees.items():
-                if isinstance(declaration.type, tree.EnumSpec) and not declaration.qualified_only:
-                    for name, _, _ in declaration.type.values:
-                        self._by_value.setdefault(name.upper(), []).append(key)
-        return self._by_value

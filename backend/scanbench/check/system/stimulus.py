@@ -11,7 +11,7 @@ from scanbench.check.body.bodies import body_of
 from scanbench.check.body.context import Body
 from scanbench.check.body.targets import target, writable
 from scanbench.check.context import Rejected, Report, did_you_mean
-from scanbench.check.declare.declare import Declarations
+from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.scopes import Pous, Scope, place_of
 from scanbench.check.system.driven import Driven, Taken
 from scanbench.problems import Span

@@ -20,7 +20,7 @@ from scanbench.check.body.objects import dotted
 from scanbench.check.body.standard_calls import standard_call
 from scanbench.check.body.subrange_checks import plain
 from scanbench.check.context import Rejected, Report, did_you_mean
-from scanbench.check.declare.declare import Declarations
+from scanbench.check.declare.declare import declarations_of
 from scanbench.check.declare.scopes import Pous, Scope
 from scanbench.check.standard.functions import FUNCTIONS
 from scanbench.check.typed.looking import NOWHERE, Looking
@@ -274,7 +274,7 @@ class ProgramLookup:
 def program_body(visible: Visible, report: Report, scope: Scope, lookup: Lookup, call: Call) -> Body:
     """What checks an expression in a scope that is made of a whole program; nothing of it is changed."""
     layout = visible.program.layout
-    declarations = Declarations(report, layout.model, layout.areas, lambda node, type: constant(body, node, type))
+    declarations = declarations_of(report, layout.model, layout.areas, lambda node, type: constant(body, node, type))
     for each in visible.enumerations:
         declarations.types[each.name.upper()] = each
         declarations.values.add_inline("GLOBAL", each)

@@ -1,0 +1,61 @@
+"""PROGRAM, FUNCTION_BLOCK, CLASS and INTERFACE -> the variables of an instance."""
+
+from scanbench.check.declare.declarations import TYPE_NAMES, Declarations
+from scanbench.check.declare.members import declare
+from scanbench.check.declare.names import qualified
+from scanbench.program.origin import in_library
+from scanbench.program.types import Kind, Record, Section
+from scanbench.syntax import tree
+
+
+def block(declared: Declarations, declaration: tree.PouDeclaration) -> Record:
+    """The variables of an instance of a FUNCTION_BLOCK or PROGRAM; temporaries are in its frame."""
+    role = Kind.INTERFACE if declaration.kind == "interface" else Kind.BLOCK
+    record = declared.record(qualified(declaration.namespace, declaration.name), role)
+    declared.inherit(record, declaration)
+    copied = _copies(declared, declaration)
+    for section in declaration.sections:
+        kind = Section(section.keyword)
+        if kind in (Section.TEMP, Section.EXTERNAL):
+            continue
+        if kind is Section.GLOBAL:
+            declared.report.error("D008", "VAR_GLOBAL stands outside of POUs.", section.span)
+            continue
+        if declaration.kind == "program" and kind is Section.IN_OUT:
+            declared.report.error("D008", "A PROGRAM has no VAR_IN_OUT here; use VAR_EXTERNAL.", section.span)
+            continue
+        for variable in section.variables:
+            by_value = copied and kind is Section.IN_OUT and not _keeps_state(declared, variable.type)
+            member = declare(declared, record, variable, kind, "CONSTANT" in section.qualifiers, by_value)
+            if member is not None:
+                member.access = section.access if kind is Section.VAR else "PUBLIC"
+                member.retain = bool({"RETAIN", "PERSISTENT"} & set(section.qualifiers))
+                member.non_retain = "NON_RETAIN" in section.qualifiers
+    record.close()
+    return record
+
+
+def _copies(declared: Declarations, declaration: tree.PouDeclaration) -> bool:
+    """Whether a block takes its in-outs by value."""
+    if declaration.kind != "function_block" or in_library(declaration.span):
+        return False
+    return (declaration.in_out or declared.model.in_out) == "value"
+
+
+def _keeps_state(declared: Declarations, spec: tree.TypeSpec, around: tuple[str, ...] = ()) -> bool:
+    """Whether instances of blocks are in it, or its size comes with each call: such an in-out is always a reference."""
+    match spec:
+        case tree.OpenArraySpec():
+            return True
+        case tree.ArraySpec(element=element):
+            return _keeps_state(declared, element, around)
+        case tree.StructSpec():
+            return bool(spec.extends) or any(_keeps_state(declared, each.type, around) for each in spec.members)
+        case tree.NamedType(name, span):
+            key = name.upper() if name.upper() in TYPE_NAMES else declared.find_type(name, span) or name.upper()
+            if key in declared.block_trees or key in around:
+                return True
+            found = declared.type_trees.get(key)
+            return found is not None and _keeps_state(declared, found.type, (*around, key))
+        case _:
+            return False

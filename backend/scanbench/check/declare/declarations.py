@@ -1,0 +1,153 @@
+"""The types and blocks of a program by name, made when they are first asked for, and what is known of its variables."""
+
+from collections.abc import Callable
+from contextlib import suppress
+from dataclasses import dataclass, field
+from typing import TypeAlias
+
+from scanbench.check.context import Rejected, Report, did_you_mean
+from scanbench.check.declare.enumeration_values import EnumerationValues
+from scanbench.check.declare.names import Names, Space, qualified
+from scanbench.plcmodel.model import Model
+from scanbench.problems import Span
+from scanbench.program.program import Const, Expr
+from scanbench.program.types import ABBREVIATIONS, ELEMENTARY, NULL, Kind, Member, Record, Reference, Type
+from scanbench.syntax import tree
+
+TYPE_NAMES = {**ELEMENTARY, **{name: ABBREVIATIONS[name] for name in ("TOD", "LTOD", "DT", "LDT")}}
+
+ConstantOf = Callable[[tree.Expression, Type | None], Const]
+"""Evaluates a constant expression, or rejects."""
+ReferenceOf = Callable[[Record, tree.Expression, Reference], Expr]
+"""The reference that an expression gives among the variables of an owner, or rejects."""
+Inherit = Callable[[Record, tree.PouDeclaration], None]
+"""Gives the record of a block what it has from its base, before its own members."""
+TypeOf: TypeAlias = "Callable[[Declarations, tree.TypeSpec], Type]"
+MakeType: TypeAlias = "Callable[[Declarations, tree.TypeDeclaration | tree.PouDeclaration], Type]"
+
+
+@dataclass(slots=True)
+class Declarations:
+    """All types, blocks and located memory of a program; types are made when first asked for."""
+
+    report: Report
+    model: Model
+    areas: dict[str, int]
+    """Offset of each area in the image."""
+    constant_of: ConstantOf
+    _made: MakeType
+    """Makes a type or block of the user."""
+    _type_of: TypeOf
+    type_trees: dict[str, tree.TypeDeclaration] = field(default_factory=dict)
+    block_trees: dict[str, tree.PouDeclaration] = field(default_factory=dict)
+    """PROGRAM, FUNCTION_BLOCK, CLASS and INTERFACE declarations by upper-case name."""
+    inherit: Inherit = field(default=lambda record, declaration: None)
+    types: dict[str, Type] = field(default_factory=dict)
+    defaults: dict[str, bytes] = field(default_factory=dict)
+    """Start values of directly derived types that state one."""
+    located: list[tuple[int, int, bytes]] = field(default_factory=list)
+    """Start values of located variables in order of declaration: offset in the image, mask of each byte, bytes."""
+    broken: set[tuple[str, str]] = field(default_factory=set)
+    """(owner, name) in upper case of variables whose declaration is wrong: reported once, not at every use."""
+    owners: list[Record] = field(default_factory=list)
+    """What is being declared: constants declared above can stand in bounds and initial values."""
+    looked_at: frozenset[str] = frozenset()
+    """Names of variables that have a note, in upper case; see `notes`."""
+    incomplete: bool = False
+    """Whether any variable waits for its address."""
+    start_references: list[tuple[Record, Member, tree.Expression]] = field(default_factory=list)
+    """References that start with REF(variable): owner, variable, what it starts with."""
+    reference_of: ReferenceOf = field(default=lambda owner, node, type: Const(NULL, 0))
+    symbols: Record = field(default_factory=lambda: Record("", Kind.STRUCT))
+    """Variables that the model gives to every program."""
+    names: Names = field(init=False)
+    values: EnumerationValues = field(init=False)
+    shells: dict[str, Record] = field(default_factory=dict)
+    """Structures and blocks that were asked for, complete or not: a reference may refer to what is still open."""
+    _pending: list[str] = field(default_factory=list)
+    """Keys of shells that wait to be completed."""
+    _open: list[str] = field(default_factory=list)
+
+    def __post_init__(self) -> None:
+        self.names = Names(self.report)
+        self.values = EnumerationValues(self.type_trees, self._value_type)
+
+    def _value_type(self, key: str) -> Type:
+        return self.types.get(key) or self.named(key, self.type_trees[key].span)
+
+    def type_of(self, spec: tree.TypeSpec) -> Type:
+        """The type that a specification says."""
+        return self._type_of(self, spec)
+
+    def named(self, name: str, span: Span) -> Type:
+        """The type, or the variables of the block, of this name; made where it is not yet."""
+        key = name.upper()
+        if key in TYPE_NAMES:
+            return TYPE_NAMES[key]
+        key = self.find_type(name, span) or key
+        if key in self.types:
+            return self.types[key]
+        if key in self._open:
+            path = " -> ".join([*self._open[self._open.index(key) :], key])
+            raise self.report.reject("D003", f"`{name}` contains itself ({path}), so it has no size.", span)
+        declaration, block = self.type_trees.get(key), self.block_trees.get(key)
+        if declaration is None and block is None:
+            hint = did_you_mean(name, [*TYPE_NAMES, *self.type_trees, *self.block_trees])
+            raise self.report.reject("D002", f"There is no type `{name}`.{hint}", span)
+        origin = declaration or block
+        assert origin is not None
+        self._open.append(key)
+        try:
+            with self.names.within(Space(origin.namespace, origin.using)):
+                made = self._made(self, origin)
+        finally:
+            self._open.pop()
+        self.types[key] = made
+        self._complete()
+        return made
+
+    def _complete(self) -> None:
+        """Makes what references referred to while it could not be made."""
+        while self._pending and not self._open:
+            key = self._pending.pop()
+            origin = self.type_trees.get(key) or self.block_trees.get(key)
+            if origin is not None and key not in self.types:
+                with suppress(Rejected):
+                    self.named(key, origin.span)
+
+    def declare_types(self) -> None:
+        """Makes the types that nothing used, for what is wrong in them."""
+        for key, declaration in self.type_trees.items():
+            if key not in self.types:
+                with suppress(Rejected):
+                    self.named(key, declaration.span)
+
+    def referred(self, spec: tree.TypeSpec) -> Type:
+        """A type that something refers to: while types are open, one that need not be complete."""
+        if not isinstance(spec, tree.NamedType) or not self._open:
+            return self.type_of(spec)
+        key = self.find_type(spec.name, spec.span) or spec.name.upper()
+        declaration, block = self.type_trees.get(key), self.block_trees.get(key)
+        if key in self.types or (block is not None and block.kind == "interface"):
+            return self.named(spec.name, spec.span)
+        if declaration is not None and isinstance(declaration.type, tree.StructSpec):
+            kind, name = Kind.UNION if declaration.type.union else Kind.STRUCT, declaration.name
+        elif block is not None:
+            kind, name = Kind.BLOCK, block.name
+        else:
+            return self.named(spec.name, spec.span)
+        self._pending.append(key)
+        origin = declaration or block
+        assert origin is not None
+        return self.shells.get(key) or self.record(qualified(origin.namespace, name), kind)
+
+    def record(self, name: str, kind: Kind) -> Record:
+        """The record of this name, which may be known to references before its members are."""
+        made = self.shells.get(name.upper())
+        if made is None or made.members or name.startswith("STRUCT of "):
+            made = self.shells[name.upper()] = Record(name, kind)
+        return made
+
+    def find_type(self, name: str, span: Span) -> str | None:
+        """The key of the type or block that this name means here."""
+        return self.names.find(name, span, self.type_trees, self.block_trees)

@@ -1,0 +1,71 @@
+"""Temporaries of blocks, variables of FUNCTIONs and methods -> frames."""
+
+from scanbench.check.context import Rejected
+from scanbench.check.declare.declarations import Declarations
+from scanbench.check.declare.members import declare, default_of
+from scanbench.check.declare.names import qualified
+from scanbench.program.types import Kind, Member, Record, Section, has_instance
+from scanbench.syntax import tree
+
+CALLED = ("function", "method", "get", "set")
+"""POUs whose variables all live in a frame."""
+
+
+def frame(
+    declared: Declarations, declaration: tree.PouDeclaration, instance: Record, this: Record | None = None
+) -> Record:
+    """Temporaries of a block; all variables of a FUNCTION, with the result under the function's name.
+
+    A method begins with the in-out THIS; its variables may hide those of the instance.
+    """
+    declared.owners.append(this or instance)
+    try:
+        return _frame(declared, declaration, instance, this)
+    finally:
+        declared.owners.pop()
+
+
+def _frame(declared: Declarations, declaration: tree.PouDeclaration, instance: Record, this: Record | None) -> Record:
+    function = declaration.kind in CALLED
+    if this is None:
+        record = Record(qualified(declaration.namespace, declaration.name), Kind.STRUCT)
+    else:
+        part = f".{declaration.kind}" if declaration.kind in ("get", "set") else ""
+        record = Record(f"{this.name}.{declaration.name}{part}", Kind.STRUCT)
+        record.place(Member("THIS", this, Section.IN_OUT, declaration.span, hidden=True))
+    for section in declaration.sections:
+        kind = Section(section.keyword)
+        if kind is Section.EXTERNAL or (not function and kind is not Section.TEMP):
+            continue
+        if kind is Section.GLOBAL:
+            declared.report.error("D008", "VAR_GLOBAL stands outside of POUs.", section.span)
+            continue
+        for variable in section.variables:
+            if variable.address is not None:
+                declared.report.error("D008", "A temporary variable has no address.", variable.span)
+                continue
+            if variable.name.upper() in instance.members or (
+                function and declaration.kind != "set" and variable.name.upper() == declaration.name.upper()
+            ):
+                declared.report.error("D001", f"`{variable.name}` is declared already; rename one.", variable.span)
+                continue
+            constant = "CONSTANT" in section.qualifiers
+            if function and kind is Section.INPUT and isinstance(variable.type, tree.OpenArraySpec):
+                declare(declared, record, variable, Section.IN_OUT, constant=True)  # referred to, and only read
+                continue
+            member = declare(declared, record, variable, kind, constant)
+            if member and kind is not Section.IN_OUT and has_instance(member.type):
+                what = "FUNCTION" if function else "VAR_TEMP"
+                declared.report.error(
+                    "D008", f"An instance of {member.type.name} must keep its state; not in a {what}.", member.span
+                )
+    if function and declaration.kind != "set" and declaration.result is not None:
+        try:
+            result = Member(declaration.name, declared.type_of(declaration.result), Section.RESULT, declaration.span)
+            result.initial = default_of(declared, declaration.result, result.type)
+            record.place(result)
+        except Rejected:
+            record.open = True
+            declared.broken.add((record.name.upper(), declaration.name.upper()))
+    record.close()
+    return record

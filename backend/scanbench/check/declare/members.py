@@ -1,0 +1,193 @@
+"""Variables -> members with offsets and initial values."""
+
+from contextlib import suppress
+from dataclasses import replace
+
+from scanbench.check.body.notes import make_note, may_have_note
+from scanbench.check.context import Rejected
+from scanbench.check.declare.addresses import is_relative, locate, place_relative
+from scanbench.check.declare.declarations import Declarations
+from scanbench.check.declare.initial_values import initial_image
+from scanbench.program.types import (
+    ELEMENTARY,
+    SLOT_BYTES,
+    ArrayType,
+    Kind,
+    Member,
+    OpenArray,
+    Record,
+    Reference,
+    Section,
+    Type,
+    actual_name,
+    has_instance,
+    initial_of,
+)
+from scanbench.syntax import tree
+
+MAX_BYTES = 64 * 1024 * 1024
+
+
+def declare(
+    declared: Declarations,
+    owner: Record,
+    variable: tree.Variable,
+    section: Section,
+    constant: bool,
+    copied: bool = False,
+) -> Member | None:
+    """Adds the variable to its owner, unless its declaration is wrong; `copied` as in `Member`."""
+    if variable.arguments and variable.initial is None:
+        variable = _with_arguments(variable)
+    declared.owners.append(owner)
+    try:
+        return _declare(declared, owner, variable, section, constant, copied)
+    finally:
+        declared.owners.pop()
+
+
+def _declare(
+    declared: Declarations, owner: Record, variable: tree.Variable, section: Section, constant: bool, copied: bool
+) -> Member | None:
+    key = variable.name.upper()
+    if key in owner.members:
+        first = owner.members[key].span
+        declared.report.error(
+            "D001", f"`{variable.name}` is declared already in line {first.line}; rename one.", variable.span
+        )
+        return None
+    try:
+        bound = section is Section.IN_OUT and not copied
+        made = declared.referred(variable.type) if bound else declared.type_of(variable.type)
+        if isinstance(made, OpenArray) and section is not Section.IN_OUT:
+            raise declared.report.reject(
+                "D008",
+                "ARRAY[*] is for VAR_IN_OUT, and for VAR_INPUT of a FUNCTION or METHOD; state the bounds here.",
+                variable.span,
+            )
+    except Rejected:
+        declared.broken.add((owner.name.upper(), key))
+        return None
+    if section is not Section.IN_OUT and isinstance(made, Record) and made.name.upper() == owner.name.upper():
+        declared.report.error("D003", f"`{owner.name}` contains itself, so it has no size.", variable.span)
+        return None
+    if isinstance(made, Record) and _is_program(declared, made):
+        declared.report.error(
+            "D002", f"`{made.name}` is a PROGRAM; only FUNCTION_BLOCKs have instances.", variable.span
+        )
+        return None
+    if variable.address is not None and variable.address.endswith("*"):
+        return _incomplete(declared, owner, variable, section, made)
+    member = Member(variable.name, made, section, variable.span, constant=constant, copied=copied)
+    with suppress(Rejected):
+        _start(declared, owner, member, variable)
+        if variable.address is not None and not (section is Section.MEMBER and is_relative(variable.address)):
+            locate(declared, member, variable)
+    _place(declared, owner, member, variable)
+    if owner.size > MAX_BYTES:
+        declared.report.error("D012", f"`{owner.name}` takes more than {MAX_BYTES} bytes.", variable.span)
+        owner.members.pop(key)
+    return member
+
+
+def _start(declared: Declarations, owner: Record, member: Member, variable: tree.Variable) -> None:
+    """Gives the member what it starts with."""
+    if member.section is Section.IN_OUT:
+        member.initial = default_of(declared, variable.type, member.type) if member.copied else b""
+        if variable.initial is not None:
+            declared.report.error("D004", "An in-out has no initial value; it is bound at each call.", member.span)
+    elif isinstance(member.type, Reference) and isinstance(variable.initial, tree.Call):
+        _start_reference(declared, owner, member, variable.initial)
+    elif variable.initial is not None:
+        member.initial = initial_image(declared, variable.initial, member.type)
+    else:
+        member.initial = default_of(declared, variable.type, member.type)
+
+
+def _incomplete(
+    declared: Declarations, owner: Record, variable: tree.Variable, section: Section, made: Type
+) -> Member | None:
+    """`AT %I*`: a reference that VAR_CONFIG fills for each instance, and memory for when it does not."""
+    span = variable.address_span or variable.span
+    if section not in (Section.VAR, Section.GLOBAL) or has_instance(made) or isinstance(made, OpenArray):
+        declared.report.error("D005", "`AT %I*` is for elementary data in VAR and VAR_GLOBAL.", span)
+        return None
+    if variable.initial is not None:
+        declared.report.error("D004", "Give this its initial value in VAR_CONFIG, with its address.", span)
+    type = Reference(f"REFERENCE TO {made.name}", Kind.REF, SLOT_BYTES, made, automatic=True)
+    member = Member(variable.name, type, section, variable.span, incomplete=(variable.address or "").upper())
+    declared.incomplete = True
+    owner.place(member)
+    owner.place(
+        Member(own_memory(variable.name), made, Section.VAR, variable.span, initial=initial_of(made), hidden=True)
+    )
+    return member
+
+
+def _start_reference(declared: Declarations, owner: Record, member: Member, node: tree.Expression) -> None:
+    if owner.kind is not Kind.BLOCK and member.section is not Section.GLOBAL:
+        raise declared.report.reject("D004", "This starts with NULL; assign the reference in the body.", node.span)
+    declared.start_references.append((owner, member, node))
+
+
+def _place(declared: Declarations, owner: Record, member: Member, variable: tree.Variable) -> None:
+    if variable.address is not None and member.section is Section.MEMBER and is_relative(variable.address):
+        try:
+            place_relative(declared, owner, member, variable.address, variable.address_span or variable.span)
+        except Rejected:
+            owner.place(member)
+        return
+    owner.place(member)
+    if member.copied:
+        owner.place(Member(actual_name(member.name), member.type, Section.IN_OUT, member.span, hidden=True))
+    if isinstance(member.type, OpenArray):
+        place_bounds(owner, member)
+    if member.name.upper().rpartition(".")[2] in declared.looked_at and may_have_note(member):
+        make_note(owner, member, initial_of(member.type) if member.bound else member.initial)
+    if variable.edge:
+        if member.section is not Section.INPUT or member.type != ELEMENTARY["BOOL"]:
+            declared.report.error("D008", f"{variable.edge}_EDGE is for BOOL in VAR_INPUT.", variable.span)
+        else:
+            place_edge(owner, member, variable.edge)
+
+
+def _is_program(declared: Declarations, record: Record) -> bool:
+    declaration = declared.block_trees.get(record.name.upper())
+    return record.kind is Kind.BLOCK and declaration is not None and declaration.kind == "program"
+
+
+def default_of(declared: Declarations, spec: tree.TypeSpec, made: Type) -> bytes:
+    """What a variable of this type starts with when its declaration says nothing."""
+    if isinstance(spec, tree.NamedType) and declared.defaults:
+        key = declared.find_type(spec.name, spec.span)
+        if key in declared.defaults:
+            return declared.defaults[key]
+    if isinstance(spec, tree.ArraySpec) and isinstance(made, ArrayType) and declared.defaults:
+        return default_of(declared, spec.element, made.element) * made.count
+    return initial_of(made)
+
+
+def place_bounds(owner: Record, member: Member) -> None:
+    """The hidden bounds of an ARRAY[*] in-out, right behind its slot: low1, high1, low2, high2, ..."""
+    assert isinstance(member.type, OpenArray)
+    for dimension in range(1, member.type.dimensions + 1):
+        for end in ("low", "high"):
+            name = f"{member.name}${end}{dimension}"
+            owner.place(Member(name, ELEMENTARY["LINT"], Section.INPUT, member.span, hidden=True))
+
+
+def place_edge(owner: Record, member: Member, edge: str) -> None:
+    """What an input with R_EDGE or F_EDGE needs: its value at the last call, and whether the edge is there now."""
+    for name in ("previous", f"{edge.lower()}_edge"):
+        owner.place(Member(f"{member.name}${name}", ELEMENTARY["BOOL"], Section.VAR, member.span, hidden=True))
+
+
+def _with_arguments(variable: tree.Variable) -> tree.Variable:
+    """`inst : FB(a := 1)` means `inst : FB := (a := 1)`."""
+    members = tuple((each.name or "", each.value, each.span) for each in variable.arguments if each.value is not None)
+    return replace(variable, initial=tree.StructInit(members, variable.span))
+
+
+def own_memory(name: str) -> str:
+    """The hidden variable beside an `AT %I*` that is used as long as no address is given."""
+    return f"{name}$memory"
