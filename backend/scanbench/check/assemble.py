@@ -87,15 +87,11 @@ def assemble(
     tasks, interval = _tasks(planned, placing, wiring, interval_ns)
     at = align(placing.at)
     if report.checks:
-        layout.violations = at
-        at = align(at + 8 + Layout.VIOLATION_LIMIT * Layout.VIOLATION_BYTES)
+        layout.violations, at = at, align(at + 8 + Layout.VIOLATION_LIMIT * Layout.VIOLATION_BYTES)
     layout.state_size = at
     run = {each.pou for task in tasks for each in task.programs}
     needed, tasked = _reachable(order, pous, {*around.common, *around.plant, *run}), _reachable(order, pous, run)
-    for pou in needed:
-        pou.frame_offset = at
-        at = align(at + pou.frame.size)
-    layout.size = at
+    layout.size = _place_frames(needed, at)
     if any(member.copied for pou in needed for member in pou.instance.members.values()):
         running = [*common, *instances, *plant]
         layout.copies = copies_of([(variables, 0), *((each.pou.instance, each.offset) for each in running)])
@@ -223,6 +219,14 @@ def _reachable(order: list[Pou], pous: Pous, roots: set[Pou]) -> list[Pou]:
                 found.add(callee)
                 open_.append(callee)
     return [pou for pou in order if pou in found]
+
+
+def _place_frames(pous: list[Pou], at: int) -> int:
+    """Gives each its frame, from this byte of the image on; the byte behind the last one."""
+    for pou in pous:
+        pou.frame_offset = at
+        at = align(at + pou.frame.size)
+    return at
 
 
 def _initial_image(

@@ -16,19 +16,19 @@ from scanbench.check.body.coercion import as_type, constant
 from scanbench.check.body.generic import is_generic
 from scanbench.check.body.notes import Looks
 from scanbench.check.body.pou_body import pou_body
-from scanbench.check.context import Rejected, Report, did_you_mean
+from scanbench.check.context import Rejected, Report
 from scanbench.check.declare.class_rules import check_classes, check_instances
 from scanbench.check.declare.classes import Method, called_pou, collect, declare_methods
 from scanbench.check.declare.collect import Collector, declare_globals, globals_of
 from scanbench.check.declare.declarations import Declarations
 from scanbench.check.declare.declare import declarations_of
+from scanbench.check.declare.externals import externals_of
 from scanbench.check.declare.frames import frame
 from scanbench.check.declare.names import Space, qualified
 from scanbench.check.declare.scopes import Pous, Scope, place_of
 from scanbench.check.order import Order
-from scanbench.check.system.driven import Driven, warn_of_contention
 from scanbench.check.system.plant import Plant, plant_files
-from scanbench.check.system.stimulus import StimulusChecker
+from scanbench.check.system.stimuli import Stimuli
 from scanbench.check.system.system import System, system_of
 from scanbench.check.system.system_text import COMMON
 from scanbench.plcmodel.model import Model, Who
@@ -36,7 +36,7 @@ from scanbench.plcmodel.user_errors import extended, is_user_errors
 from scanbench.problems import Problem, Severity, Span
 from scanbench.program.origin import in_library, is_system
 from scanbench.program.program import Assign, Base, CheckSite, Const, Expr, Place, Pou, Program
-from scanbench.program.types import BOOL, Kind, Member, Record, Reference, Section, Type
+from scanbench.program.types import BOOL, Kind, Member, Record, Reference, Type
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunked, read
 
@@ -162,9 +162,7 @@ class Checker:
     names: Collector = field(init=False)
     system: System = field(init=False)
     plant: Plant = field(init=False)
-    stimuli: dict[tree.Stimulus, Pou] = field(default_factory=dict)
-    driven: dict[Pou, list[Driven]] = field(default_factory=dict)
-    """The programs that tables of inputs became."""
+    stimuli: Stimuli = field(default_factory=Stimuli)
     declared: tuple[int, int, int] = (0, 0, 0)
     """What was reported of the declarations."""
     frames: dict[Pou, tuple[dict[str, Member], int, int]] = field(default_factory=dict)
@@ -220,7 +218,7 @@ class Checker:
         """What all bodies together make."""
         self.report.undo(self.declared)
         self._check_instances()
-        self._check_stimuli()
+        self.stimuli.check(self.report, self.declarations, self.pous, self.globals, self.parsed)
         common = self._common()
         self._check_library(common)
         self.plant.check(self.parsed)
@@ -324,7 +322,7 @@ class Checker:
     ) -> None:
         self.frames[pou] = dict(pou.frame.members), pou.frame.size, pou.frame.align
         with self.declarations.names.within(space), self.report.apart() as self.report.parts[pou]:
-            externals = self._externals(declaration, pou, instance, space)
+            externals = externals_of(self.declarations, self.globals, declaration, (instance, pou.frame), space)
             visible = Record("GLOBAL", Kind.STRUCT) if pou.inline else self.globals  # the library sees none of them
             scope = Scope(pou.name, visible, instance, pou.frame, externals, this=this, space=space)
             scope.system, scope.who = self._rights(declaration.span)
@@ -338,84 +336,11 @@ class Checker:
             return (), "program"
         return (self.system.symbols,), "engine" if self.plant.holds(span) else "program"
 
-    def _externals(
-        self, declaration: tree.PouDeclaration, pou: Pou, instance: Record, space: Space
-    ) -> dict[str, Member]:
-        found: dict[str, Member] = {}
-        visible = Scope("", self.globals, space=space)
-        for section in declaration.sections:
-            if section.keyword != Section.EXTERNAL:
-                continue
-            for variable in section.variables:
-                key = variable.name.upper()
-                if key in instance.members or key in pou.frame.members:
-                    self.report.error("D001", f"`{variable.name}` is declared already; rename one.", variable.span)
-                known = visible.find(variable.name)
-                if known is None:
-                    hint = did_you_mean(variable.name, [each.name for each in self.globals.members.values()])
-                    self.report.error("D007", f"There is no VAR_GLOBAL `{variable.name}`.{hint}", variable.span)
-                    continue
-                with suppress(Rejected):
-                    self._same_type(known[0], self.declarations.type_of(variable.type), variable.span)
-                    found[key] = known[0]
-        return found
-
-    def _same_type(self, member: Member, declared: Type, span: Span) -> None:
-        if declared != member.type:
-            self.report.error("D007", f"The VAR_GLOBAL `{member.name}` is {member.type}, not {declared}.", span)
-
     def _check_instances(self) -> None:
         """Bodies of generic functions, for the types that they are called with; they may call others."""
         while fresh := [each for each in self.pous.instances.values() if each.pou not in self.frames]:
             for pou, declaration in [(each.pou, each.declaration) for each in fresh]:
                 self._check(pou, declaration, pou.instance, Space(declaration.namespace, declaration.using), None)
-
-    def _check_stimuli(self) -> None:
-        """Makes the programs of the tables in plant/: once, as they depend on declarations only."""
-        tables = {stimulus for file in self.parsed for stimulus in file.stimuli}
-        for stimulus, pou in self.stimuli.items():
-            if self.pous.blocks.get(pou.name.upper()) is pou:
-                del self.pous.blocks[pou.name.upper()]
-            if stimulus not in tables:
-                self.report.parts.pop(pou, None)
-        known, self.stimuli = self.stimuli, {}  # in the order of their files, whatever was edited last
-        for file in self.parsed:
-            for stimulus in file.stimuli:
-                if stimulus in known:
-                    self.stimuli[stimulus] = known[stimulus]
-                else:
-                    with self.report.apart() as part:
-                        checker = StimulusChecker(
-                            self.report, self.declarations, self.pous, self.globals, stimulus, self._program_variables()
-                        )
-                        made = checker.make()
-                    self.report.parts[made] = part
-                    self.driven[made] = checker.driven
-                    self.stimuli[stimulus] = made
-        for stimulus, pou in self.stimuli.items():
-            first = self.pous.blocks.setdefault(pou.name.upper(), pou)
-            if first is not pou:
-                self.report.error(
-                    "D001", f"This file's program `{pou.name}` is declared already in {first.span}; rename the file.",
-                    stimulus.span,
-                )  # fmt: skip
-        self.driven = {pou: self.driven[pou] for pou in self.stimuli.values()}
-        warn_of_contention(self.report, self.driven)
-
-    def _program_variables(self) -> dict[str, Record]:
-        """By the name of the program instance."""
-        programs = {
-            key: pou.instance for key, pou in self.pous.blocks.items() if pou.kind == "program" and not pou.inline
-        }
-        for configuration in (each for file in self.parsed for each in file.configurations):
-            resources = configuration.resources
-            for each in (
-                *configuration.programs,
-                *(program for resource in resources for program in resource.programs),
-            ):
-                if each.type_name.upper() in programs:
-                    programs[each.name.upper()] = programs[each.type_name.upper()]
-        return programs
 
     def _common(self) -> list[Pou]:
         """The program of common processing."""
