@@ -182,7 +182,7 @@ def _bind(body: Body, member: Member, argument: tree.Argument | None, bound: Bin
         bound.places[key] = taken
         whole = _generic(member, Load(taken), target.type)
         stored = keeping(
-            body, output_value(body, whole, target.type, argument), noting(body, target, variable), argument.span
+            output_value(body, whole, target.type, argument), noting(body, target, variable), argument.span
         )
         bound.after.append(Assign(target, stored, argument.span))
 

@@ -60,7 +60,7 @@ def assign(body: Body, node: tree.Assignment) -> Stmt:
         copied = Assign(target, _whole(body, node.value, target.type, what), node.span)
         return copied if note is None else together([copied, Assign(note, Load(target), node.span)], node.span)
     value = as_type(body, node.value, target.type, what)
-    return Assign(target, keeping(body, value, note, node.span), node.span)
+    return Assign(target, keeping(value, note, node.span), node.span)
 
 
 def _target(body: Body, node: tree.Assignment) -> Found:

@@ -101,7 +101,7 @@ def _read(body: Body, node: tree.Expression) -> Expr:
 
 
 def _value_at(body: Body, place: Place, member: Member | None, node: tree.Expression) -> Expr:
-    known = _known(body, place, member)
+    known = _known(place, member)
     if known is not None:
         return known
     if not isinstance(place.type, Subrange):
@@ -111,7 +111,7 @@ def _value_at(body: Body, place: Place, member: Member | None, node: tree.Expres
     return read(body, place, node.span, shown(node))
 
 
-def _known(body: Body, place: Place, member: Member | None) -> Const | None:
+def _known(place: Place, member: Member | None) -> Const | None:
     """The value of a CONSTANT."""
     if member is None or not member.constant or place.indices or place.slot or place.reference is not None:
         return None
@@ -129,7 +129,7 @@ def _part_value(body: Body, node: tree.PartialAccess) -> Expr:
         return Load(bit)
     if isinstance(node.owner, tree.Name | tree.MemberOf | tree.IndexOf | tree.DirectAddress | tree.Dereference):
         place, member = body.place(node.owner)
-        whole = _known(body, place, member)
+        whole = _known(place, member)
         if whole is None:
             return Load(part(body, place, node.size, node.index, node.span))
     else:

@@ -41,7 +41,7 @@ def instantiated(body: Body, declaration: tree.PouDeclaration, node: tree.Call) 
     types: dict[str, Elementary | StringType] = {}
     arguments = [
         (_generic_name(variable.type), variable.name, value, _tried(body, value))
-        for variable, value in _generic_arguments(body, declaration, node)
+        for variable, value in _generic_arguments(declaration, node)
     ]
     for generic, name, value, expr in sorted(arguments, key=lambda each: is_untyped(each[3])):
         if not is_untyped(expr) or generic not in types:  # a literal takes the type of the others
@@ -60,7 +60,7 @@ def instantiated(body: Body, declaration: tree.PouDeclaration, node: tree.Call) 
 
 
 def _generic_arguments(
-    body: Body, declaration: tree.PouDeclaration, node: tree.Call
+    declaration: tree.PouDeclaration, node: tree.Call
 ) -> list[tuple[tree.Variable, tree.Expression]]:
     formals = [each for section in declaration.sections if section.keyword in TAKEN for each in section.variables]
     by_name = {each.name.upper(): each for each in formals}

@@ -151,7 +151,7 @@ def _time(body: Body, op: str, left: Expr, right: Expr, span: Span) -> Expr:
     a, b = left.type, right.type
     if isinstance(a, Elementary) and isinstance(b, Elementary):
         if a.kind in MOMENTS and b.kind in MOMENTS and op in ("add", "sub"):
-            made = _moments(body, op, left, right, a, b)
+            made = _moments(op, left, right, a, b)
             if made is not None:
                 return made
         if a.kind is Kind.TIME and op in ("mul", "div"):
@@ -169,7 +169,7 @@ def _no_time(body: Body, op: str, left: Expr, right: Expr, span: Span) -> Except
     )  # fmt: skip
 
 
-def _moments(body: Body, op: str, left: Expr, right: Expr, a: Elementary, b: Elementary) -> Expr | None:
+def _moments(op: str, left: Expr, right: Expr, a: Elementary, b: Elementary) -> Expr | None:
     """Sums and differences of durations and dates."""
     long = LTIME if a.name.startswith("L") or b.name.startswith("L") else TIME
     if a.kind is Kind.TIME and b.kind is Kind.TIME:

@@ -127,10 +127,10 @@ def with_note(body: Body, value: Expr, type: Subrange, span: Span) -> tuple[Expr
     if same is not None:
         return value, same
     kept = body.temporary(base_of(type), span)
-    return keeping(body, value, kept, span), Load(kept)
+    return keeping(value, kept, span), Load(kept)
 
 
-def keeping(body: Body, value: Expr, note: Place | None, span: Span) -> Expr:
+def keeping(value: Expr, note: Place | None, span: Span) -> Expr:
     """A value on its way into a subrange variable; the note takes it as it is before it is limited."""
     if note is None:
         return value
