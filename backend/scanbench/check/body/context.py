@@ -55,7 +55,7 @@ class Lookup(Protocol):
 class Effects(Protocol):
     """What the code that is made may do besides computing a value."""
 
-    embeds: bool
+    checks: bool
     """Whether checks of subranges are embedded, and notes; what people type only looks."""
 
     def temporary(self, body: "Body", type: Type, span: Span, name: str) -> Place:

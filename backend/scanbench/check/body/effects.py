@@ -12,7 +12,7 @@ from scanbench.program.types import Member, Section, Type
 class PouEffects:
     """Temporaries in the frame, calls of the library, notes; `Effects` says what each method does."""
 
-    embeds = True
+    checks = True
 
     def temporary(self, body: Body, type: Type, span: Span, name: str) -> Place:
         frame = body.scope.frame

@@ -1,4 +1,4 @@
-"""Subrange checks that the checker embeds by itself: where a subrange variable is read, and where one is assigned.
+"""Subrange checks that the checker checks by itself: where a subrange variable is read, and where one is assigned.
 
 A value outside of its subrange is brought back to the nearer bound and recorded (`Limit`), so that the program goes on
 with what it may count on. What can be proven needless is listed, but not run; `redundant_checks.py` finds more of it.
@@ -38,7 +38,7 @@ def read(body: Body, place: Place, span: Span, variable: str) -> Expr:
     """The value of a variable; that of a subrange variable is checked, and has the base type."""
     if not isinstance(place.type, Subrange):
         return Load(place)
-    if not body.effects.embeds:
+    if not body.effects.checks:
         return Load(replace(place, type=base_of(place.type)))
     return _limit(body, Load(place), place.type, span, variable)
 
@@ -116,12 +116,12 @@ def _note_of(body: Body, place: Place, member: Member | None) -> Place | None:
 
 def noting(body: Body, place: Place, member: Member | None) -> Place | None:
     """The note that an assignment to the variable writes."""
-    return _note_of(body, place, member) if body.effects.embeds else None
+    return _note_of(body, place, member) if body.effects.checks else None
 
 
 def with_note(body: Body, value: Expr, type: Subrange, span: Span) -> tuple[Expr, Expr]:
     """An argument that is a subrange value, and the same as it was before it was limited."""
-    if not body.effects.embeds:
+    if not body.effects.checks:
         return value, value
     same = again(value.value if isinstance(value, Limit) else value)
     if same is not None:

@@ -11,7 +11,7 @@ NOWHERE = Span("condition", 1, 1, 1, 1)
 class Looking:
     """No temporaries, no code of the library, no records, no checks; `Effects` says what each method does."""
 
-    embeds = False
+    checks = False
 
     def temporary(self, body: Body, type: Type, span: Span, name: str) -> Place:
         raise body.report.reject(
