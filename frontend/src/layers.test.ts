@@ -34,21 +34,68 @@ function imports(path: string): string[] {
 /** What a file needs before it runs: types and what is imported later, when it is used, are not among it. */
 function needs(path: string): string[] {
   const text = readFileSync(path, "utf8");
-  return [...text.matchAll(/^(?:import|export)\s+(?!type\b)(?:[^"';]*?\sfrom\s+)?"([^"]+)"/gm)].flatMap(
-    ([, name = ""]) => {
-      if (!name.startsWith(".")) return [name];
-      return ["", ".ts", ".tsx"]
-        .map((end) => join(dirname(path), name + end))
-        .filter((file) => /\.tsx?$/.test(file) && existsSync(file));
-    },
+  return namesIn(text, /^(?:import|export)\s+(?!type\b)(?:[^"';]*?\sfrom\s+)?"([^"]+)"/gm).flatMap((name) =>
+    name.startsWith(".") ? filesOf(path, name) : [name],
   );
 }
 
-const folderOf = (path: string) =>
-  path
-    .split("/")
-    .slice(0, path.startsWith("panels/") ? 2 : 1)
-    .join("/");
+/** The files of the page that a file names, for values and for types. */
+function named(path: string): string[] {
+  const text = readFileSync(path, "utf8");
+  return namesIn(text, /^(?:import|export)\s+(?:[^"';]*?\sfrom\s+)?"(\.[^"]+)"/gm)
+    .flatMap((name) => filesOf(path, name))
+    .map((file) => relative(root, file));
+}
+
+const namesIn = (text: string, pattern: RegExp) => [...text.matchAll(pattern)].map(([, name = ""]) => name);
+
+const filesOf = (path: string, name: string) =>
+  ["", ".ts", ".tsx", "/index.ts"]
+    .map((end) => join(dirname(path), name + end))
+    .filter((file) => /\.tsx?$/.test(file) && existsSync(file));
+
+/** The feature that a file of `logic`, `store` or `panels` belongs to; empty elsewhere. */
+const featureOf = (path: string) => (path.split("/").length > 2 ? (path.split("/")[1] ?? "") : "");
+
+/** A panel counts as a folder of its own, and so does a group with one panel. */
+function folderOf(path: string): string {
+  const parts = path.split("/").slice(0, -1);
+  return parts[0] === "panels" ? parts.join("/") : (parts[0] ?? "");
+}
+
+/** What a feature of `logic` and `store` may build on, besides itself: nothing else knows another feature. */
+const COMMON = ["format", "page", "plc", "project"];
+const FEATURES: Record<string, readonly string[]> = {
+  format: [],
+  page: ["format"],
+  plc: ["format", "page"],
+  project: ["format", "page", "plc"],
+  errors: COMMON,
+  trace: COMMON,
+  verify: COMMON,
+  watch: COMMON,
+  past: [...COMMON, "verify"], // the timeline marks the differences that verifications found
+  debug: [...COMMON, "verify"], // a step is one of the verification that waits for it
+};
+
+/** The shortest way from a file back to itself, empty when there is none. */
+function circle(start: string, graph: ReadonlyMap<string, readonly string[]>): string[] {
+  const from = new Map<string, string>();
+  const queue = [start];
+  for (const path of queue)
+    for (const next of graph.get(path) ?? []) {
+      if (next === start) {
+        const way = [start];
+        for (let at = path; at !== start; at = from.get(at) ?? start) way.unshift(at);
+        return [start, ...way];
+      }
+      if (!from.has(next)) {
+        from.set(next, path);
+        queue.push(next);
+      }
+    }
+  return [];
+}
 
 describe("layers", () => {
   for (const layer of Object.keys(ALLOWED)) {
@@ -58,7 +105,7 @@ describe("layers", () => {
         const from = relative(root, path);
         for (const target of imports(path)) {
           const fine =
-            folderOf(target) === folderOf(from) ||
+            folderOf(`${target}.ts`) === folderOf(from) ||
             (ALLOWED[layer] ?? []).some((allowed) => target === allowed || target.startsWith(`${allowed}/`));
           if (!fine) wrong.push(`${from} imports ${target}`);
         }
@@ -67,12 +114,34 @@ describe("layers", () => {
     });
   }
 
+  for (const layer of ["logic", "store"]) {
+    it(`a feature of ${layer} knows no other`, () => {
+      const wrong: string[] = [];
+      for (const path of sources(join(root, layer))) {
+        const from = relative(root, path);
+        for (const target of imports(path)) {
+          const [feature, other] = [featureOf(from), featureOf(`${target}.ts`)];
+          if (other !== "" && other !== feature && !FEATURES[feature]?.includes(other))
+            wrong.push(`${from} imports ${target}`);
+        }
+      }
+      expect(wrong).toEqual([]);
+    });
+  }
+
+  it("no file needs itself", () => {
+    const graph = new Map(sources(root).map((path) => [relative(root, path), named(path)]));
+    expect([...graph.keys()].map((path) => circle(path, graph)).filter((way) => way.length > 0)).toEqual([]);
+    const round = { a: ["b"], b: ["c"], c: ["a"] };
+    expect(circle("a", new Map(Object.entries(round)))).toEqual(["a", "b", "c", "a"]);
+  });
+
   it("the page needs no Monaco to stand", () => {
     const seen = new Set([join(root, "main.tsx")]);
     for (const path of seen) if (path.startsWith(root)) for (const next of needs(path)) seen.add(next);
     expect([...seen].filter((path) => path.startsWith("monaco-editor"))).toEqual([]);
-    expect([...seen]).toContain(join(root, "panels/editor/EditorPanel.tsx"));
-    expect(needs(join(root, "panels/editor/monaco.ts"))).toContain("monaco-editor/editor");
+    expect([...seen]).toContain(join(root, "panels/project/editor/EditorPanel.tsx"));
+    expect(needs(join(root, "panels/project/editor/monaco.ts"))).toContain("monaco-editor/editor");
   });
 
   it("finds the imports it is to judge", () => {

@@ -1,7 +1,7 @@
 import { createRoot } from "react-dom/client";
 import { App } from "./app/App";
 import { connectStores } from "./app/dispatch";
-import { start } from "./store/bench";
+import { start } from "./store/plc/bench";
 import "./ui/tokens.css";
 import "./ui/base.css";
 import "./ui/controls.css";

@@ -1,7 +1,7 @@
 import { useState } from "react";
-import { baseName } from "../logic/paths";
-import { discardEdits, isDirty, isKept, save, useDocuments } from "../store/documents";
-import { discard, isEdited, saveUserErrors, useUserErrors } from "../store/userErrors";
+import { baseName } from "../logic/format/paths";
+import { discard, isEdited, saveUserErrors, useUserErrors } from "../store/errors/userErrors";
+import { discardEdits, isDirty, isKept, save, useDocuments } from "../store/project/documents";
 import { t } from "../text";
 import { Dialog } from "../ui/Dialog";
 import { Icon } from "../ui/Icon";

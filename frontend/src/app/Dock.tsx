@@ -1,10 +1,10 @@
 import { type DockviewApi, DockviewReact, type DockviewReadyEvent } from "dockview-react";
 import "dockview-react/dist/styles/dockview.css";
 import { type KeyboardEvent, type Ref, useCallback, useEffect, useImperativeHandle, useRef } from "react";
-import { useBench } from "../store/bench";
-import { closeDocument, holdsUnsaved, useDocuments } from "../store/documents";
-import { keep, recall } from "../store/keep";
-import { onNavigate } from "../store/navigate";
+import { keep, recall } from "../store/page/localStorage";
+import { onNavigate } from "../store/page/navigate";
+import { useBench } from "../store/plc/bench";
+import { closeDocument, holdsUnsaved, useDocuments } from "../store/project/documents";
 import { CloseUnsaved } from "./CloseUnsaved";
 import { closeByHand } from "./closing";
 import { components, HeaderEnd, PanelTab } from "./dockParts";

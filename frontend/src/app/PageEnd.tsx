@@ -1,6 +1,6 @@
 import type { IDockviewHeaderActionsProps } from "dockview-react";
 import { useEffect, useState } from "react";
-import { pageOf } from "../store/navigate";
+import { pageOf } from "../store/page/navigate";
 import { t } from "../text";
 import { Icon } from "../ui/Icon";
 import { IconButton } from "../ui/IconButton";

@@ -1,5 +1,5 @@
 import { type KeyboardEvent, type PointerEvent, useEffect, useState } from "react";
-import { keep, recall } from "../store/keep";
+import { keep, recall } from "../store/page/localStorage";
 import { t } from "../text";
 
 const LEAST = 160;

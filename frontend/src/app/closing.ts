@@ -1,8 +1,8 @@
 /** Closing a tab by hand: what is not saved is asked about first. */
 import type { DockviewApi } from "dockview-react";
 import { create } from "zustand";
-import { isDirty, useDocuments } from "../store/documents";
-import { isEdited, useUserErrors } from "../store/userErrors";
+import { isEdited, useUserErrors } from "../store/errors/userErrors";
+import { isDirty, useDocuments } from "../store/project/documents";
 import { closeTab, fileOf } from "./layout";
 
 interface Closing {

@@ -1,11 +1,11 @@
 /** Keys of the whole window. Captured before Monaco, which keeps F8 and others to itself. */
 
-import { toggleBreakpointHere } from "../store/debugKeys";
-import { build, save, useDocuments } from "../store/documents";
-import { restartByKey, singleScan, toggleRun } from "../store/run";
-import { showsRan } from "../store/shownProgram";
-import { runToCaret, step } from "../store/stepping";
-import { returnToLive, stepBack } from "../store/timeline";
+import { toggleBreakpointHere } from "../store/debug/debugKeys";
+import { restartByKey, singleScan, toggleRun } from "../store/debug/run";
+import { runToCaret, step } from "../store/debug/stepping";
+import { returnToLive, stepBack } from "../store/plc/timeline";
+import { build, save, useDocuments } from "../store/project/documents";
+import { showsRan } from "../store/project/shownProgram";
 
 type Handler = (event: KeyboardEvent) => void;
 

@@ -1,6 +1,6 @@
 /** The arrangement of panels: the usual one, and what this browser kept. */
 import type { AddPanelPositionOptions, DockviewApi, SerializedDockview } from "dockview-react";
-import { type PageName, pageOf } from "../store/navigate";
+import { type PageName, pageOf } from "../store/page/navigate";
 
 const FILE = "file:";
 

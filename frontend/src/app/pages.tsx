@@ -1,13 +1,13 @@
 /** Pages: what stands among the files in the centre without being one. */
 import type { ReactNode } from "react";
-import { RecordPage } from "../panels/history/RecordPage";
-import { ComparePage } from "../panels/past/ComparePage";
-import { SweepPage } from "../panels/sweep/SweepPage";
-import { UserErrorsPage } from "../panels/usererrors/UserErrorsPage";
-import type { PageName } from "../store/navigate";
-import { useRecordTitle } from "../store/records";
-import { useSweepTitle } from "../store/sweeps";
-import { isEdited, useUserErrors } from "../store/userErrors";
+import { RecordPage } from "../panels/errors/history/RecordPage";
+import { SweepPage } from "../panels/errors/sweep/SweepPage";
+import { UserErrorsPage } from "../panels/errors/usererrors/UserErrorsPage";
+import { ComparePage } from "../panels/run/past/ComparePage";
+import { useRecordTitle } from "../store/errors/records";
+import { useSweepTitle } from "../store/errors/sweeps";
+import { isEdited, useUserErrors } from "../store/errors/userErrors";
+import type { PageName } from "../store/page/navigate";
 import { t } from "../text";
 import type { IconName } from "../ui/Icon";
 

@@ -1,5 +1,5 @@
 import { useEffect, useRef } from "react";
-import type { Check } from "../logic/catalogue";
+import type { Check } from "../logic/errors/catalogue";
 
 interface Props {
   label: string;

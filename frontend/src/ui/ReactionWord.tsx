@@ -1,4 +1,4 @@
-import type { LeafRow } from "../logic/catalogue";
+import type { LeafRow } from "../logic/errors/catalogue";
 import { t } from "../text";
 import { StateWord } from "./StateWord";
 import { VERDICT_ICONS } from "./statuses";

@@ -1,5 +1,5 @@
-import { complete } from "../../store/completion";
-import { addAllToTrace } from "../../store/traces";
+import { complete } from "../../store/plc/completion";
+import { addAllToTrace } from "../../store/trace/traces";
 import { t } from "../../text";
 import { PathBox } from "../../ui/PathBox";
 import type { PlcSymbol } from "../../wire/types";

@@ -1,8 +1,8 @@
 import type { KeyboardEvent, PointerEvent } from "react";
-import { grouped } from "../../logic/numbers";
-import { within } from "../../logic/plots";
-import { nearestRow, type Samples } from "../../logic/samples";
-import { type Cursor, look, type Shown, setCursor, useTraces, viewOf, wholeOf } from "../../store/traces";
+import { grouped } from "../../logic/format/numbers";
+import { within } from "../../logic/trace/plots";
+import { nearestRow, type Samples } from "../../logic/trace/samples";
+import { type Cursor, look, type Shown, setCursor, useTraces, viewOf, wholeOf } from "../../store/trace/traces";
 import { t } from "../../text";
 import { LEFT, type Scale, scanOf, xOf } from "./draw";
 

@@ -1,8 +1,8 @@
 import { useEffect, useState } from "react";
-import { grouped, plcTime } from "../../logic/numbers";
-import { axisText, layoutOf, spanText, unitOf } from "../../logic/plots";
-import { decode, rowAt, type Samples, textAt } from "../../logic/samples";
-import { moveTo, readSamples, removeSignal, type Shown, setCursor, useTraces } from "../../store/traces";
+import { grouped, plcTime } from "../../logic/format/numbers";
+import { axisText, layoutOf, spanText, unitOf } from "../../logic/trace/plots";
+import { decode, rowAt, type Samples, textAt } from "../../logic/trace/samples";
+import { moveTo, readSamples, removeSignal, type Shown, setCursor, useTraces } from "../../store/trace/traces";
 import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { IconButton } from "../../ui/IconButton";

@@ -1,10 +1,10 @@
 import { useState } from "react";
-import { grouped, interval } from "../../logic/numbers";
-import { spanText } from "../../logic/plots";
-import { messageOf } from "../../store/documents";
-import { usePlc } from "../../store/plc";
-import { liveScan, useTimeline } from "../../store/timeline";
-import { fly, shownOf, useTraces } from "../../store/traces";
+import { messageOf } from "../../logic/format/messageOf";
+import { grouped, interval } from "../../logic/format/numbers";
+import { spanText } from "../../logic/trace/plots";
+import { usePlc } from "../../store/plc/plc";
+import { liveScan, useTimeline } from "../../store/plc/timeline";
+import { fly, shownOf, useTraces } from "../../store/trace/traces";
 import { t } from "../../text";
 import { Dialog } from "../../ui/Dialog";
 import { Field } from "../../ui/Field";

@@ -1,5 +1,5 @@
-import { grouped } from "../../logic/numbers";
-import { cancelFlight, useTraces } from "../../store/traces";
+import { grouped } from "../../logic/format/numbers";
+import { cancelFlight, useTraces } from "../../store/trace/traces";
 import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 

@@ -11,11 +11,20 @@ import {
 } from "react";
 import "uplot/dist/uPlot.min.css";
 import { useShallow } from "zustand/react/shallow";
-import { grouped } from "../../logic/numbers";
-import { type Layout, type Plot, ticks, within, zoomedAt } from "../../logic/plots";
-import { nearestRow, type Range, type Samples } from "../../logic/samples";
-import { usePrefs } from "../../store/prefs";
-import { type Compared, look, moveTo, type Shown, setCursor, useTraces, viewOf, wholeOf } from "../../store/traces";
+import { grouped } from "../../logic/format/numbers";
+import { type Layout, type Plot, ticks, within, zoomedAt } from "../../logic/trace/plots";
+import { nearestRow, type Range, type Samples } from "../../logic/trace/samples";
+import { usePrefs } from "../../store/page/prefs";
+import {
+  type Compared,
+  look,
+  moveTo,
+  type Shown,
+  setCursor,
+  useTraces,
+  viewOf,
+  wholeOf,
+} from "../../store/trace/traces";
 import { t } from "../../text";
 import { CursorFlags } from "./CursorFlags";
 import { colorsOf, drawAxis, drawLanes, LANE, LEFT, prepared, RIGHT, type Scale, scanOf, xOf } from "./draw";

@@ -1,7 +1,7 @@
 import { type PointerEvent, useLayoutEffect, useRef } from "react";
-import { type Layout, within } from "../../logic/plots";
-import type { Range, Samples } from "../../logic/samples";
-import { look, type Shown, wholeOf } from "../../store/traces";
+import { type Layout, within } from "../../logic/trace/plots";
+import type { Range, Samples } from "../../logic/trace/samples";
+import { look, type Shown, wholeOf } from "../../store/trace/traces";
 import { t } from "../../text";
 import { colorsOf, drawOverview, prepared } from "./draw";
 

@@ -1,7 +1,7 @@
 import { type KeyboardEvent, useEffect, useId, useState } from "react";
-import { bytes, grouped } from "../../logic/numbers";
-import { COMPARES, scansBefore, spanText, WHENS } from "../../logic/plots";
-import { change } from "../../store/traces";
+import { bytes, grouped } from "../../logic/format/numbers";
+import { COMPARES, scansBefore, spanText, WHENS } from "../../logic/trace/plots";
+import { change } from "../../store/trace/traces";
 import { t } from "../../text";
 import type { TraceInfo, TraceTrigger, TraceWhen } from "../../wire/types";
 

@@ -1,7 +1,7 @@
 import { type RefObject, useState } from "react";
-import { dayTime, grouped } from "../../logic/numbers";
-import { zoomedAt } from "../../logic/plots";
-import { decode } from "../../logic/samples";
+import { dayTime, grouped } from "../../logic/format/numbers";
+import { zoomedAt } from "../../logic/trace/plots";
+import { decode } from "../../logic/trace/samples";
 import {
   change,
   choose,
@@ -19,7 +19,7 @@ import {
   useTraces,
   viewOf,
   wholeOf,
-} from "../../store/traces";
+} from "../../store/trace/traces";
 import { t } from "../../text";
 import { AskName } from "../../ui/AskName";
 import { Icon, type IconName } from "../../ui/Icon";

@@ -1,9 +1,9 @@
 import { type DragEvent, useEffect, useMemo, useRef } from "react";
 import { useShallow } from "zustand/react/shallow";
-import { pathsIn } from "../../logic/paths";
-import { layoutOf } from "../../logic/plots";
-import { useBench } from "../../store/bench";
-import { addAllToTrace, putAwayTrouble, refreshTraces, shownOf, useTraces } from "../../store/traces";
+import { pathsIn } from "../../logic/format/paths";
+import { layoutOf } from "../../logic/trace/plots";
+import { useBench } from "../../store/plc/bench";
+import { addAllToTrace, putAwayTrouble, refreshTraces, shownOf, useTraces } from "../../store/trace/traces";
 import { t } from "../../text";
 import { Icon } from "../../ui/Icon";
 import { CursorTable } from "./CursorTable";

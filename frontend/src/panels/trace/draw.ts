@@ -1,6 +1,6 @@
 /** What is drawn on canvases: colours from the theme, lanes of BOOLs, the outline of the whole record. */
-import { type Line, padded } from "../../logic/plots";
-import { bounds, perPixel, type Range, type Samples } from "../../logic/samples";
+import { type Line, padded } from "../../logic/trace/plots";
+import { bounds, perPixel, type Range, type Samples } from "../../logic/trace/samples";
 
 /** Room for the texts of an axis (`AXIS_CHARACTERS`). */
 export const LEFT = 76;

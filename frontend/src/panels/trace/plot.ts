@@ -1,8 +1,8 @@
 /** One plot of numbers with uPlot: decimated to its pixels before, names at the ends of lines and dots at cursors drawn behind. */
 import uPlot from "uplot";
-import { axisMarks, type Mark } from "../../logic/axis";
-import { type Plot, padded } from "../../logic/plots";
-import { bounds, type Drawn, perPixel, type Range, rowAt, type Samples } from "../../logic/samples";
+import { axisMarks, type Mark } from "../../logic/trace/axis";
+import { type Plot, padded } from "../../logic/trace/plots";
+import { bounds, type Drawn, perPixel, type Range, rowAt, type Samples } from "../../logic/trace/samples";
 import { type Colors, cut, LEFT, RIGHT } from "./draw";
 
 export interface PlotView {

@@ -1,4 +1,4 @@
-import { saveFile } from "../../store/download";
+import { saveFile } from "../../store/page/download";
 
 /** What the graph shows, as a picture: its canvases below each other, on the colour of the panel. */
 export function savePng(graph: HTMLElement, name: string): void {

@@ -1,6 +1,6 @@
 import { useEffect, useRef, useState } from "react";
-import { appended, decode, type Samples } from "../../logic/samples";
-import { isRecording, readSamples, type Shown, shownOf, useTraces, viewOf, wholeOf } from "../../store/traces";
+import { appended, decode, type Samples } from "../../logic/trace/samples";
+import { isRecording, readSamples, type Shown, shownOf, useTraces, viewOf, wholeOf } from "../../store/trace/traces";
 
 const PERIOD = 100;
 const WHOLE_PERIOD = 1000;

@@ -1,0 +1,50 @@
+import { describe, expect, it } from "vitest";
+import type { CoveredSite } from "../../wire/types";
+import { linesOf, shareOf } from "./coverage";
+
+const site = (line: number, reached: boolean, outcomes: [string, boolean][] = []): CoveredSite => ({
+  line,
+  column: 1,
+  end_line: line,
+  end_column: 9,
+  pou: "Main",
+  reached,
+  outcomes: outcomes.map(([name, taken]) => ({ name, taken })),
+});
+
+describe("coverage of lines", () => {
+  it("is full, in part or none", () => {
+    const looks = linesOf([
+      site(3, false),
+      site(1, true),
+      site(2, true, [
+        ["TRUE", true],
+        ["FALSE", false],
+      ]),
+      site(4, true),
+      site(4, false),
+    ]).map(({ line, look }) => [line, look]);
+    expect(looks).toEqual([
+      [1, "full"],
+      [2, "part"],
+      [3, "none"],
+      [4, "part"],
+    ]);
+  });
+
+  it("says which way was not taken", () => {
+    const [line] = linesOf([
+      site(2, true, [
+        ["IF", true],
+        ["ELSE", false],
+      ]),
+    ]);
+    expect(line?.says).toContain("ELSE");
+    expect(line?.says).not.toContain("IF,");
+  });
+
+  it("has a share of statements", () => {
+    expect(shareOf([site(1, true), site(2, false)])).toBe(50);
+    expect(shareOf([])).toBeNull();
+  });
+});

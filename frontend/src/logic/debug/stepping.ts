@@ -1,0 +1,20 @@
+/** Which steps mean something in which state of the PLC. */
+import type { InstanceState } from "../../wire/types";
+
+type Command = "continue" | "pause" | "next" | "stepIn" | "stepOut" | "stepBack" | "reverseContinue";
+
+const STANDS = ["halted", "paused", "past"];
+/** The program cannot go on, but how it came to that can be looked at. */
+const ENDED = ["trapped", "fatal", "stopped"];
+
+/** What is shown stands at a statement or in a seam. */
+export const stands = (state: InstanceState | null) => state !== null && STANDS.includes(state.state);
+
+export function permits(state: InstanceState | null, command: Command): boolean {
+  if (state === null) return false;
+  if (command === "pause") return state.state === "running";
+  if (command === "stepOut") return stands(state) && (state.halt?.count ?? 0) > 0;
+  if (command === "continue") return stands(state);
+  if (command === "stepBack" || command === "reverseContinue") return stands(state) || ENDED.includes(state.state);
+  return stands(state) || state.state === "running";
+}

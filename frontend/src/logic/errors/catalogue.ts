@@ -1,0 +1,190 @@
+/** The error catalogue as rows: filtered, folded, with tri-state boxes and what was tested. */
+import type { ErrorGroup, ErrorHistoryRow, ErrorInfo, ReactionState, Verdict } from "../../wire/types";
+
+export type ErrorStatus = ErrorHistoryRow["status"];
+/** By what is known of the reaction; a finding is what the program missed: nobody read it, or nothing came of it. */
+export type ReactionFilter = "all" | "findings" | "unknown" | Verdict;
+export type Check = "none" | "some" | "all";
+
+export interface GroupRow {
+  kind: "group";
+  key: string;
+  level: number;
+  name: string;
+  open: boolean;
+  check: Check;
+  ids: string[];
+  tested: number;
+}
+
+export interface LeafRow {
+  kind: "error";
+  key: string;
+  level: number;
+  error: ErrorInfo;
+  checked: boolean;
+  status: ErrorStatus;
+  code: string;
+  reaction: ReactionState | null;
+  /** The reaction is what a sweep found out. */
+  swept: boolean;
+  /** A fault with it comes later, or comes back. */
+  armed: boolean;
+}
+
+export type CatalogueRow = GroupRow | LeafRow;
+
+export interface CatalogueView {
+  filter: string;
+  status: ErrorStatus | "all";
+  severity: ErrorInfo["severity"] | "all";
+  reaction: ReactionFilter;
+  closed: ReadonlySet<string>;
+  checked: ReadonlySet<string>;
+  history: ReadonlyMap<string, ErrorHistoryRow>;
+  armed: ReadonlySet<string>;
+}
+
+/** The details of a generated error (`location=io-table-checksum, slot=3`) in the words of the catalogue. */
+export function detailsInWords(error: ErrorInfo | undefined, details: string): string {
+  return details
+    .split(", ")
+    .map((part) => {
+      const [name, value] = part.split("=", 2);
+      const detail = error?.details.find((known) => known.name === name);
+      if (!detail || value === undefined) return part;
+      const choice = detail.choices?.find((known) => known.id === value);
+      return choice ? choice.description : `${detail.description || name} ${value}`;
+    })
+    .join(", ");
+}
+
+const REFERENCE = /(?<![\w-])([a-z][a-z0-9-]*)(?![\w-])(?: \(([^()]*=[^()]*)\))?/g;
+
+/** What the server says of errors, with the catalogue's names for ids (`basic-io-error (rack=2)`), as a sentence. */
+export function inNames(errors: readonly ErrorInfo[], message: string): string {
+  const named = message.replace(REFERENCE, (whole, id: string, details: string | undefined) => {
+    const error = errors.find((known) => known.id === id);
+    if (!error) return whole;
+    return details === undefined ? error.name : `${error.name} (${detailsInWords(error, details)})`;
+  });
+  return named.charAt(0).toUpperCase() + named.slice(1);
+}
+
+/** All errors of a catalogue, in its order. */
+export function allErrors(groups: readonly ErrorGroup[]): ErrorInfo[] {
+  return groups.flatMap((group) => [...allErrors(group.groups), ...group.errors]);
+}
+
+/** The rows to show; a group is left out when the filter leaves nothing of it. */
+export function catalogueRows(groups: readonly ErrorGroup[], view: CatalogueView): CatalogueRow[] {
+  return groups.flatMap((group) => groupRows(group, view, 0, ""));
+}
+
+function groupRows(group: ErrorGroup, view: CatalogueView, level: number, parent: string): CatalogueRow[] {
+  const key = `${parent}/${group.name}`;
+  const shown = allErrors([group]).filter((error) => passes(error, view));
+  if (shown.length === 0) return [];
+  const ids = shown.map((error) => error.id);
+  const open = !view.closed.has(key) || view.filter.trim() !== "";
+  const head: GroupRow = {
+    kind: "group",
+    key,
+    level,
+    name: group.name,
+    open,
+    check: checkOf(ids, view.checked),
+    ids,
+    tested: ids.filter((id) => isTested(view.history.get(id))).length,
+  };
+  if (!open) return [head];
+  const leaves = group.errors
+    .filter((error) => passes(error, view))
+    .map((error): LeafRow => leafRow(error, view, level + 1));
+  return [head, ...group.groups.flatMap((inner) => groupRows(inner, view, level + 1, key)), ...leaves];
+}
+
+function leafRow(error: ErrorInfo, view: CatalogueView, level: number): LeafRow {
+  const status = statusOf(error.id, view);
+  const raised = view.history.get(error.id);
+  return {
+    kind: "error",
+    key: error.id,
+    level,
+    error,
+    checked: view.checked.has(error.id),
+    status,
+    code: status === "generated" && raised?.code ? raised.code : error.code,
+    reaction: reactionOf(raised),
+    swept: isSwept(raised),
+    armed: view.armed.has(error.id),
+  };
+}
+
+/** Tested is an error when it is known what the program did about it. */
+export function isTested(row: ErrorHistoryRow | undefined): boolean {
+  return verdictOf(row) !== null;
+}
+
+type Told = Pick<ErrorHistoryRow, "reaction" | "swept"> | undefined;
+
+/** What is known of the reaction: of the last time that it was raised here, else what a sweep found out. */
+export const reactionOf = (row: Told): ReactionState | null => row?.reaction ?? row?.swept ?? null;
+
+export const isSwept = (row: Told): boolean => !row?.reaction && Boolean(row?.swept);
+
+export function verdictOf(row: Told): Verdict | null {
+  const reaction = reactionOf(row);
+  return reaction?.state === "done" ? reaction.verdict : null;
+}
+
+/** What the program missed: nobody read it, or nothing came of it. */
+export const isFinding = (verdict: Verdict | null): boolean =>
+  verdict !== null && verdict !== "reacted" && verdict !== "stopped";
+
+function statusOf(id: string, view: CatalogueView): ErrorStatus {
+  return view.history.get(id)?.status ?? "never";
+}
+
+function passes(error: ErrorInfo, view: CatalogueView): boolean {
+  if (view.status !== "all" && statusOf(error.id, view) !== view.status) return false;
+  if (view.severity !== "all" && error.severity !== view.severity) return false;
+  if (!reactionPasses(verdictOf(view.history.get(error.id)), view.reaction)) return false;
+  const wanted = view.filter.trim().toLowerCase();
+  const names = (error.wordings ?? []).map((wording) => wording.name);
+  return [error.name, ...names, error.code, error.flag, error.id].some((text) => text.toLowerCase().includes(wanted));
+}
+
+function reactionPasses(verdict: Verdict | null, wanted: ReactionFilter): boolean {
+  if (wanted === "all") return true;
+  if (wanted === "findings") return isFinding(verdict);
+  return wanted === "unknown" ? verdict === null : verdict === wanted;
+}
+
+function checkOf(ids: readonly string[], checked: ReadonlySet<string>): Check {
+  const count = ids.filter((id) => checked.has(id)).length;
+  if (count === 0) return "none";
+  return count === ids.length ? "all" : "some";
+}
+
+/** What a click on a group's box does: all on, unless all were on. */
+export function toggleAll(ids: readonly string[], checked: ReadonlySet<string>): Set<string> {
+  const next = new Set(checked);
+  const on = checkOf(ids, checked) !== "all";
+  for (const id of ids) {
+    if (on) next.add(id);
+    else next.delete(id);
+  }
+  return next;
+}
+
+/** The row to go to for typed letters: the next one behind `from` whose name, code or flag begins with them. */
+export function rowFor(rows: readonly CatalogueRow[], typed: string, from: number): CatalogueRow | undefined {
+  const wanted = typed.toLowerCase();
+  const inTurn = [...rows.slice(from), ...rows.slice(0, from)];
+  return inTurn.find((row) => textsOf(row).some((text) => text.toLowerCase().startsWith(wanted)));
+}
+
+function textsOf(row: CatalogueRow): string[] {
+  return row.kind === "group" ? [row.name] : [row.error.name, row.error.code, row.error.flag];
+}

@@ -1,0 +1,63 @@
+/** What changed, who wrote, where two runs part: what the panels of the past need to know of it. */
+import type { Comparison, Instance, RunChanges, VariableChange } from "../../wire/types";
+import type { Axis } from "../plc/timeline";
+
+/** Every word must be found in the path, the type or one of the values. */
+export function filterChanges(changes: readonly VariableChange[], filter: string): VariableChange[] {
+  const wanted = filter.toLowerCase().split(/\s+/).filter(Boolean);
+  if (wanted.length === 0) return [...changes];
+  return changes.filter(({ path, type, before_shown: before, after_shown: after }) => {
+    const text = `${path} ${type} ${before} ${after}`.toLowerCase();
+    return wanted.every((word) => text.includes(word));
+  });
+}
+
+/** For a spreadsheet: one line for each variable. */
+export function changesAsText(changes: readonly VariableChange[], heads: readonly [string, string]): string {
+  const rows = changes.map(({ path, type, before_shown: before, after_shown: after }) => [path, type, before, after]);
+  return [["Variable", "Type", ...heads], ...rows].map((row) => row.map(cell).join("\t")).join("\n");
+}
+
+const cell = (text: string) => text.replace(/[\t\r\n]+/g, " ");
+
+/** Two scans as somebody typed them, the earlier one first; null when one of them is none. */
+export function ordered(one: number | null, other: number | null): Axis | null {
+  if (one === null || other === null) return null;
+  return { from: Math.min(one, other), to: Math.max(one, other) };
+}
+
+/** Those of the same project first, and of these the ones that are named after this one: its branches. */
+export function compareWith(here: Instance, all: readonly Instance[]): Instance[] {
+  const stem = stemOf(here.name);
+  const rank = (other: Instance) =>
+    other.project.id !== here.project.id ? 2 : stemOf(other.name) === stem || other.name.startsWith(stem) ? 0 : 1;
+  return all.filter(({ id }) => id !== here.id).sort((a, b) => rank(a) - rank(b) || b.id - a.id);
+}
+
+const stemOf = (name: string) => name.replace(/-\d+$/, "");
+
+export type Verdict = "underway" | "failed" | "same" | "apart";
+
+export function verdictOf({ result, message }: Comparison): Verdict {
+  if (message !== "") return "failed";
+  if (result === null) return "underway";
+  return result.scan === null ? "same" : "apart";
+}
+
+/** The newest word on each comparison or replay; the newest one first. */
+export function withNewest<T extends { id: number }>(known: readonly T[], told: T): T[] {
+  return [told, ...known.filter(({ id }) => id !== told.id)].sort((a, b) => b.id - a.id);
+}
+
+/** How far something is: 0 to 1. */
+export const shareOf = ({ done, of }: { done: number; of: number }) => (of > 0 ? Math.min(1, done / of) : 0);
+
+/** Not all of them found room. */
+export const leftOut = ({ changes, count }: RunChanges) => Math.max(0, count - changes.length);
+
+const WORD = /[\w-]+/g;
+
+/** The errors that a mark or an entry speaks of, by their ids. */
+export function errorsIn(text: string, ids: ReadonlySet<string>): string[] {
+  return [...new Set(text.match(WORD) ?? [])].filter((word) => ids.has(word));
+}

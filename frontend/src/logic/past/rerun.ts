@@ -1,0 +1,49 @@
+/** What somebody fills in to replay a run with one error another, and what the server is asked for. */
+
+import type { TextKey } from "../../text";
+import type { NewRerun } from "../../wire/types";
+
+export interface RerunForm {
+  name: string;
+  how: "same" | "instead" | "out";
+  /** Id of the other error. */
+  instead: string;
+  way: "same" | "earlier" | "later";
+  /** How many scans, as typed. */
+  by: string;
+  /** How many scans it goes on behind the end, as typed. */
+  behind: string;
+}
+
+type Read = { wanted: NewRerun } | { trouble: TextKey };
+
+/** The request, or what is missing. `first`: the scan with which the run begins. */
+export function readRerun(form: RerunForm, of: { scan: number; error: string }, first: number): Read {
+  const name = form.name.trim();
+  if (name === "") return { trouble: "name.missing" };
+  const behind = count(form.behind);
+  const by = form.way === "same" || form.how === "out" ? 0 : count(form.by);
+  if (by === null || behind === null) return { trouble: "rerun.number" };
+  const shift = form.way === "earlier" ? -by : by;
+  if (form.how === "instead" && form.instead === "") return { trouble: "rerun.noerror" };
+  if (form.how === "same" && shift === 0) return { trouble: "rerun.nochange" };
+  if (of.scan + shift < first) return { trouble: "rerun.toosoon" };
+  return {
+    wanted: {
+      scan: of.scan,
+      error: of.error,
+      name,
+      by: shift === 0 ? 0 : shift,
+      instead: form.how === "instead" ? form.instead : "",
+      leave_out: form.how === "out",
+      behind,
+    },
+  };
+}
+
+const MOST = 1_000_000;
+
+function count(text: string): number | null {
+  const digits = text.replace(/\s/g, "");
+  return /^\d{1,7}$/.test(digits) && Number(digits) <= MOST ? Number(digits) : null;
+}

@@ -1,0 +1,82 @@
+import { describe, expect, it } from "vitest";
+import type { InstanceState } from "../../wire/types";
+import { forbidden } from "./permits";
+
+const monitor: InstanceState = {
+  state: "running",
+  mode: "MONITOR",
+  message: "",
+  scan: 1,
+  time_ns: 0,
+  interval_ns: 10_000_000,
+  cycle_us: 1,
+  speed: 1,
+  pid: 1,
+  restarts: 0,
+  trap: null,
+  forces: 0,
+  program_version: 1,
+  previous_version: null,
+  past: null,
+  target: "",
+  halt: null,
+  flavour: "",
+  late_percent: 0,
+  startable: true,
+};
+
+describe("permits", () => {
+  it("MONITOR takes everything", () => {
+    for (const deed of ["write", "force", "errors", "mode", "run", "restart", "anew", "change"] as const)
+      expect(forbidden(monitor, true, deed)).toBeNull();
+  });
+
+  it("a build needs no PLC", () => {
+    expect(forbidden(null, false, "build")).toBeNull();
+    expect(forbidden({ ...monitor, mode: "RUN" }, true, "build")).toBeNull();
+  });
+
+  it("RUN takes neither writes nor changes, but errors, modes and restarts", () => {
+    const run = { ...monitor, mode: "RUN" } as const;
+    expect(forbidden(run, true, "write")).toBe("permit.run");
+    expect(forbidden(run, true, "force")).toBe("permit.run");
+    expect(forbidden(run, true, "change")).toBe("permit.run.change");
+    for (const deed of ["errors", "mode", "run", "restart"] as const) expect(forbidden(run, true, deed)).toBeNull();
+  });
+
+  it("nothing reaches a PLC that does not answer, waits for space without a process, or cannot be started", () => {
+    const away = {
+      "permit.silent": { ...monitor, state: "silent" },
+      "permit.no_space": { ...monitor, state: "no_space", pid: null },
+      "permit.failed": { ...monitor, state: "failed", pid: null },
+    } as const;
+    for (const [why, state] of Object.entries(away)) {
+      for (const deed of ["write", "force", "errors", "mode", "run", "restart", "change", "travel"] as const)
+        expect(forbidden(state, true, deed)).toBe(why);
+      expect(forbidden({ ...state, past: { live_scan: 9, by: "Ann" } }, true, "travel")).toBe(why);
+      expect(forbidden(state, true, "anew")).toBeNull();
+      expect(forbidden(state, true, "build")).toBeNull();
+    }
+  });
+
+  it("a PLC whose model is missing cannot begin anew either", () => {
+    const missing: InstanceState = { ...monitor, state: "failed", pid: null, startable: false };
+    for (const deed of ["write", "restart", "anew", "change", "travel"] as const)
+      expect(forbidden(missing, true, deed)).toBe("permit.model");
+    expect(forbidden(missing, true, "build")).toBeNull();
+  });
+
+  it("a PLC that has a process answers while it waits for space", () => {
+    expect(forbidden({ ...monitor, state: "no_space" }, true, "write")).toBeNull();
+  });
+
+  it("nothing is done to the past, to a PLC that is off, and without a connection", () => {
+    const past = { ...monitor, past: { live_scan: 9, by: "Ann" } };
+    expect(forbidden(past, true, "errors")).toBe("permit.past");
+    expect(forbidden(past, true, "travel")).toBeNull();
+    expect(forbidden(past, true, "build")).toBe("permit.past.build");
+    expect(forbidden({ ...monitor, state: "off" }, true, "mode")).toBe("permit.off");
+    expect(forbidden(monitor, false, "run")).toBe("permit.offline");
+    expect(forbidden(null, true, "run")).toBe("permit.offline");
+  });
+});

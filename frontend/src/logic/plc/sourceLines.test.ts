@@ -1,0 +1,42 @@
+import { describe, expect, it } from "vitest";
+import type { Pou } from "../../wire/types";
+import { lineIn, pouAt } from "./sourceLines";
+
+const pous: Pou[] = [
+  { name: "FB_Belt", kind: "function_block", file: "belt.st", line: 3 },
+  { name: "Main", kind: "program", file: "main.st", line: 1 },
+  { name: "FB_Lift", kind: "function_block", file: "belt.st", line: 40 },
+];
+
+describe("the declaration of a line", () => {
+  it("finds the declaration around a line", () => {
+    expect(pouAt(pous, "belt.st", 41)?.name).toBe("FB_Lift");
+    expect(pouAt(pous, "belt.st", 10)?.name).toBe("FB_Belt");
+    expect(pouAt(pous, "belt.st", 1)).toBeUndefined();
+  });
+
+  it("leaves a method behind at its end", () => {
+    const block: Pou = { name: "FB", kind: "function_block", file: "fb.st", line: 1 };
+    const method: Pou = { name: "FB.run", kind: "method", file: "fb.st", line: 2 };
+    const text = "FUNCTION_BLOCK FB\nMETHOD run\n  x := 1;\nEND_METHOD\n  y := 2;\nEND_FUNCTION_BLOCK\n";
+    expect(pouAt([block, method], "fb.st", 3, text)?.name).toBe("FB.run");
+    expect(pouAt([block, method], "fb.st", 4, text)?.name).toBe("FB.run");
+    expect(pouAt([block, method], "fb.st", 5, text)?.name).toBe("FB");
+  });
+});
+
+describe("the line in another version", () => {
+  const before = "a\nb\nc\nd";
+  it("stays before an edit and moves behind it", () => {
+    const after = "a\nnew\nb\nc\nd";
+    expect(lineIn(before, after, 1)).toBe(1);
+    expect(lineIn(before, after, 2)).toBe(3);
+    expect(lineIn(before, after, 4)).toBe(5);
+    expect(lineIn(after, before, 5)).toBe(4);
+  });
+  it("of a line that was taken away is one that is there", () => {
+    expect(lineIn(before, "a\nd", 2)).toBe(1);
+    expect(lineIn(before, "a\nd", 4)).toBe(2);
+    expect(lineIn(before, "", 3)).toBe(1);
+  });
+});

@@ -1,0 +1,33 @@
+/** Lines of source text: whose they are, and where they are in another version of the text. */
+import type { Pou } from "../../wire/types";
+
+/**
+ * The declaration that a line of a file stands in, for `Add to watch` in the editor. With the text, a method is left behind
+ * at its end: the body of a block may come after its methods.
+ */
+export function pouAt(pous: readonly Pou[], file: string, line: number, text = ""): Pou | undefined {
+  const lines = text.split("\n");
+  const ended = (pou: Pou) =>
+    (pou.kind === "method" || pou.kind === "property") &&
+    lines.slice(pou.line - 1, line - 1).some((each) => /\bEND_(METHOD|PROPERTY)\b/i.test(each));
+  return pous
+    .filter((pou) => pou.file === file && pou.line <= line && !ended(pou))
+    .sort((a, b) => b.line - a.line)
+    .at(0);
+}
+
+/**
+ * The line of another version of a text: lines before and behind what was edited keep their places, what stands between goes to the
+ * end of it.
+ */
+export function lineIn(from: string, to: string, line: number): number {
+  if (from === to) return line;
+  const [a, b] = [from.split("\n"), to.split("\n")];
+  let head = 0;
+  while (head < a.length && head < b.length && a[head] === b[head]) head += 1;
+  if (line <= head) return line;
+  let tail = 0;
+  while (tail < a.length - head && tail < b.length - head && a.at(-1 - tail) === b.at(-1 - tail)) tail += 1;
+  if (line > a.length - tail) return line - a.length + b.length;
+  return Math.max(1, Math.min(line, b.length - tail));
+}

@@ -1,0 +1,47 @@
+import { describe, expect, it } from "vitest";
+import type { OnlineChange } from "../../wire/types";
+import { builtNote, changeNote, changeVerb, fates } from "./change";
+
+const plc = (instance: number, name: string, refusal = ""): OnlineChange => ({
+  instance,
+  name,
+  kept: 58,
+  lost: [
+    { path: "Main.shift", reason: "type changed from INT to TIME" },
+    { path: "Main.extra", reason: "new" },
+    { path: "Main.old", reason: "removed" },
+  ],
+  lost_count: 3,
+  refusal,
+});
+const one = plc(1, "line-1");
+const two = plc(2, "What-If");
+const refusing = plc(1, "line-1", "mode RUN");
+
+describe("online change", () => {
+  it("sorts what is not kept: only a changed type loses a value", () => {
+    expect(fates(one).anew.map(({ path }) => path)).toEqual(["Main.shift"]);
+    expect(changeNote(one)).toBe("58 kept, 1 anew, 1 new, 1 removed");
+    expect(changeNote({ ...one, lost: [], lost_count: 0 })).toBe("58 kept");
+    expect(changeNote({ ...one, lost_count: 700 })).toContain("and 697 more");
+  });
+
+  it("the button says which PLCs are changed", () => {
+    expect(changeVerb([one], new Set([1]))).toBe("Change line-1");
+    expect(changeVerb([one, two], new Set([1, 2]))).toBe("Change all 2 PLCs");
+    expect(changeVerb([one, two], new Set([2]))).toBe("Change What-If only");
+    expect(changeVerb([refusing, two], new Set([1, 2]))).toBe("Change What-If only");
+    expect(changeVerb([one, two, plc(3, "c")], new Set([1, 3]))).toBe("Change 2 of 3 PLCs");
+    expect(changeVerb([one, two], new Set())).toBeNull();
+    expect(changeVerb([refusing], new Set([1]))).toBeNull();
+  });
+
+  it("the result says what was changed where", () => {
+    const note = "58 kept, 1 anew, 1 new, 1 removed";
+    expect(builtNote([], 1)).toBe("Built");
+    expect(builtNote([one], 1)).toBe(`Built for line-1: ${note}`);
+    expect(builtNote([one, two], 2)).toBe(`Built for line-1, What-If: ${note}`);
+    expect(builtNote([one, two], 7)).toBe("Built for line-1, What-If");
+    expect(builtNote([refusing, two], 1)).toBe("Built for What-If; line-1 not changed: mode RUN");
+  });
+});

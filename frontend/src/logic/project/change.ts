@@ -1,0 +1,55 @@
+/** Online changes in words: what becomes of the variables, which PLCs are changed, and what a build did where. */
+
+import { t } from "../../text";
+import type { LostVariable, OnlineChange } from "../../wire/types";
+import { grouped } from "../format/numbers";
+
+export const FATES = ["anew", "new", "removed"] as const;
+export type Fate = (typeof FATES)[number];
+
+/** What is not kept, by what becomes of it: only what begins anew loses a value. */
+export function fates(change: OnlineChange): Record<Fate, LostVariable[]> {
+  const sorted: Record<Fate, LostVariable[]> = { anew: [], new: [], removed: [] };
+  for (const variable of change.lost) sorted[fateOf(variable)].push(variable);
+  return sorted;
+}
+
+function fateOf({ reason }: LostVariable): Fate {
+  return reason === "new" || reason === "removed" ? reason : "anew";
+}
+
+/** `58 kept, 1 anew, 1 removed`. */
+export function changeNote(change: OnlineChange): string {
+  const sorted = fates(change);
+  const parts = FATES.filter((fate) => sorted[fate].length > 0).map((fate) =>
+    t(`change.note.${fate}`, { count: grouped(sorted[fate].length) }),
+  );
+  const more = change.lost_count - change.lost.length;
+  if (more > 0) parts.push(t("change.more", { count: grouped(more) }));
+  return [t("change.kept", { count: grouped(change.kept) }), ...parts].join(", ");
+}
+
+/** What the button of the dialog does; null when it can do nothing. */
+export function changeVerb(changes: readonly OnlineChange[], chosen: ReadonlySet<number>): string | null {
+  const willing = changes.filter(({ refusal }) => refusal === "");
+  const changed = willing.filter(({ instance }) => chosen.has(instance));
+  const [one] = changed;
+  if (!one) return null;
+  if (changed.length === 1) return t(changes.length === 1 ? "change.do.one" : "change.do.only", one);
+  if (changed.length === changes.length) return t("change.do.all", { count: changes.length });
+  return t("change.do.some", { count: changed.length, all: changes.length });
+}
+
+/** What a build did: for which PLCs, and with the figures of the one that is looked at, or which were not changed and why. */
+export function builtNote(changes: readonly OnlineChange[], here: number | undefined): string {
+  const changed = changes.filter(({ refusal }) => refusal === "");
+  const left = changes
+    .filter(({ refusal }) => refusal !== "")
+    .map((each) => t("change.left", { name: each.name, why: each.refusal }));
+  if (changed.length === 0) return [t("build.ok"), ...left].join("; ");
+  const names = changed.map(({ name }) => name).join(", ");
+  // There is one line only: a PLC that was not changed matters more than figures.
+  if (left.length > 0) return [t("change.built", { names }), ...left].join("; ");
+  const mine = changed.length === 1 ? changed[0] : changed.find(({ instance }) => instance === here);
+  return mine ? t("change.built.note", { names, note: changeNote(mine) }) : t("change.built", { names });
+}

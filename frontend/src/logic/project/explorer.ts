@@ -1,0 +1,110 @@
+/** What the explorer shows of a project: files by the kind of what is declared in them. */
+import type { FileInfo, Pou } from "../../wire/types";
+import { pouAt } from "../plc/sourceLines";
+
+export interface PouNode {
+  kind: "pou";
+  name: string;
+  file: string;
+  line: number;
+  /** The file declares more than this, so that its name is worth showing. */
+  shared: boolean;
+}
+
+export interface FileNode {
+  kind: "file";
+  name: string;
+  file: string;
+}
+
+export interface PouGroup {
+  kind: (typeof ORDER)[number] | "plant" | "file";
+  nodes: (PouNode | FileNode)[];
+}
+
+// Methods and properties are found in the text of their block.
+const ORDER = ["program", "function_block", "class", "interface", "function", "type", "global"] as const;
+
+/** What drives the inputs: the folder `plant/`, of a project or below a folder of it. */
+export const inPlant = (path: string) => /(^|\/)plant\//.test(path);
+
+/**
+ * Groups in the order of the standard, then the plant by its files; files in which nothing is declared (new, or broken) come last,
+ * as files.
+ */
+export function pouGroups(declarations: readonly Pou[], files: readonly FileInfo[]): PouGroup[] {
+  const pous = declarations.filter(({ file }) => !inPlant(file));
+  const perFile = new Map<string, number>();
+  for (const pou of pous) perFile.set(pou.file, (perFile.get(pou.file) ?? 0) + 1);
+  const groups: PouGroup[] = ORDER.map((kind) => {
+    const declared = pous.filter((pou) => pou.kind === kind);
+    return { kind, nodes: kind === "global" ? globalFiles(declared) : declared.map((pou) => pouNode(pou, perFile)) };
+  });
+  const plant = files.filter(({ path }) => inPlant(path));
+  groups.push({ kind: "plant", nodes: plant.map(({ path }) => fileNode(path, path.replace(/^plant\//, ""))) });
+  const loose = files.filter(({ path }) => !perFile.has(path) && !inPlant(path));
+  groups.push({ kind: "file", nodes: loose.map(({ path }) => fileNode(path, path)) });
+  return groups.filter((group) => group.nodes.length > 0);
+}
+
+const fileNode = (file: string, name: string): FileNode => ({ kind: "file", name, file });
+
+function pouNode(pou: Pou, perFile: ReadonlyMap<string, number>): PouNode {
+  return { ...pou, kind: "pou", shared: (perFile.get(pou.file) ?? 0) > 1 };
+}
+
+/** Global variables come in dozens: what one opens is the file they are declared in. */
+function globalFiles(globals: readonly Pou[]): PouNode[] {
+  const firsts = new Map<string, Pou>();
+  for (const pou of globals) if (!firsts.has(pou.file)) firsts.set(pou.file, pou);
+  return [...firsts.values()].map(({ file, line }) => ({ kind: "pou", name: file, file, line, shared: false }));
+}
+
+/** The declaration around the cursor among those that the explorer shows: a method is shown by its block. */
+export function shownAt(pous: readonly Pou[], file: string, line: number): Pou | undefined {
+  return pouAt(
+    pous.filter((pou) => (ORDER as readonly string[]).includes(pou.kind) && pou.kind !== "global"),
+    file,
+    line,
+  );
+}
+
+const NAME = /^[\p{L}\d_][\p{L}\d_\- .]*$/u;
+const XML_FILE = /\.tc(pou|dut|gvl|io)$/i;
+const TEXT_FILE = /\.(st|iecst|exp)$/i;
+const TABLE = /\.csv$/i;
+
+/** What the file picker offers: what the compiler reads. */
+export const FILE_ENDINGS = ".st,.iecst,.exp,.tcpou,.tcdut,.tcgvl,.tcio,.csv";
+
+/** A table of inputs, no program text. */
+export const isTable = (path: string) => TABLE.test(path);
+
+/** Where a file of this name goes: tables drive the inputs, so they are the plant's. */
+export const placeFor = (name: string) => (isTable(name) && !inPlant(name) ? `plant/${name}` : name);
+
+/** The path for a new file by the name someone typed, perhaps with a folder; null when it cannot be one. */
+export function newFilePath(typed: string, existing: readonly FileInfo[]): string | null {
+  const name = typed.trim();
+  if (!name.split("/").every((part) => NAME.test(part))) return null;
+  const known = TEXT_FILE.test(name) || XML_FILE.test(name) || isTable(name);
+  const path = placeFor(known ? name : `${name}.st`);
+  return existing.some((file) => file.path.toLowerCase() === path.toLowerCase()) ? null : path;
+}
+
+/** What a new file begins with: the frame of what its name promises; `input` is an address that a table can drive. */
+export function skeleton(path: string, input = "%IX0.0"): string {
+  if (isTable(path))
+    return `# What the inputs are, and when. A row holds until the next one.\ntime; ${input}\n0; 0\n500; 1\n`;
+  if (XML_FILE.test(path)) return ""; // it is pasted whole: nobody types XML
+  const name = path
+    .replace(/^.*\//, "")
+    .replace(/\.[^.]*$/, "")
+    .replace(/[^\p{L}\d_]/gu, "_");
+  if (/^fb/i.test(name)) {
+    return `FUNCTION_BLOCK ${name}\nVAR_INPUT\nEND_VAR\nVAR_OUTPUT\nEND_VAR\nVAR\nEND_VAR\n\nEND_FUNCTION_BLOCK\n`;
+  }
+  if (/^(fc|fn|f_)/i.test(name)) return `FUNCTION ${name} : INT\nVAR_INPUT\nEND_VAR\n\n${name} := 0;\nEND_FUNCTION\n`;
+  if (/^(st_|t_|e_)/i.test(name)) return `TYPE\n  ${name} : STRUCT\n    value : INT;\n  END_STRUCT;\nEND_TYPE\n`;
+  return `PROGRAM ${name}\nVAR\nEND_VAR\n\nEND_PROGRAM\n`;
+}

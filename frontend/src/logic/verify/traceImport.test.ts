@@ -1,0 +1,113 @@
+import { describe, expect, it } from "vitest";
+import type { TraceMapping } from "../../wire/types";
+import {
+  byColumn,
+  carryOver,
+  changeAxis,
+  changeColumn,
+  complete,
+  countRoles,
+  firstValues,
+  isProposed,
+  takeSaved,
+} from "./traceImport";
+
+const FILE = ["scan", "start", "speed", "note"];
+const proposal: TraceMapping = {
+  axis: "scan",
+  unit: "scan",
+  gaps: "refuse",
+  columns: [
+    { column: "start", path: "start", role: "input" },
+    { column: "speed", path: "Main.belt.speed", role: "output" },
+  ],
+};
+const rows = (mapping: TraceMapping) => mapping.columns.map(({ column, path, role }) => `${column}=${path}:${role}`);
+
+describe("a mapping", () => {
+  it("has every column but the axis, in the order of the file", () => {
+    expect(rows(complete(proposal, FILE))).toEqual([
+      "start=start:input",
+      "speed=Main.belt.speed:output",
+      "note=:ignore",
+    ]);
+    expect(complete({ ...proposal, axis: "time" }, FILE).axis).toBe("");
+  });
+
+  it("uses a column that gets a variable, unless somebody says otherwise", () => {
+    const mapping = complete(proposal, FILE);
+    expect(rows(changeColumn(mapping, "note", { path: "lamp" }))).toContain("note=lamp:input");
+    expect(rows(changeColumn(mapping, "speed", { path: "x" }))).toContain("speed=x:output");
+    const ignored = changeColumn(mapping, "speed", { role: "ignore" });
+    expect(rows(ignored)).toContain("speed=Main.belt.speed:ignore");
+    expect(rows(changeColumn(ignored, "speed", { path: "y" }))).toContain("speed=y:ignore");
+    expect(countRoles(ignored)).toEqual({ inputs: 1, outputs: 0 });
+  });
+
+  it("has the old axis among the columns again when another one is chosen", () => {
+    const mapping = changeAxis(complete(proposal, FILE), "note", FILE);
+    expect(mapping.axis).toBe("note");
+    expect(mapping.columns.map(({ column }) => column)).toEqual(["scan", "start", "speed"]);
+    expect(rows(changeAxis(mapping, "", FILE))).toContain("note=:ignore");
+  });
+
+  it("says what stands as it was proposed", () => {
+    const mapping = changeColumn(complete(proposal, FILE), "speed", { path: "other" });
+    expect(mapping.columns.filter((row) => isProposed(row, proposal)).map(({ column }) => column)).toEqual(["start"]);
+  });
+});
+
+describe("another file", () => {
+  const before = complete(proposal, FILE);
+
+  it("keeps what was changed by hand, and takes what is proposed for the rest", () => {
+    const changed = { ...changeColumn(before, "speed", { path: "mine" }), gaps: "hold" as const };
+    const next: TraceMapping = {
+      axis: "t",
+      unit: "ms",
+      gaps: "refuse",
+      columns: [{ column: "start", path: "Main.start", role: "input" }],
+    };
+    const mapping = carryOver({ mapping: changed, proposal }, next, ["t", "speed", "start"]);
+    expect(mapping).toMatchObject({ axis: "t", unit: "ms", gaps: "hold" });
+    expect(rows(mapping)).toEqual(["speed=mine:output", "start=Main.start:input"]);
+  });
+
+  it("has what is proposed when nothing was there before", () => {
+    expect(carryOver(null, proposal, FILE)).toEqual(before);
+  });
+
+  it("drops an axis that it does not have", () => {
+    const byHand = changeAxis(before, "note", FILE);
+    expect(carryOver({ mapping: byHand, proposal }, proposal, ["scan", "start"]).axis).toBe("scan");
+  });
+});
+
+describe("a saved mapping", () => {
+  it("names the columns that the file does not have", () => {
+    const saved = {
+      ...proposal,
+      axis: "t",
+      columns: [...proposal.columns, { column: "lift", path: "lift", role: "input" as const }],
+    };
+    const taken = takeSaved(saved, FILE);
+    expect(taken.lost).toEqual(["t", "lift"]);
+    expect(rows(taken.mapping)).toEqual([
+      "scan=:ignore",
+      "start=start:input",
+      "speed=Main.belt.speed:output",
+      "note=:ignore",
+    ]);
+  });
+});
+
+it("the first values of a column say where there is none", () => {
+  expect(firstValues([["1", "TRUE"], ["2", ""], ["3"]], 1)).toBe("TRUE · – · –");
+});
+
+it("problems are told by column; those of the file as a whole belong to none", () => {
+  const problem = (row: number | null, column: string) => ({ row, column, message: "?", warning: false });
+  const found = byColumn([problem(2, "speed"), problem(null, ""), problem(9, "speed")]);
+  expect([...found.keys()]).toEqual(["speed"]);
+  expect(found.get("speed")?.map(({ row }) => row)).toEqual([2, 9]);
+});

@@ -1,0 +1,105 @@
+/** The columns of a trace of a real controller and what they mean here: pure, and kept whatever goes wrong. */
+import type { NewTraceVerification, TraceColumnMap, TraceMapping, TraceProblem } from "../../wire/types";
+
+export const ROLES = ["input", "output", "ignore"] as const;
+export const UNITS = ["scan", "ns", "us", "ms", "s"] as const;
+export const GAPS = ["refuse", "skip", "hold"] as const;
+
+const columnIn = (mapping: TraceMapping, name: string) => mapping.columns.find(({ column }) => column === name);
+
+/** A mapping that has every column of the file, in its order: what is asked for, else not used. */
+export function complete(mapping: TraceMapping, columns: readonly string[]): TraceMapping {
+  return {
+    ...mapping,
+    axis: columns.includes(mapping.axis) ? mapping.axis : "",
+    columns: columns
+      .filter((name) => name !== mapping.axis)
+      .map((column) => columnIn(mapping, column) ?? { column, path: "", role: "ignore" }),
+  };
+}
+
+/** Another file, or the same one mended: what somebody changed by hand stays, the rest is proposed anew. */
+export function carryOver(
+  before: { mapping: TraceMapping; proposal: TraceMapping } | null,
+  proposal: TraceMapping,
+  columns: readonly string[],
+): TraceMapping {
+  const fresh = complete(proposal, columns);
+  if (before === null) return fresh;
+  const kept = <T>(now: T, proposed: T, next: T) => (now === proposed ? next : now);
+  const axis = kept(before.mapping.axis, before.proposal.axis, fresh.axis);
+  return complete(
+    {
+      axis: columns.includes(axis) || axis === "" ? axis : fresh.axis,
+      unit: kept(before.mapping.unit, before.proposal.unit, fresh.unit),
+      gaps: kept(before.mapping.gaps, before.proposal.gaps, fresh.gaps),
+      columns: columns.flatMap((name) => {
+        const mine = columnIn(before.mapping, name);
+        const changed = mine && !isSame(mine, columnIn(before.proposal, name));
+        return (changed ? mine : columnIn(fresh, name)) ?? [];
+      }),
+    },
+    columns,
+  );
+}
+
+const isSame = (one: TraceColumnMap, other: TraceColumnMap | undefined): boolean =>
+  other !== undefined && one.path === other.path && one.role === other.role;
+
+/** It stands as it was proposed, and means something. */
+export function isProposed(row: TraceColumnMap, proposal: TraceMapping): boolean {
+  return row.role !== "ignore" && row.path !== "" && isSame(row, columnIn(proposal, row.column));
+}
+
+/** A saved mapping for this file: what it says about columns that the file has; and which it misses. */
+export function takeSaved(saved: TraceMapping, columns: readonly string[]): { mapping: TraceMapping; lost: string[] } {
+  const wanted = [saved.axis, ...saved.columns.filter(({ role }) => role !== "ignore").map(({ column }) => column)];
+  const lost = wanted.filter((name) => name !== "" && !columns.includes(name));
+  return { mapping: complete(saved, columns), lost };
+}
+
+/** A column that gets a variable is used; as an input unless somebody says otherwise. */
+export function changeColumn(mapping: TraceMapping, name: string, change: Partial<TraceColumnMap>): TraceMapping {
+  const columns = mapping.columns.map((row) => {
+    if (row.column !== name) return row;
+    const next = { ...row, ...change };
+    const nowUsed = row.path === "" && next.path !== "" && row.role === "ignore";
+    return nowUsed && change.role === undefined ? { ...next, role: "input" as const } : next;
+  });
+  return { ...mapping, columns };
+}
+
+/** Another column is the axis; the one that was it stands among the others again. */
+export function changeAxis(mapping: TraceMapping, axis: string, columns: readonly string[]): TraceMapping {
+  return complete({ ...mapping, axis }, columns);
+}
+
+/** The first values of a column. */
+export function firstValues(sample: readonly (readonly string[])[], index: number, most = 4): string {
+  return sample
+    .slice(0, most)
+    .map((row) => row[index] || "–")
+    .join(" · ");
+}
+
+export function countRoles({ columns }: TraceMapping): { inputs: number; outputs: number } {
+  const count = (role: TraceColumnMap["role"]) => columns.filter((row) => row.role === role).length;
+  return { inputs: count("input"), outputs: count("output") };
+}
+
+/** What is wrong with each column; a problem of a cell counts for its column, too. */
+export function byColumn(problems: readonly TraceProblem[]): ReadonlyMap<string, readonly TraceProblem[]> {
+  const found = new Map<string, TraceProblem[]>();
+  for (const problem of problems) {
+    if (problem.column === "") continue;
+    const known = found.get(problem.column);
+    if (known) known.push(problem);
+    else found.set(problem.column, [problem]);
+  }
+  return found;
+}
+
+/** The range of a verification that is a whole POU; empty: the whole program. */
+export function rangeOf(pou: string): NonNullable<NewTraceVerification["range"]> {
+  return { pou, file: "", first: 0, last: 0, instance: "" };
+}

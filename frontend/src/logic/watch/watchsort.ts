@@ -1,0 +1,50 @@
+/** The order of a watch list's entries by a column, and which of them a filter lets through. */
+import type { SortKey } from "../format/values";
+
+export const SORT_COLUMNS = ["target", "current", "change", "type", "address", "bound"] as const;
+export type SortColumn = (typeof SORT_COLUMNS)[number];
+
+/** Null is as listed. */
+export type Sort = { column: SortColumn; down: boolean } | null;
+
+export const ONLY = ["all", "changed", "forced", "errors"] as const;
+export type Only = (typeof ONLY)[number];
+
+export interface Filter {
+  text: string;
+  only: Only;
+}
+
+const natural = new Intl.Collator("en", { numeric: true, sensitivity: "base" });
+
+export function sorted<T>(rows: readonly T[], keyOf: (row: T) => SortKey, down: boolean): readonly T[] {
+  const keyed = rows.map((row) => ({ row, key: keyOf(row) }));
+  keyed.sort((a, b) => {
+    if (a.key === null || b.key === null) return Number(a.key === null) - Number(b.key === null);
+    return (down ? -1 : 1) * compared(a.key, b.key);
+  });
+  return keyed.map(({ row }) => row);
+}
+
+function compared(a: Exclude<SortKey, null>, b: Exclude<SortKey, null>): number {
+  if (typeof a === "string" || typeof b === "string") {
+    if (typeof a === typeof b) return natural.compare(a as string, b as string);
+    return typeof a === "string" ? 1 : -1;
+  }
+  return a < b ? -1 : a > b ? 1 : 0;
+}
+
+/** A click on a column's head: up, down, as listed. */
+export function nextSort(sort: Sort, column: SortColumn): Sort {
+  if (sort?.column !== column) return { column, down: false };
+  return sort.down ? null : { column, down: true };
+}
+
+export const matches = (text: string, parts: readonly (string | null | undefined)[]) =>
+  text === "" || parts.some((part) => part?.toLowerCase().includes(text.toLowerCase()));
+
+/** Whether every entry must be watched, and not only those in sight. */
+export const needsAll = (sort: Sort, filter: Filter) =>
+  (sort !== null && ["current", "type", "address"].includes(sort.column)) ||
+  filter.only === "changed" ||
+  filter.only === "errors";

@@ -1,0 +1,154 @@
+import { useState } from "react";
+import { placeOf, type Wanted } from "../../../logic/debug/breakpoints";
+import { allErrors } from "../../../logic/errors/catalogue";
+import { reasonOf, removeBreakpoints, setBreakpoint, wantedOf } from "../../../store/debug/debug";
+import { useBench } from "../../../store/plc/bench";
+import { t } from "../../../text";
+import { Dialog } from "../../../ui/Dialog";
+import { Field } from "../../../ui/Field";
+import { Icon } from "../../../ui/Icon";
+import type { BreakpointInfo } from "../../../wire/types";
+
+interface Props {
+  /** One that is there has an id. */
+  known: Wanted | BreakpointInfo;
+  onClose: () => void;
+}
+
+const ACCESS = ["change", "write", "read", "access"] as const;
+
+/** A breakpoint that stands at no line: what it watches, and when it holds. */
+export function EditBreakpoint({ known, onClose }: Props) {
+  const id = "id" in known ? known.id : null;
+  const [wanted, setWanted] = useState<Wanted>("id" in known ? wantedOf(known) : known);
+  const [scan, setScan] = useState(known.scan > 0 ? String(known.scan) : "");
+  const [refused, setRefused] = useState<string | null>(null);
+  const change = (part: Partial<Wanted>) => {
+    setRefused(null);
+    setWanted({ ...wanted, ...part });
+  };
+
+  async function submit(): Promise<void> {
+    const missing = missingIn(wanted, scan);
+    if (missing) {
+      setRefused(missing);
+      return;
+    }
+    try {
+      const answer = await setBreakpoint({ ...wanted, scan: wanted.kind === "scan" ? Number(scan) : 0 }, id);
+      if (answer.trouble === null) {
+        onClose();
+        return;
+      }
+      setRefused(answer.trouble);
+      // A new one that can never hold stands nowhere else than here: there is no line at which it could be mended.
+      if (id === null && answer.id !== null) await removeBreakpoints([answer.id]);
+    } catch (error) {
+      setRefused(reasonOf(error));
+    }
+  }
+
+  return (
+    <Dialog
+      title={id === null ? t(`debug.new.${newName(wanted.kind)}`) : placeOf(known)}
+      about={t("debug.edit.about")}
+      onClose={onClose}
+      onSubmit={() => void submit()}
+      footer={
+        <>
+          <span className="grow" />
+          <button type="button" className="btn quiet" onClick={onClose}>
+            {t("cancel")}
+          </button>
+          <button type="submit" className="btn primary">
+            {t(id === null ? "debug.form.set" : "debug.form.change")}
+          </button>
+        </>
+      }
+    >
+      {wanted.kind === "data" && <Data wanted={wanted} onChange={change} />}
+      {wanted.kind === "error" && <RaisedError wanted={wanted} onChange={change} />}
+      {wanted.kind === "scan" && (
+        <Field label={t("debug.edit.scan")} value={scan} onChange={setScan} mono placeholder="4711" />
+      )}
+      <Field
+        label={t("debug.form.condition")}
+        value={wanted.condition}
+        onChange={(condition) => change({ condition })}
+        mono
+        placeholder="Main.count > 3"
+      />
+      <Field
+        label={t("debug.form.hits")}
+        value={wanted.hits}
+        onChange={(hits) => change({ hits })}
+        mono
+        placeholder={t("debug.form.hits.hint")}
+      />
+      {refused && (
+        <span className="hint bad" role="alert">
+          <Icon name="error" small />
+          {refused}
+        </span>
+      )}
+    </Dialog>
+  );
+}
+
+const newName = (kind: Wanted["kind"]) => (kind === "line" ? "data" : kind);
+
+function missingIn(wanted: Wanted, scan: string): string | null {
+  if (wanted.kind === "data" && !wanted.path.trim()) return t("debug.edit.nopath");
+  if (wanted.kind === "scan" && !/^[1-9]\d*$/.test(scan.trim())) return t("debug.edit.noscan");
+  return null;
+}
+
+interface PartProps {
+  wanted: Wanted;
+  onChange: (part: Partial<Wanted>) => void;
+}
+
+function Data({ wanted, onChange }: PartProps) {
+  return (
+    <>
+      <Field
+        label={t("debug.edit.path")}
+        value={wanted.path}
+        onChange={(path) => onChange({ path })}
+        mono
+        placeholder="Main.belt[3].speed"
+      />
+      <label className="field">
+        <span>{t("debug.edit.access")}</span>
+        <select
+          className="inp"
+          value={wanted.access}
+          onChange={(event) => onChange({ access: event.target.value as Wanted["access"] })}
+        >
+          {ACCESS.map((access) => (
+            <option key={access} value={access}>
+              {t(`debug.access.${access}`)}
+            </option>
+          ))}
+        </select>
+      </label>
+    </>
+  );
+}
+
+function RaisedError({ wanted, onChange }: PartProps) {
+  const model = useBench((bench) => bench.model);
+  return (
+    <label className="field">
+      <span>{t("debug.edit.error")}</span>
+      <select className="inp" value={wanted.error} onChange={(event) => onChange({ error: event.target.value })}>
+        <option value="">{t("debug.bp.anyerror")}</option>
+        {allErrors(model?.catalogue ?? []).map(({ id, name }) => (
+          <option key={id} value={id}>
+            {name}
+          </option>
+        ))}
+      </select>
+    </label>
+  );
+}

@@ -1,0 +1,91 @@
+import { useMemo } from "react";
+import {
+  type Column,
+  type HistoryLine,
+  type HistoryView,
+  historyLines,
+  isFiltered,
+  sortedBy,
+} from "../../../logic/errors/history";
+import { t } from "../../../text";
+import { Icon } from "../../../ui/Icon";
+import { Line } from "./Line";
+
+interface Props {
+  lines: readonly HistoryLine[];
+  view: HistoryView;
+  onView: (view: Partial<HistoryView>) => void;
+  label: string;
+  /** Moments of another day or of another PLC: with the day. */
+  dated: boolean;
+}
+
+const COLUMNS: readonly { column: Column | "details"; word: () => string; className?: string }[] = [
+  { column: "error", word: () => t("errors.error") },
+  { column: "severity", word: () => t("errors.severity"), className: "c-severity" },
+  { column: "status", word: () => t("errors.state") },
+  { column: "reaction", word: () => t("errors.reaction") },
+  { column: "scans", word: () => t("history.scans"), className: "num" },
+  { column: "generated", word: () => t("history.generated") },
+  { column: "recovered", word: () => t("history.recovered") },
+  { column: "code", word: () => t("errors.code"), className: "c-code" },
+  { column: "details", word: () => t("history.details") },
+  { column: "by", word: () => t("log.by") },
+  { column: "count", word: () => t("history.count"), className: "num" },
+];
+
+/** One row for each error; a click on a head sorts, a second one the other way round, a third one as in the catalogue. */
+export function HistoryTable({ lines, view, onView, label, dated }: Props) {
+  const shown = useMemo(() => historyLines(lines, view), [lines, view]);
+  if (shown.length === 0 && isFiltered(view)) return <p className="lonely faint">{t("history.nomatch")}</p>;
+  return (
+    // biome-ignore lint/a11y/noNoninteractiveTabindex: a scrolling region must be reachable by keyboard
+    <div className="scroll both hscroll" tabIndex={0}>
+      <table className="htable" aria-label={label}>
+        <thead>
+          <tr>
+            {COLUMNS.map(({ column, word, className }) =>
+              column === "details" ? (
+                <th key={column} scope="col">
+                  {word()}
+                </th>
+              ) : (
+                <Head key={column} column={column} word={word()} className={className} view={view} onView={onView} />
+              ),
+            )}
+          </tr>
+        </thead>
+        <tbody>
+          {shown.map((line) => (
+            <Line key={line.id} line={line} dated={dated} />
+          ))}
+        </tbody>
+      </table>
+    </div>
+  );
+}
+
+interface HeadProps {
+  column: Column;
+  word: string;
+  className: string | undefined;
+  view: HistoryView;
+  onView: Props["onView"];
+}
+
+function Head({ column, word, className, view, onView }: HeadProps) {
+  const down = view.sort?.column === column ? view.sort.down : null;
+  return (
+    <th scope="col" className={className} aria-sort={down === null ? undefined : down ? "descending" : "ascending"}>
+      <button
+        type="button"
+        className="headsort"
+        title={t("history.sort", { column: word })}
+        onClick={() => onView({ sort: sortedBy(view.sort, column) })}
+      >
+        {word}
+        {down !== null && <Icon name={down ? "chev-d" : "chev-u"} small />}
+      </button>
+    </th>
+  );
+}

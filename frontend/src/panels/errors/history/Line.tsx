@@ -1,0 +1,113 @@
+import { detailsInWords, isSwept, reactionOf } from "../../../logic/errors/catalogue";
+import type { HistoryLine } from "../../../logic/errors/history";
+import { dayTime, grouped, wallTime } from "../../../logic/format/numbers";
+import { useCatalogue } from "../../../store/errors/catalogue";
+import { showRerun } from "../../../store/past/reruns";
+import { travel } from "../../../store/plc/timeline";
+import { t } from "../../../text";
+import { Icon } from "../../../ui/Icon";
+import { MenuButton, type MenuItem } from "../../../ui/Menu";
+import { ReactionWord } from "../../../ui/ReactionWord";
+import { StateWord } from "../../../ui/StateWord";
+import { STATUS_ICONS } from "../../../ui/statuses";
+
+/** One error: what was done with it, and what the program did about it. */
+export function Line({ line, dated }: { line: HistoryLine; dated: boolean }) {
+  const details = detailsInWords(useCatalogue().byId.get(line.id), line.details);
+  const fatal = line.severity === "fatal";
+  return (
+    <tr data-error={line.id}>
+      <th scope="row" title={line.name}>
+        {line.name}
+      </th>
+      <td className="c-severity">
+        <StateWord
+          tone={fatal ? "fatal" : "warning"}
+          icon={fatal ? "fatal" : "warning"}
+          word={t(fatal ? "errors.fatal" : "errors.nonfatal")}
+        />
+      </td>
+      <td>
+        <StateWord tone={line.status} icon={STATUS_ICONS[line.status]} word={t(`errors.status.${line.status}`)} />
+      </td>
+      <td>
+        <Reaction line={line} />
+      </td>
+      <td className="num">{reactionOf(line)?.scans ?? ""}</td>
+      <Moment at={line.generated_at} scan={line.generated_scan} dated={dated} error={dated ? null : line.id} />
+      <Moment at={line.recovered_at} scan={line.recovered_scan} dated={dated} error={null} />
+      <td className="mono c-code">{line.status === "never" ? "" : line.code}</td>
+      <td className="details" title={details || undefined}>
+        {details}
+      </td>
+      <td title={line.origin ? t(`origin.${line.origin}`) : undefined}>{line.by ?? ""}</td>
+      <td className="num">{line.count || ""}</td>
+    </tr>
+  );
+}
+
+function Reaction({ line }: { line: HistoryLine }) {
+  const reaction = reactionOf(line);
+  const swept = isSwept(line);
+  const { accepted } = line;
+  if (!reaction) return null;
+  const title = [
+    reaction.message,
+    swept ? t("history.swept") : "",
+    accepted ? t("history.accepted", { accepted }) : "",
+  ].filter(Boolean);
+  return (
+    <>
+      <ReactionWord reaction={reaction} title={title.join(" · ")} />
+      {swept && <span className="faint"> {t("reaction.swept.word")}</span>}
+      {accepted && <span className="faint"> {t("sweep.accepted")}</span>}
+    </>
+  );
+}
+
+interface MomentProps {
+  at: string | null;
+  scan: number | null;
+  dated: boolean;
+  /** What was raised then, in the run that is looked at; null: nothing that could be replayed. */
+  error: string | null;
+}
+
+function Moment({ at, scan, dated, error }: MomentProps) {
+  const before = scan === null ? "" : t("history.scan", { scan: grouped(scan) });
+  const time = at === null ? "" : dated ? dayTime(at) : wallTime(at);
+  return (
+    <td className="mono" title={[at, before].filter(Boolean).join(" · ") || undefined}>
+      {time}{" "}
+      {scan !== null && error !== null ? (
+        <MenuButton
+          label={t("rerun.of", { scan: grouped(scan) })}
+          className="link"
+          items={() => thenItems(scan, error)}
+        >
+          <span className="scan">{before}</span>
+          <Icon name="chev-d" small />
+        </MenuButton>
+      ) : (
+        before && <span className="faint scan">{before}</span>
+      )}
+    </td>
+  );
+}
+
+/** To the scan in front of which it was raised, and the run once more with it another. */
+function thenItems(scan: number, error: string): MenuItem[] {
+  const of = { scan, error };
+  return [
+    { label: t("changes.goto", { scan: grouped(scan) }), icon: "moved", onSelect: () => void travel(scan) },
+    {
+      label: t("rerun.menu.instead"),
+      icon: "branch",
+      separated: true,
+      onSelect: () => showRerun(of, { how: "instead" }),
+    },
+    { label: t("rerun.menu.earlier"), onSelect: () => showRerun(of, { by: -1 }) },
+    { label: t("rerun.menu.later"), onSelect: () => showRerun(of, { by: 1 }) },
+    { label: t("rerun.menu.out"), onSelect: () => showRerun(of, { how: "out" }) },
+  ];
+}

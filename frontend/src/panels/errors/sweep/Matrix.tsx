@@ -1,0 +1,128 @@
+import { useVirtualizer } from "@tanstack/react-virtual";
+import { type KeyboardEvent, useEffect, useRef } from "react";
+import { type MatrixRow, type Place, stateWord, stepIn } from "../../../logic/errors/sweep";
+import { t } from "../../../text";
+import type { CellRef, Sweep } from "../../../wire/types";
+import { cellId, Row } from "./Row";
+
+const ROW = 24;
+const GROUP = 28;
+
+interface Props {
+  sweep: Sweep;
+  rows: readonly MatrixRow[];
+  selected: CellRef | null;
+  onSelect: (cell: CellRef) => void;
+  /** Enter: on to what can be done with the cell. */
+  onEnter: () => void;
+}
+
+/** Errors by states; only the rows in sight exist in the page. Arrow keys move, Home and End lead along a row, with Ctrl to the corners. */
+export function Matrix({ sweep, rows, selected, onSelect, onEnter }: Props) {
+  const grid = useRef<HTMLDivElement>(null);
+  const { states } = sweep;
+  const row = rows.findIndex((known) => known.kind === "error" && known.error.id === selected?.error);
+  const column = selected ? states.indexOf(selected.state) : -1;
+  const place = row >= 0 && column >= 0 ? { row, column } : null;
+  const virtual = useVirtualizer({
+    count: rows.length,
+    getScrollElement: () => grid.current,
+    estimateSize: (index) => (rows[index]?.kind === "group" ? GROUP : ROW),
+    overscan: 6,
+    scrollMargin: ROW,
+    scrollPaddingStart: ROW,
+    getItemKey: (index) => keyOf(rows[index], index),
+  });
+
+  // Another view has other rows at other heights.
+  // biome-ignore lint/correctness/useExhaustiveDependencies: the rows are the reason
+  useEffect(() => virtual.measure(), [rows.length]);
+  // At first sight, and where a key leads; progress never moves what one looks at.
+  // biome-ignore lint/correctness/useExhaustiveDependencies: as said
+  useEffect(() => {
+    if (place) virtual.scrollToIndex(row);
+  }, []);
+
+  function bringIntoSight(to: Place): void {
+    virtual.scrollToIndex(to.row);
+    // The columns of names and codes cover what lies below them.
+    const [names, , ...heads] = grid.current?.querySelectorAll<HTMLElement>("[role=columnheader]") ?? [];
+    const head = heads[to.column];
+    if (!grid.current || !names || !head) return;
+    const covered = head.parentElement?.querySelector<HTMLElement>(".swcode");
+    const left = names.offsetWidth + (covered?.offsetWidth ?? 0);
+    const { scrollLeft, clientWidth } = grid.current;
+    if (head.offsetLeft < scrollLeft + left) grid.current.scrollLeft = head.offsetLeft - left;
+    else if (head.offsetLeft + head.offsetWidth > scrollLeft + clientWidth)
+      grid.current.scrollLeft = head.offsetLeft + head.offsetWidth - clientWidth;
+  }
+
+  function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
+    if (event.altKey || event.metaKey) return;
+    const page = Math.max(1, Math.floor((grid.current?.clientHeight ?? 0) / ROW) - 2);
+    const key = `${event.ctrlKey ? "Ctrl+" : ""}${event.key}`;
+    const to = stepIn(rows, states.length, place, key, page);
+    const target = to ? rows[to.row] : undefined;
+    const state = to ? states[to.column] : undefined;
+    if (key === "Enter") onEnter();
+    else if (to && target?.kind === "error" && state !== undefined) {
+      onSelect({ error: target.error.id, state });
+      bringIntoSight(to);
+    } else return;
+    event.preventDefault();
+  }
+
+  if (rows.length === 0) return <p className="lonely faint swnone">{t("sweep.nomatch")}</p>;
+  return (
+    <div
+      ref={grid}
+      className="grid scroll both sw"
+      style={{ "--states": states.length }}
+      role="grid"
+      aria-label={t("sweep.matrix")}
+      aria-rowcount={rows.length + 1}
+      aria-colcount={states.length + 2}
+      aria-activedescendant={place ? cellId(sweep.id, row, column) : undefined}
+      tabIndex={0}
+      onKeyDown={onKeyDown}
+    >
+      <div className="gr h" role="row" aria-rowindex={1}>
+        <span role="columnheader" className="swname">
+          {t("errors.error")}
+        </span>
+        <span role="columnheader" className="swcode">
+          {t("errors.code")}
+        </span>
+        {states.map((state) => (
+          <span key={state} role="columnheader" className="colh" title={stateWord(state)}>
+            {stateWord(state)}
+          </span>
+        ))}
+      </div>
+      <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
+        {virtual.getVirtualItems().map(({ index, key, start }) => {
+          const known = rows[index];
+          return (
+            known && (
+              <Row
+                key={key}
+                sweep={sweep.id}
+                row={known}
+                index={index}
+                top={start - ROW}
+                states={states}
+                column={index === row ? column : null}
+                onSelect={onSelect}
+              />
+            )
+          );
+        })}
+      </div>
+    </div>
+  );
+}
+
+function keyOf(row: MatrixRow | undefined, index: number): string | number {
+  if (!row) return index;
+  return row.kind === "group" ? `/${row.name}` : row.error.id;
+}

@@ -1,0 +1,76 @@
+import { useState } from "react";
+import { messageOf } from "../../../logic/format/messageOf";
+import { dayTime, grouped } from "../../../logic/format/numbers";
+import { deleteState, useSweeps } from "../../../store/errors/sweeps";
+import { t } from "../../../text";
+import { Confirm } from "../../../ui/Confirm";
+import { IconButton } from "../../../ui/IconButton";
+import type { ProgramState } from "../../../wire/types";
+
+/** The kept states of the project: where sweeps can begin. */
+export function States() {
+  const states = useSweeps((sweeps) => sweeps.states);
+  const [doomed, setDoomed] = useState<ProgramState | null>(null);
+  return (
+    <section className="swstates" aria-label={t("states.title")}>
+      <h3>{t("states.title")}</h3>
+      {states.length === 0 ? (
+        <p className="faint">{t("states.none")}</p>
+      ) : (
+        <div className="grid swlist" role="table" aria-label={t("states.title")}>
+          <div className="gr h" role="row">
+            {(["name", "scan", "of", "version", "by", "at"] as const).map((column) => (
+              <span key={column} role="columnheader" className={column === "scan" || column === "version" ? "num" : ""}>
+                {t(`states.column.${column}`)}
+              </span>
+            ))}
+            <span role="columnheader">
+              <span className="sr">{t("menu.label")}</span>
+            </span>
+          </div>
+          {states.map((state) => (
+            <div key={state.id} className="gr" role="row">
+              <span role="cell" className="cut">
+                <b>{state.name}</b>
+              </span>
+              <span role="cell" className="num">
+                {grouped(state.scan)}
+              </span>
+              <span role="cell" className="cut muted">
+                {state.instance}
+              </span>
+              <span role="cell" className="num">
+                {state.program_version}
+              </span>
+              <span role="cell" className="cut muted">
+                {state.by}
+              </span>
+              <span role="cell" className="cut muted">
+                {dayTime(state.at)}
+              </span>
+              <span role="cell" className="gut end">
+                <IconButton
+                  icon="trash"
+                  small
+                  label={t("states.delete", { name: state.name })}
+                  onClick={() => setDoomed(state)}
+                />
+              </span>
+            </div>
+          ))}
+        </div>
+      )}
+      {doomed && (
+        <Confirm
+          title={t("states.delete", { name: doomed.name })}
+          about={t("states.delete.about")}
+          hint={t("states.delete.hint", { instance: doomed.instance })}
+          verb={t("sweep.delete.do")}
+          onDo={() => deleteState(doomed)}
+          reasonOf={messageOf}
+          onClose={() => setDoomed(null)}
+        />
+      )}
+    </section>
+  );
+}

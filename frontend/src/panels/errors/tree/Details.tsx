@@ -1,0 +1,119 @@
+import { detailsInWords } from "../../../logic/errors/catalogue";
+import { needsDetails, troubles } from "../../../logic/errors/details";
+import { isPlain } from "../../../logic/errors/shapes";
+import { grouped, wallTime } from "../../../logic/format/numbers";
+import { entriesOf, setDetail, useSimulator } from "../../../store/errors/simulator";
+import { showSweeps } from "../../../store/errors/sweeps";
+import { usePlc } from "../../../store/plc/plc";
+import { t } from "../../../text";
+import { Icon } from "../../../ui/Icon";
+import { ReactionWord } from "../../../ui/ReactionWord";
+import type { ErrorHistoryRow, ErrorInfo, ReactionState } from "../../../wire/types";
+import { Control } from "./controls";
+import { Preview } from "./Preview";
+import { ReactionView } from "./ReactionView";
+import { ShapeFields } from "./ShapeFields";
+
+/** The selected error: what it means, where it shows, what can be chosen before it is raised, and how the program reacted. */
+export function Details({ error }: { error: ErrorInfo }) {
+  const edited = useSimulator((state) => state.details[error.id] !== undefined);
+  const plain = useSimulator((state) => isPlain(state.shape));
+  const details = useSimulator((state) => state.details);
+  const row = usePlc((plc) => plc.errors.get(error.id));
+  const entries = entriesOf({ details }, error, row);
+  const raised = row?.status === "generated" ? row : null;
+  // One that comes and goes is as good as present: nothing jumps.
+  const armed = usePlc((plc) => plc.armed.some((fault) => fault.errors.includes(error.id)));
+  const present = raised !== null || armed;
+  const refused = troubles(error, entries);
+  return (
+    <section className="edetail" aria-label={t("errors.details")}>
+      <Heading error={error} />
+      {error.description && <p className="muted">{error.description}</p>}
+      {raised && <Raised error={error} row={raised} />}
+      <div className="row wrap apart">
+        <span className="kv">
+          <span>
+            {t("errors.code")}
+            <b>{raised?.code ?? error.code}</b>
+          </span>
+          <span>
+            {t("errors.flag")}
+            <b>{error.flag}</b>
+          </span>
+        </span>
+        <div className="row wrap">
+          {error.details.map((detail) => (
+            <Control
+              key={detail.name}
+              detail={detail}
+              entry={entries[detail.name] ?? { text: "", format: "decimal" }}
+              trouble={refused.get(detail.name) ?? null}
+              onEntry={(entry) => setDetail(error, detail.name, entry)}
+            />
+          ))}
+        </div>
+      </div>
+      {row?.reaction && <ReactionView error={error} state={row.reaction} />}
+      {!row?.reaction && row?.swept && <Swept reaction={row.swept} />}
+      {present ? (
+        <details className="again" open={!plain}>
+          <summary>{t("shape.again")}</summary>
+          <ShapeFields />
+        </details>
+      ) : (
+        <ShapeFields />
+      )}
+      {(!present || (edited && needsDetails(error))) && (
+        <Preview errors={[error]} valid={refused.size === 0} again={raised !== null} now={plain} />
+      )}
+    </section>
+  );
+}
+
+/** Nobody raised it here; a sweep did, in a run of its own. */
+function Swept({ reaction }: { reaction: ReactionState }) {
+  return (
+    <section className="reaction" aria-label={t("reaction.label")}>
+      <p className="row">
+        <ReactionWord reaction={reaction} />
+        <span className="grow muted">
+          {t("reaction.swept")}{" "}
+          <button type="button" className="link" onClick={showSweeps}>
+            {t("sweep.tab.list")}
+          </button>
+        </span>
+      </p>
+    </section>
+  );
+}
+
+function Heading({ error }: { error: ErrorInfo }) {
+  const fatal = error.severity === "fatal";
+  return (
+    <div className="row">
+      <b className="grow cut" title={error.name}>
+        {error.name}
+      </b>
+      {error.user && <span className="chip plain">{t("errors.user")}</span>}
+      <span className="chip plain" title={error.source ? t("errors.source", { source: error.source }) : undefined}>
+        <Icon name={error.verified ? "check" : "info"} />
+        {t(error.verified ? "errors.verified" : "errors.unverified")}
+      </span>
+      <span className={`chip ${fatal ? "fatal" : "halted"}`}>
+        <Icon name={fatal ? "fatal" : "warning"} />
+        {t(fatal ? "errors.fatal" : "errors.nonfatal")}
+      </span>
+    </div>
+  );
+}
+
+function Raised({ error, row }: { error: ErrorInfo; row: ErrorHistoryRow }) {
+  const said = { by: row.by ?? "", at: wallTime(row.generated_at), scan: grouped(row.generated_scan ?? 0) };
+  return (
+    <p className="muted">
+      {t("errors.raisedby", said)}
+      {row.details && ` ${detailsInWords(error, row.details)}`}
+    </p>
+  );
+}

@@ -1,0 +1,154 @@
+import { type KeyboardEvent, type MouseEvent, useEffect, useRef, useState } from "react";
+import { type CatalogueRow, rowFor } from "../../../logic/errors/catalogue";
+import { addErrorBreakpoint } from "../../../store/debug/debug";
+import { selectError, toggleChecked, toggleGroup, useSimulator } from "../../../store/errors/simulator";
+import { t } from "../../../text";
+import { Menu, type MenuItem } from "../../../ui/Menu";
+import { Group, Leaf, RefusalRow } from "./rows";
+
+interface Props {
+  rows: readonly CatalogueRow[];
+  label: string;
+  /** The error below which the last refusal stands. */
+  refused: string | null;
+  onGenerate: () => void;
+}
+
+/** Letters typed with less than this between them, in ms, belong together. */
+const TOGETHER = 700;
+
+/** The catalogue. Arrows move, fold and unfold; Space ticks; Enter generates; letters jump. */
+export function ErrorTree({ rows, label, refused, onGenerate }: Props) {
+  const grid = useRef<HTMLDivElement>(null);
+  const typed = useRef({ text: "", at: 0 });
+  const selected = useSimulator((state) => state.selected);
+  const now = rows.findIndex((row) => row.key === selected);
+  const [menu, setMenu] = useState<{ items: readonly MenuItem[]; at: { x: number; y: number } } | null>(null);
+  useRowInSight(grid, selected);
+
+  /** By the mouse at the row below it, by the menu key at the one selected. */
+  function onContextMenu(event: MouseEvent): void {
+    const below = (event.target as HTMLElement).closest<HTMLElement>("[data-key]")?.dataset.key ?? selected;
+    const row = rows.find(({ key }) => key === below);
+    if (row?.kind !== "error") return;
+    event.preventDefault();
+    selectError(row.key);
+    const raised: MenuItem = {
+      label: t("debug.break.error"),
+      icon: "bp-data",
+      onSelect: () => void addErrorBreakpoint(row.error.id),
+    };
+    setMenu({ items: [raised], at: { x: event.clientX, y: event.clientY } });
+  }
+
+  function move(index: number): void {
+    const row = rows[Math.max(0, Math.min(rows.length - 1, index))];
+    if (row) selectError(row.key);
+  }
+
+  function sideways(row: CatalogueRow | undefined, unfold: boolean): void {
+    if (row?.kind === "group" && row.open !== unfold) toggleGroup(row.key);
+    else if (unfold && row?.kind === "group") move(now + 1);
+    else if (!unfold && row) {
+      const parent = rows.slice(0, now).findLastIndex((before) => before.level < row.level);
+      if (parent >= 0) move(parent);
+    }
+  }
+
+  function jump(event: KeyboardEvent): void {
+    const fresh = event.timeStamp - typed.current.at > TOGETHER;
+    const text = (fresh ? "" : typed.current.text) + event.key;
+    typed.current = { text, at: event.timeStamp };
+    // The first letter goes on from the row behind; more letters may still mean this one.
+    const row = rowFor(rows, text, text.length === 1 ? now + 1 : Math.max(0, now));
+    if (row) selectError(row.key);
+  }
+
+  function onKeyDown(event: KeyboardEvent): void {
+    if (event.target !== event.currentTarget || event.ctrlKey || event.metaKey || event.altKey) return;
+    const row = rows[now];
+    const to = { ArrowDown: now + 1, ArrowUp: now - 1, Home: 0, End: rows.length - 1 }[event.key];
+    if (to !== undefined) move(to);
+    else if (event.key === "PageDown") move(now + 10);
+    else if (event.key === "PageUp") move(now - 10);
+    else if (event.key === "ArrowRight") sideways(row, true);
+    else if (event.key === "ArrowLeft") sideways(row, false);
+    else if (event.key === " ") {
+      if (row) toggleChecked(row.kind === "group" ? row.ids : [row.error.id]);
+    } else if (event.key === "Enter") onGenerate();
+    else if (event.key.length === 1) jump(event);
+    else return;
+    event.preventDefault();
+  }
+
+  return (
+    <div
+      ref={grid}
+      className="grid errs scroll"
+      role="treegrid"
+      aria-label={label}
+      aria-activedescendant={now >= 0 ? `error-${now}` : undefined}
+      tabIndex={0}
+      onKeyDown={onKeyDown}
+      onContextMenu={onContextMenu}
+      onFocus={(event) => {
+        // A click brings the focus, too, and the rows must not move away below the pointer.
+        if (now < 0 && event.currentTarget.matches(":focus-visible")) move(0);
+      }}
+    >
+      <Head />
+      {rows.map((row, index) =>
+        row.kind === "group" ? (
+          <Group key={row.key} row={row} index={index} selected={row.key === selected} />
+        ) : (
+          <Leaf key={row.key} row={row} index={index} selected={row.key === selected}>
+            {row.key === refused && <RefusalRow error={row.error} />}
+          </Leaf>
+        ),
+      )}
+      {rows.length === 0 && <p className="lonely faint">{t("errors.nomatch")}</p>}
+      {menu && <Menu label={t("menu.label")} {...menu} onClose={() => setMenu(null)} />}
+    </div>
+  );
+}
+
+function Head() {
+  return (
+    <div className="gr h" role="row">
+      <span role="columnheader" className="first">
+        {t("errors.error")}
+      </span>
+      <span role="columnheader" className="c-code">
+        {t("errors.code")}
+      </span>
+      <span role="columnheader" className="c-flag">
+        {t("errors.flag")}
+      </span>
+      <span role="columnheader" className="c-severity">
+        {t("errors.severity")}
+      </span>
+      <span role="columnheader" className="c-state">
+        {t("errors.state")}
+      </span>
+      <span role="columnheader" className="c-reaction">
+        {t("errors.reaction")}
+        <span className="scans">{t("errors.reaction.scans")}</span>
+      </span>
+    </div>
+  );
+}
+
+/** The details of the selected error take room from the tree: it must not push its own row out of sight. */
+function useRowInSight(grid: { current: HTMLDivElement | null }, selected: string | null): void {
+  useEffect(() => {
+    const tree = grid.current;
+    if (selected === null || !tree) return;
+    // Called at once, and again whenever the details grow.
+    const resized = new ResizeObserver(() => {
+      for (const row of tree.querySelectorAll(`[data-key="${CSS.escape(selected)}"], .refusalrow`))
+        row.scrollIntoView({ block: "nearest" });
+    });
+    resized.observe(tree);
+    return () => resized.disconnect();
+  }, [grid, selected]);
+}

@@ -1,0 +1,31 @@
+import { t } from "../../../text";
+import { Icon } from "../../../ui/Icon";
+
+/** What to do where nothing was raised yet. */
+export function FirstSteps() {
+  return (
+    <section className="firststeps" aria-label={t("errors.start.title")}>
+      <h3>{t("errors.start.title")}</h3>
+      <ul>
+        <li className="way">
+          <Icon name="generated" small />
+          <span>
+            <b>{t("errors.start.pick")}</b> {t("errors.start.pick.rest")}
+          </span>
+        </li>
+        <li className="way">
+          <Icon name="handled" small />
+          <span>
+            <b>{t("errors.start.see")}</b> {t("errors.start.see.rest")}
+          </span>
+        </li>
+        <li className="way">
+          <Icon name="keyboard" small />
+          <span>
+            <b>{t("errors.start.key")}</b> {t("errors.start.key.rest")}
+          </span>
+        </li>
+      </ul>
+    </section>
+  );
+}

@@ -1,0 +1,113 @@
+import { useState } from "react";
+import { inNames } from "../../../logic/errors/catalogue";
+import { grouped } from "../../../logic/format/numbers";
+import { useCatalogue } from "../../../store/errors/catalogue";
+import { usePreview } from "../../../store/errors/preview";
+import { asWanted, useSimulator } from "../../../store/errors/simulator";
+import { usePlc } from "../../../store/plc/plc";
+import { t } from "../../../text";
+import { Icon } from "../../../ui/Icon";
+import type { ErrorInfo, PreviewedWrite } from "../../../wire/types";
+
+interface Props {
+  errors: readonly ErrorInfo[];
+  /** Of several, the one whose page it is: what it writes stands first. */
+  of?: string;
+  /** False while an entry is refused: nothing is asked. */
+  valid: boolean;
+  again?: boolean;
+  /** False when it is raised later: what it would write now may be another then. */
+  now?: boolean;
+}
+
+/** What raising these errors would write, address by address. */
+export function Preview({ errors, of, valid, again = false, now = true }: Props) {
+  // Another detail is another question.
+  useSimulator((state) => state.details);
+  // What the PLC would write now says nothing of a moment in the past.
+  const past = usePlc((plc) => Boolean(plc.state?.past));
+  const { preview, refused } = usePreview(valid && !past ? asWanted(errors) : null, again);
+  const { errors: known } = useCatalogue();
+  // While it runs, the number of the scan would be over before it is read.
+  const running = usePlc((plc) => plc.state?.state === "running");
+  const [all, setAll] = useState(false);
+  const several = of !== undefined && errors.length > 1;
+  const writes = preview?.writes ?? [];
+  const shown = several && !all ? writes.filter((write) => write.error === of || write.error === "") : writes;
+  if (past) return null;
+  const title = again ? "preview.change" : now ? "preview.title" : "preview.title.now";
+  return (
+    <section className="preview" aria-label={t("preview.title")} aria-busy={valid && !preview && !refused}>
+      <div className="ph">
+        <span className="cut">{t(title)}</span>
+        {several && (
+          <span className="seg sm" role="group" aria-label={t("preview.which")}>
+            <button type="button" className={all ? "" : "on"} aria-pressed={!all} onClick={() => setAll(false)}>
+              {t("preview.one")}
+            </button>
+            <button type="button" className={all ? "on" : ""} aria-pressed={all} onClick={() => setAll(true)}>
+              {t("preview.all", { count: errors.length })}
+            </button>
+          </span>
+        )}
+        {preview?.ok && !several && (
+          <span>{running ? t("preview.seam") : t("preview.scan", { scan: grouped(preview.scan) })}</span>
+        )}
+      </div>
+      {refused !== null && (
+        <p className="hint bad">
+          <Icon name="error" small />
+          <span>{inNames(known, refused)}</span>
+        </p>
+      )}
+      {!valid && <p className="faint">{t("preview.invalid")}</p>}
+      {preview?.ok && shown.length === 0 && <p className="faint">{t("preview.none")}</p>}
+      {shown.length > 0 && (
+        <div className="writes">
+          {shown
+            .filter((write) => write.what !== "log")
+            .map((write) => (
+              <Write key={`${write.address} ${write.error} ${write.what}`} write={write} named={several && all} />
+            ))}
+          <LogWrites writes={shown.filter((write) => write.what === "log")} />
+        </div>
+      )}
+      {preview && preview.more > 0 && (
+        <p className="faint">{t(preview.more === 1 ? "preview.more.one" : "preview.more", { count: preview.more })}</p>
+      )}
+    </section>
+  );
+}
+
+/** The device's own log takes several words for each error: one line says so, unless somebody wants to see them. */
+function LogWrites({ writes }: { writes: readonly PreviewedWrite[] }) {
+  const [open, setOpen] = useState(false);
+  const [first] = writes;
+  if (!first) return null;
+  if (open) return writes.map((write) => <Write key={write.address} write={write} named={false} />);
+  return (
+    <div className="w">
+      <span className="mono">{first.address} …</span>
+      <button type="button" className="link" onClick={() => setOpen(true)}>
+        {t(writes.length === 1 ? "preview.words.one" : "preview.words", { count: writes.length })}
+      </button>
+      <span className="cut">{t("preview.log")}</span>
+    </div>
+  );
+}
+
+function Write({ write, named }: { write: PreviewedWrite; named: boolean }) {
+  const { byId } = useCatalogue();
+  const { address, before, after, what, error } = write;
+  const name = named && error ? ` · ${byId.get(error)?.name ?? error}` : "";
+  return (
+    <div className="w">
+      <span className="mono">{address}</span>
+      <span className="mono">{before === after ? t("preview.stays", { value: after }) : `${before} → ${after}`}</span>
+      <span className="cut">
+        {t(`preview.${what}`)}
+        {name}
+      </span>
+    </div>
+  );
+}

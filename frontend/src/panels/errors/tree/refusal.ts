@@ -1,0 +1,10 @@
+import type { CatalogueRow } from "../../../logic/errors/catalogue";
+import type { Outcome } from "../../../store/errors/simulator";
+
+/** The row that a refusal is about, when it is about one that is in sight: the reason stands below it. */
+export function refusedRow(rows: readonly CatalogueRow[], outcome: Outcome | null): string | null {
+  if (!outcome || outcome.ok) return null;
+  const named = outcome.ids.find((id) => outcome.message.startsWith(`${id}:`));
+  const id = outcome.present[0] ?? named ?? (outcome.ids.length === 1 ? outcome.ids[0] : undefined);
+  return rows.some((row) => row.key === id) ? (id ?? null) : null;
+}

@@ -1,0 +1,156 @@
+import { memo, type ReactNode, useEffect, useRef } from "react";
+import { shallow } from "zustand/shallow";
+import type { GroupRow, LeafRow } from "../../../logic/errors/catalogue";
+import { detailsInWords, inNames } from "../../../logic/errors/catalogue";
+import { useCatalogue } from "../../../store/errors/catalogue";
+import { selectError, toggleChecked, toggleGroup, useSimulator } from "../../../store/errors/simulator";
+import { t } from "../../../text";
+import { Checkbox } from "../../../ui/Checkbox";
+import { Icon } from "../../../ui/Icon";
+import { ReactionWord } from "../../../ui/ReactionWord";
+import { StateWord } from "../../../ui/StateWord";
+import { STATUS_ICONS } from "../../../ui/statuses";
+import type { ErrorInfo, ReactionState } from "../../../wire/types";
+import { WayOn } from "./WayOn";
+
+export function Group({ row, index, selected }: { row: GroupRow; index: number; selected: boolean }) {
+  return (
+    <div
+      id={`error-${index}`}
+      className={`gr grp${selected ? " on" : ""}`}
+      role="row"
+      style={{ "--lv": row.level }}
+      aria-level={row.level + 1}
+      aria-expanded={row.open}
+      aria-selected={selected}
+      data-key={row.key}
+      onClick={() => toggleGroup(row.key)}
+    >
+      <span className="name" role="gridcell">
+        <Icon name={row.open ? "chev-d" : "chev-r"} className="tw" />
+        <Checkbox label={row.name} check={row.check} onToggle={() => toggleChecked(row.ids)} />
+        <span className="cut">{row.name}</span>
+      </span>
+      <span className="tested" role="gridcell">
+        {t("errors.tested", { tested: row.tested, total: row.ids.length })}
+      </span>
+    </div>
+  );
+}
+
+interface LeafProps {
+  row: LeafRow;
+  index: number;
+  selected: boolean;
+  /** What stands below it. */
+  children: ReactNode;
+}
+
+/** An error. The rows are made anew with whatever happens to one of them; the others are not drawn again. */
+export const Leaf = memo(function Leaf({ row, index, selected, children }: LeafProps) {
+  const { error } = row;
+  const fatal = error.severity === "fatal";
+  return (
+    <>
+      <div
+        id={`error-${index}`}
+        className={`gr${selected ? " on" : ""}`}
+        role="row"
+        style={{ "--lv": row.level + 1 }}
+        aria-level={row.level + 1}
+        aria-selected={selected}
+        data-key={row.key}
+        title={[error.name, `${row.code} · ${error.flag}`, error.description].filter(Boolean).join("\n")}
+        onClick={() => selectError(error.id)}
+      >
+        <span className="name" role="gridcell">
+          <Checkbox
+            label={error.name}
+            check={row.checked ? "all" : "none"}
+            onToggle={() => {
+              toggleChecked([error.id]);
+              selectError(error.id);
+            }}
+          />
+          <span className="cut">{error.name}</span>
+        </span>
+        <span className="mono muted c-code" role="gridcell">
+          {row.code}
+        </span>
+        <span className="mono muted c-flag" role="gridcell">
+          {error.flag}
+        </span>
+        <span role="gridcell" className="c-severity">
+          <StateWord
+            tone={fatal ? "fatal" : "warning"}
+            icon={fatal ? "fatal" : "warning"}
+            word={t(fatal ? "errors.fatal" : "errors.nonfatal")}
+          />
+        </span>
+        <span role="gridcell" className="c-state">
+          {row.armed && row.status !== "generated" ? (
+            <StateWord tone="recording" icon="clock" word={t("errors.armed")} title={t("errors.armed.about")} />
+          ) : (
+            <StateWord tone={row.status} icon={STATUS_ICONS[row.status]} word={t(`errors.status.${row.status}`)} />
+          )}
+        </span>
+        <span role="gridcell" className="c-reaction">
+          {row.reaction && <Reacted reaction={row.reaction} swept={row.swept} />}
+        </span>
+      </div>
+      {children}
+    </>
+  );
+}, sameLeaf);
+
+function sameLeaf({ row: before, ...rest }: LeafProps, { row: after, ...others }: LeafProps): boolean {
+  return shallow(before, after) && shallow(rest, others);
+}
+
+/** The reaction, and how many scans it took. */
+function Reacted({ reaction, swept }: { reaction: ReactionState; swept: boolean }) {
+  const { verdict, scans, message } = reaction;
+  const title = swept ? [message, t("history.swept")].filter(Boolean).join(" · ") : message;
+  return (
+    <>
+      <ReactionWord reaction={reaction} title={title} />
+      {swept && <Icon name="refresh" small className="faint" />}
+      {verdict === "reacted" && scans !== null && (
+        <span className="scans num" title={t("reaction.scans", { scans })}>
+          {scans}
+        </span>
+      )}
+    </>
+  );
+}
+
+/** The reason without the name, which stands in the row above, and with its details in words. */
+function refusalOf(error: ErrorInfo, message: string): string {
+  const plain = message.startsWith(`${error.id}: `) ? message.slice(error.id.length + 2) : message;
+  const worded = plain.replace(/\(([^()]*=[^()]*)\)/, (_, details: string) => `(${detailsInWords(error, details)})`);
+  return worded === "" || /[.!?]$/.test(worded) ? worded : `${worded}.`;
+}
+
+/** Why this error was not generated, and the way on. */
+export function RefusalRow({ error }: { error: ErrorInfo }) {
+  const outcome = useSimulator((state) => state.outcome);
+  const { errors } = useCatalogue();
+  const place = useRef<HTMLDivElement>(null);
+  // The tree may be short: what was refused must not stand below its edge.
+  // biome-ignore lint/correctness/useExhaustiveDependencies: another refusal is another reason
+  useEffect(() => void place.current?.scrollIntoView({ block: "nearest" }), [outcome]);
+  if (!outcome) return null;
+  const why = refusalOf(error, outcome.message);
+  return (
+    <div className="refusalrow" role="row" ref={place}>
+      <span role="gridcell">
+        <span role="alert">
+          <Icon name="error" small />
+          <span>
+            <b>{t("errors.notgenerated")}</b> {inNames(errors, why) || t("notsent.about")} <WayOn outcome={outcome} />
+          </span>
+        </span>
+      </span>
+    </div>
+  );
+}

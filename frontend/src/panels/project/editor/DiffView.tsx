@@ -1,0 +1,31 @@
+import { useEffect, useRef } from "react";
+import { useDocuments } from "../../../store/project/documents";
+import { modelOf } from "./models";
+import { editor, monospaceFont, options } from "./monaco";
+import { LANGUAGE } from "./st";
+
+/** Theirs at the left, mine at the right, still editable. */
+export default function DiffView({ path, theirs }: { path: string; theirs: string }) {
+  const host = useRef<HTMLDivElement>(null);
+  useEffect(() => {
+    const mine = useDocuments.getState().open[path];
+    if (!host.current || !mine) return;
+    const original = editor.createModel(theirs, LANGUAGE);
+    const view = editor.createDiffEditor(host.current, {
+      ...options,
+      fontFamily: monospaceFont(),
+      originalEditable: false,
+      renderSideBySide: true,
+      useInlineViewWhenSpaceIsLimited: false,
+    });
+    const diff = view.createViewModel({ original, modified: modelOf(path, mine.text) });
+    view.setModel(diff);
+    return () => {
+      view.dispose();
+      // Cancels a comparison that still runs; it would miss the text that goes now.
+      diff.dispose();
+      original.dispose();
+    };
+  }, [path, theirs]);
+  return <div ref={host} className="codehost" />;
+}

@@ -1,0 +1,175 @@
+import { useState } from "react";
+import { pouAt } from "../../../logic/plc/sourceLines";
+import { builtNote, changeNote } from "../../../logic/project/change";
+import { rollBack } from "../../../store/debug/run";
+import { showPanel } from "../../../store/page/navigate";
+import { toggleChecks, usePrefs } from "../../../store/page/prefs";
+import { useBench } from "../../../store/plc/bench";
+import { useForbidden, useLost, usePlc } from "../../../store/plc/plc";
+import { build, isDirty, save, useDocuments } from "../../../store/project/documents";
+import { shownText, useShownProgram, useShowsRan } from "../../../store/project/shownProgram";
+import { t } from "../../../text";
+import { Icon } from "../../../ui/Icon";
+import { StateWord } from "../../../ui/StateWord";
+import type { Pou } from "../../../wire/types";
+import { DebugSwitches } from "./DebugSwitches";
+import { shownLine, useStanding } from "./halt";
+import { SeenAs } from "./SeenAs";
+import { VerifyButton } from "./VerifyButton";
+
+/** What has instances: its values are those of one. */
+const INSTANCED: readonly Pou["kind"][] = ["program", "function_block", "class"];
+
+/** Above the text: what it declares, what the last build said, save and build. */
+export function EditorBar({ path }: { path: string }) {
+  useDocuments((documents) => documents.pous);
+  useShownProgram();
+  const ran = useShowsRan(path);
+  const cursor = useDocuments((documents) => (documents.active === path ? documents.cursor : null));
+  const dirty = useDocuments((documents) => isDirty(documents.open[path]));
+  const building = useDocuments((documents) => documents.build.phase === "running");
+  const lost = useLost();
+  const forbidden = useForbidden("build");
+  const unbuildable = lost ? t("lost.nobuild") : forbidden;
+  // Not a subscription: the caret moves with every change of the text.
+  const { text, pous } = shownText(path);
+  const line = useLooked(path, cursor);
+  const found = pouAt(pous, path, line, text) ?? firstOf(pous, path);
+  // A global variable is one line of the file, not what the file is about.
+  const pou = found?.kind === "global" ? { name: path, kind: found.kind } : found;
+  return (
+    <div className="edbar">
+      <div className="sub edrow">
+        <span className="edinfo">
+          <span className="cut">{pou?.name ?? path}</span>
+          {pou && INSTANCED.includes(pou.kind) ? (
+            <SeenAs pou={pou.name} />
+          ) : (
+            pou && <span className="faint cut">{t(`kind.${pou.kind}`)}</span>
+          )}
+          <BuildOutcome />
+        </span>
+        <span className="edtools">
+          <RollBack />
+          <DebugSwitches path={path} />
+          <VerifyButton path={path} pou={found} />
+          <ChecksToggle />
+          <button
+            type="button"
+            className="btn quiet sm"
+            disabled={!dirty || lost || ran}
+            title={lost ? t("lost.nosave") : ran ? t("past.text.unsaved") : t("save.hint")}
+            onClick={() => void save(path)}
+          >
+            {t("save")}
+          </button>
+          <button
+            type="button"
+            className="btn sm"
+            disabled={building || unbuildable !== null}
+            title={unbuildable ?? t("build.hint")}
+            onClick={() => void build()}
+          >
+            <Icon name="play" small />
+            {building ? t("building") : t("build")}
+          </button>
+        </span>
+      </div>
+    </div>
+  );
+}
+
+/** What a file begins with, for lines in front of it. */
+const firstOf = (pous: readonly Pou[], path: string) =>
+  pous.filter(({ file }) => file === path).sort((a, b) => a.line - b.line)[0];
+
+type Cursor = NonNullable<ReturnType<typeof useDocuments.getState>["cursor"]>;
+
+/** Where one looks: where the program stands, until the caret is put somewhere else. */
+function useLooked(path: string, cursor: Cursor | null): number {
+  const standing = useStanding(path);
+  const key = standing?.key ?? "";
+  const [since, setSince] = useState({ key, cursor });
+  if (since.key !== key || (since.cursor === null && cursor !== null)) setSince({ key, cursor });
+  const moved = since.key === key && since.cursor !== null && cursor !== null && since.cursor.line !== cursor.line;
+  return standing && !moved ? shownLine(path, standing.line) : (cursor?.line ?? 1);
+}
+
+function ChecksToggle() {
+  const shown = usePrefs((prefs) => prefs.checks);
+  return (
+    <button
+      type="button"
+      className={`btn quiet sm${shown ? " on" : ""}`}
+      aria-pressed={shown}
+      aria-label={t("checks.show")}
+      title={t("checks.hint")}
+      onClick={toggleChecks}
+    >
+      {t("checks.short")}
+    </button>
+  );
+}
+
+/** What the last online change did to the PLC that is looked at; empty when there was none. */
+function useChangeNote(): string {
+  const instance = useBench((bench) => bench.instance?.id);
+  const change = useDocuments((documents) => documents.change?.find((known) => known.instance === instance));
+  if (change?.refusal !== "") return "";
+  return changeNote(change);
+}
+
+/** Stands beside the outcome of a build as long as there is a change to take back. */
+function RollBack() {
+  const note = useChangeNote();
+  const forbidden = useForbidden("change");
+  if (note === "") return null;
+  return (
+    <button
+      type="button"
+      className="btn quiet sm"
+      disabled={forbidden !== null}
+      title={forbidden ?? t("change.rollback.hint", { note })}
+      aria-label={t("change.rollback")}
+      onClick={() => void rollBack()}
+    >
+      <Icon name="past" small />
+      <span className="wide-only">{t("change.rollback")}</span>
+    </button>
+  );
+}
+
+/** The PLC runs another version than the one that was built last: it was rolled back, or left out. */
+function OtherVersion() {
+  const text = useBench((bench) => bench.project?.version);
+  const runs = usePlc(({ state }) => (state && !state.past && state.state !== "off" ? state.program_version : 0));
+  const building = useDocuments((documents) => documents.build.phase === "running");
+  if (building || !text || !runs || runs === text) return null;
+  return (
+    <span className="cut" role="status" title={t("change.runs.hint", { text })}>
+      <StateWord tone="warning" icon="warning" word={t("change.runs", { runs, text })} />
+    </span>
+  );
+}
+
+function BuildOutcome() {
+  const state = useDocuments((documents) => documents.build);
+  const here = useBench((bench) => bench.instance?.id);
+  if (state.phase !== "done") return <OtherVersion />;
+  const by = state.author ? t("build.by", { author: state.author }) : "";
+  return (
+    <button
+      type="button"
+      className="link plain cut"
+      title={state.message}
+      role="status"
+      onClick={() => showPanel("problems")}
+    >
+      {state.ok ? (
+        <StateWord tone="running" icon="check" word={`${builtNote(state.changes, here)}${by}`} />
+      ) : (
+        <StateWord tone="fatal" icon="error" word={`${t("build.refused")}${by}`} />
+      )}
+    </button>
+  );
+}

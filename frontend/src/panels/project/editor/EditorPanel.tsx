@@ -1,0 +1,98 @@
+import { lazy, Suspense, useEffect, useRef, useState } from "react";
+import { messageOf } from "../../../logic/format/messageOf";
+import { isDirty, openDocument, useDocuments } from "../../../store/project/documents";
+import { useShownProgram, useShowsRan } from "../../../store/project/shownProgram";
+import { t } from "../../../text";
+import { Icon } from "../../../ui/Icon";
+import { Conflict } from "./Conflict";
+import { EditorBar } from "./EditorBar";
+
+// Monaco is 4 MB: it comes after the page stands.
+const CodeView = lazy(() => import("./CodeView"));
+
+const Code = (props: { path: string; past: string | null }) => (
+  <Suspense fallback={<p className="lonely faint">{t("editor.loading")}</p>}>
+    <CodeView {...props} />
+  </Suspense>
+);
+
+/** Which version is shown, and what is kept meanwhile; or why there is nothing to be shown. */
+function PastNote({ path, version }: { path: string; version: number }) {
+  const { program, refused } = useShownProgram();
+  const dirty = useDocuments((documents) => isDirty(documents.open[path]));
+  const says =
+    refused !== null
+      ? t("past.text.refused", { version, message: refused })
+      : program === null
+        ? t("past.text.loading", { version })
+        : program.files[path] === undefined
+          ? t("past.text.none", { version, path })
+          : t("past.text", { version });
+  return (
+    <p className="trouble st past" role="status">
+      <Icon name="past" small />
+      <span>
+        <b>{says}</b> {t(dirty ? "past.text.unsaved" : "past.text.kept")}
+      </span>
+    </p>
+  );
+}
+
+/** It was not built since, so that what is saved is likely what ran; but that could not be seen. */
+function UnsureNote({ version, refused }: { version: number; refused: string }) {
+  return (
+    <p className="trouble st warning" role="status">
+      <Icon name="warning" small />
+      <span>{t("past.text.unsure", { version, message: refused })}</span>
+    </p>
+  );
+}
+
+/** The editor of one file. */
+export function EditorPanel({ path }: { path: string }) {
+  const project = useDocuments((documents) => documents.project);
+  const loaded = useDocuments((documents) => documents.open[path] !== undefined);
+  const conflict = useDocuments((documents) => documents.open[path]?.conflict ?? null);
+  const deletedBy = useDocuments((documents) => documents.open[path]?.deletedBy ?? null);
+  const version = useShownProgram((shown) => shown.version);
+  const unsure = useShownProgram((shown) => shown.refused);
+  const past = useShowsRan(path);
+  const ran = useShownProgram((shown) => shown.program?.files[path]);
+  const [refused, setRefused] = useState<string | null>(null);
+
+  const of = useRef<number | null>(null);
+
+  // A panel that was kept from last time is here before the project is known. One that sees another project come is about
+  // to be closed: the other project does not have its file.
+  useEffect(() => {
+    setRefused(null);
+    of.current ??= project;
+    if (project === null || of.current !== project) return;
+    openDocument(path).catch((error: unknown) => setRefused(messageOf(error)));
+  }, [path, project]);
+
+  return (
+    <section className="pane flexcol" aria-label={t("editor.of", { path })} data-pane="editor">
+      <EditorBar path={path} />
+      {refused !== null && !past && (
+        <p className="lonely">
+          <Icon name="error" />
+          {t("editor.refused", { path, message: refused })}
+        </p>
+      )}
+      {deletedBy !== null && (
+        <p className="trouble st warning" role="status">
+          <Icon name="warning" small />
+          <span>
+            <b>{deletedBy ? t("deleted.by", { author: deletedBy, path }) : t("deleted.meanwhile", { path })}</b>{" "}
+            {t("deleted.about")}
+          </span>
+        </p>
+      )}
+      {version !== null && past && <PastNote path={path} version={version} />}
+      {version !== null && !past && unsure !== null && <UnsureNote version={version} refused={unsure} />}
+      {!past ? loaded && <Code path={path} past={null} /> : ran !== undefined && <Code path={path} past={ran} />}
+      {conflict && !past && <Conflict path={path} theirs={conflict} />}
+    </section>
+  );
+}

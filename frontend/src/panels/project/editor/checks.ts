@@ -1,0 +1,51 @@
+/** The view "embedded checks": inlay text where the compiler checks a subrange, and where it proved that needless. */
+
+import { usePrefs } from "../../../store/page/prefs";
+import { useDocuments } from "../../../store/project/documents";
+import { t } from "../../../text";
+import type { EmbeddedCheck } from "../../../wire/types";
+import { PAST } from "./models";
+import { Emitter, type editor, languages } from "./monaco";
+import { LANGUAGE } from "./st";
+
+const changed = new Emitter<void>();
+
+languages.registerInlayHintsProvider(LANGUAGE, {
+  onDidChangeInlayHints: changed.event,
+  provideInlayHints: (model: editor.ITextModel, range) => {
+    if (!usePrefs.getState().checks) return { hints: [], dispose: () => undefined };
+    // They are told of the texts as they are edited, not of what ran in the past.
+    if (model.uri.scheme === PAST) return { hints: [], dispose: () => undefined };
+    const path = model.uri.path.slice(1);
+    const here = useDocuments.getState().checks.filter((check) => check.file === path);
+    const seen = here.filter((check) => range.startLineNumber <= check.line && check.line <= range.endLineNumber);
+    return { hints: seen.map((check) => hint(check, sharesItsEnd(check, seen))), dispose: () => undefined };
+  },
+});
+
+/** The last operand and the whole that is assigned end at one place: then each says whose it is. */
+function sharesItsEnd(check: EmbeddedCheck, all: readonly EmbeddedCheck[]): boolean {
+  return all.some(
+    (other) => other !== check && other.end_line === check.end_line && other.end_column === check.end_column,
+  );
+}
+
+function hint(check: EmbeddedCheck, named: boolean): languages.InlayHint {
+  const { variable, low, high, needless } = check;
+  const range = `${needless ? "✓" : "⊂"} ${low}..${high}`;
+  return {
+    label: named ? `${variable} ${range}` : range,
+    tooltip: needless
+      ? t("checks.needless", { variable, why: needless })
+      : t("checks.embedded", { variable, low, high }),
+    position: { lineNumber: check.end_line, column: check.end_column },
+    paddingLeft: true,
+  };
+}
+
+useDocuments.subscribe((now, before) => {
+  if (now.checks !== before.checks) changed.fire();
+});
+usePrefs.subscribe((now, before) => {
+  if (now.checks !== before.checks) changed.fire();
+});

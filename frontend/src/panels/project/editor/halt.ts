@@ -1,0 +1,75 @@
+/** The statement that is next while the program is halted: its line in full width, with an arrow in the gutter. */
+import { lineIn } from "../../../logic/plc/sourceLines";
+import { breakpointsAt, useDebug } from "../../../store/debug/debug";
+import { frameNow, useStack } from "../../../store/debug/stack";
+import { usePlc } from "../../../store/plc/plc";
+import { shownText } from "../../../store/project/shownProgram";
+import { t } from "../../../text";
+import type { editor } from "./monaco";
+
+interface Standing {
+  line: number;
+  /** Identifies the halt and frame, so that each is scrolled to once. */
+  key: string;
+  look: "halt" | "past" | "frame";
+  text: string;
+}
+
+/** Marks the line in this editor, and scrolls to it when it comes. Returns how to stop. */
+export function markHalt(code: editor.IStandaloneCodeEditor, path: string): () => void {
+  const marks = code.createDecorationsCollection();
+  let shown = "";
+  const mark = () => {
+    const here = standingIn(path);
+    marks.set(here ? [decoration(here, breakpointsAt(path, here.line).length > 0, shownLine(path, here.line))] : []);
+    const key = here?.key ?? "";
+    if (here && key !== shown) code.revealLineInCenterIfOutsideViewport(shownLine(path, here.line));
+    shown = key;
+  };
+  mark();
+  const stops = [usePlc.subscribe(mark), useStack.subscribe(mark), useDebug.subscribe(mark)];
+  return () => {
+    for (const stop of stops) stop();
+  };
+}
+
+/** The program runs the built text; the one that is shown may have been edited since. */
+export function shownLine(path: string, line: number): number {
+  const { built, text } = shownText(path);
+  return lineIn(built, text, line);
+}
+
+/** The same for what React draws. */
+export function useStanding(path: string): Standing | null {
+  usePlc((plc) => plc.state?.halt);
+  useStack((stack) => stack.frame);
+  return standingIn(path);
+}
+
+/** The halt, or the place of a caller that was chosen in the call stack. */
+export function standingIn(path: string): Standing | null {
+  const halt = usePlc.getState().state?.halt;
+  if (!halt) return null;
+  const frame = frameNow();
+  const { frames } = useStack.getState();
+  if (frame && frame.id !== frames[0]?.id) {
+    if (frame.source?.path !== path) return null;
+    return { line: frame.line, key: `${halt.number}:${frame.id}`, look: "frame", text: t("debug.callshere") };
+  }
+  if (halt.file !== path) return null;
+  return { line: halt.line, key: `${halt.number}`, look: halt.past ? "past" : "halt", text: halt.text };
+}
+
+function decoration({ look, text }: Standing, breakpoint: boolean, line: number): editor.IModelDeltaDecoration {
+  return {
+    range: { startLineNumber: line, startColumn: 1, endLineNumber: line, endColumn: 1 },
+    options: {
+      isWholeLine: true,
+      className: `${look}line`,
+      marginClassName: `${look}line`,
+      glyphMarginClassName: `gl gl-here ${look}${breakpoint && look === "halt" ? " gl-on-bp" : ""}`,
+      glyphMarginHoverMessage: { value: text },
+      zIndex: 10,
+    },
+  };
+}

@@ -1,0 +1,226 @@
+/**
+ * Live values behind the lines that are in sight. They lie over the text as elements of their own, written by the frames
+ * themselves: as decorations, twenty times a second, they would have Monaco lay out its lines again.
+ */
+
+import { type NamedVariable, variablesIn } from "../../../logic/debug/inline";
+import { lineIn, pouAt } from "../../../logic/plc/sourceLines";
+import { loadNames, pathOf, useSeenAs } from "../../../store/debug/seenAs";
+import { frameNow, frameText, useStack } from "../../../store/debug/stack";
+import { usePrefs } from "../../../store/page/prefs";
+import { useMembers } from "../../../store/plc/members";
+import { usePlc } from "../../../store/plc/plc";
+import { bindCell } from "../../../store/plc/values";
+import { watch } from "../../../store/plc/watches";
+import { useDocuments } from "../../../store/project/documents";
+import { shownText } from "../../../store/project/shownProgram";
+import { forcedAt, useForces } from "../../../store/watch/forces";
+import { t } from "../../../text";
+import { standingIn } from "./halt";
+import type { editor } from "./monaco";
+import { hasValues } from "./names";
+
+const MOST = 6;
+
+/** A value behind a line: watched by its path, or told with the halt. */
+interface Shown {
+  name: string;
+  path: string | null;
+  text: string;
+}
+
+interface Row {
+  key: string;
+  element: HTMLElement;
+  /** Shows which values are forced now. */
+  paint: () => void;
+  release: () => void;
+}
+
+export function showInlineValues(code: editor.IStandaloneCodeEditor, path: string): () => void {
+  const layer = document.createElement("div");
+  layer.className = "inlinelayer";
+  layer.setAttribute("aria-hidden", "true");
+  code.addOverlayWidget({ getId: () => `inline:${path}`, getDomNode: () => layer, getPosition: () => null });
+  const rows = new Map<number, Row>();
+  let unwatch: () => void = () => undefined;
+  let scheduled = 0;
+
+  function drop(line: number): void {
+    rows.get(line)?.release();
+    rows.get(line)?.element.remove();
+    rows.delete(line);
+  }
+
+  function draw(): void {
+    scheduled = 0;
+    const wanted = rowsIn(code, path);
+    for (const line of [...rows.keys()]) if (!wanted.has(line)) drop(line);
+    const paths = new Set<string>();
+    for (const [line, row] of wanted) {
+      for (const each of row.values) if (each.path !== null) paths.add(each.path);
+      const key = JSON.stringify(row);
+      if (rows.get(line)?.key !== key) {
+        drop(line);
+        rows.set(line, { key, ...build(row, layer) });
+      }
+    }
+    const before = unwatch;
+    unwatch = watch([...paths]);
+    before();
+    for (const { paint } of rows.values()) paint();
+    place(code, rows, layer);
+  }
+
+  const schedule = () => {
+    scheduled ||= requestAnimationFrame(draw);
+  };
+  draw();
+  const listeners = [
+    code.onDidScrollChange(schedule),
+    code.onDidLayoutChange(schedule),
+    code.onDidChangeModelContent(schedule),
+    code.onDidChangeHiddenAreas(schedule),
+    // The find widget makes room above the first line, and what is written into a line by others makes it longer.
+    code.onDidChangeViewZones(schedule),
+    code.onDidChangeModelDecorations(schedule),
+  ];
+  const stops = [
+    useSeenAs.subscribe(schedule),
+    useMembers.subscribe(schedule),
+    usePrefs.subscribe(schedule),
+    useStack.subscribe(schedule),
+    useForces.subscribe(schedule),
+    useDocuments.subscribe((now, before) => now.pous !== before.pous && schedule()),
+    usePlc.subscribe((now, before) => {
+      if (now.state?.halt !== before.state?.halt || now.state?.program_version !== before.state?.program_version)
+        schedule();
+    }),
+  ];
+  return () => {
+    cancelAnimationFrame(scheduled);
+    for (const listener of listeners) listener.dispose();
+    for (const stop of stops) stop();
+    for (const line of [...rows.keys()]) drop(line);
+    unwatch();
+  };
+}
+
+interface RowWanted {
+  values: Shown[];
+  /** Behind the statement that is next: what was computed in the scan before. */
+  old: boolean;
+  /** Said behind the line at which the program stands. */
+  next: "" | "next" | "past" | "calls";
+}
+
+const SAID = { next: "debug.next", past: "debug.next", calls: "debug.callshere" } as const;
+
+/** What to show, by line: the variables that the lines in sight name, as the instance has them that the text is seen as. */
+function rowsIn(code: editor.IStandaloneCodeEditor, path: string): Map<number, RowWanted> {
+  const wanted = new Map<number, RowWanted>();
+  const model = code.getModel();
+  if (!model) return wanted;
+  const { pous, text, built } = shownText(path);
+  const standing = standingIn(path);
+  const stands = standing && lineIn(built, text, standing.line);
+  const on = usePrefs.getState().inline;
+  const here = frameNow()?.scanbench?.pou.toUpperCase();
+  for (const { startLineNumber, endLineNumber } of code.getVisibleRanges()) {
+    let pou = pouAt(pous, path, startLineNumber, text);
+    if (pou && on && hasValues(pou)) void loadNames(pou.name);
+    let comment = false;
+    for (let line = startLineNumber; line <= endLineNumber; line += 1) {
+      const begins = pous.find((known) => known.file === path && known.line === line);
+      if (begins && begins !== pou) {
+        pou = begins;
+        if (on && hasValues(pou)) void loadNames(pou.name);
+      }
+      const inFrame = pou !== undefined && pou.name.toUpperCase() === here;
+      const found = variablesIn(model.getLineContent(line), comment);
+      comment = found.comment;
+      const values = pou && on && hasValues(pou) ? valuesOf(found.variables, pou.name, inFrame) : [];
+      const next = stands === line ? saidOf(standing?.look) : "";
+      const old = inFrame && stands !== null && line > stands;
+      if (values.length > 0 || next !== "") wanted.set(line, { values, old, next });
+    }
+  }
+  return wanted;
+}
+
+const saidOf = (look: "halt" | "past" | "frame" | undefined) =>
+  look === "frame" ? "calls" : look === "past" ? "past" : "next";
+
+function valuesOf(named: readonly NamedVariable[], pou: string, inFrame: boolean): Shown[] {
+  const shown: Shown[] = [];
+  for (const { path: name } of named) {
+    const path = pathOf(pou, name);
+    const text = path === undefined && inFrame ? frameText(name) : "";
+    if (path !== undefined || text) shown.push({ name, path: path ?? null, text: text ?? "" });
+    if (shown.length === MOST) break;
+  }
+  return shown;
+}
+
+/** The elements of a row; their texts are written by the values themselves from now on. */
+function build({ values, old, next }: RowWanted, layer: HTMLElement): Omit<Row, "key"> {
+  const element = document.createElement("div");
+  element.className = `inlinerow${old ? " old" : ""}`;
+  const paints: (() => void)[] = [];
+  const releases = values.map((value) => {
+    const cell = document.createElement("span");
+    const text = document.createElement("b");
+    cell.append(value.name, text);
+    element.append(cell);
+    if (value.path === null) {
+      text.textContent = value.text;
+      return () => undefined;
+    }
+    const { path } = value;
+    paints.push(() => cell.classList.toggle("forced", forcedAt(path) !== undefined));
+    return bindCell(path, "default", (reading) => {
+      text.textContent = reading.text;
+      cell.hidden = reading.text === "";
+      cell.classList.toggle("new", reading.changed && usePlc.getState().state?.halt != null);
+    });
+  });
+  if (next !== "") {
+    const said = document.createElement("span");
+    said.className = `why ${next}`;
+    said.textContent = t(SAID[next]);
+    element.append(said);
+  }
+  layer.append(element);
+  return {
+    element,
+    paint: () => paints.forEach((paint) => void paint()),
+    release: () => releases.forEach((release) => void release()),
+  };
+}
+
+function place(code: editor.IStandaloneCodeEditor, rows: ReadonlyMap<number, Row>, layer: HTMLElement): void {
+  const model = code.getModel();
+  const { contentLeft, contentWidth, height } = code.getLayoutInfo();
+  layer.style.left = `${contentLeft}px`;
+  layer.style.width = `${contentWidth}px`;
+  layer.style.height = `${height}px`;
+  for (const [line, { element }] of rows) {
+    const at = model && code.getScrolledVisiblePosition({ lineNumber: line, column: model.getLineMaxColumn(line) });
+    element.hidden = !at;
+    if (!model || !at) continue;
+    const behind = at.left - contentLeft + insertedWidth(code, model, line);
+    element.style.transform = `translate(${behind + 24}px, ${at.top}px)`;
+  }
+}
+
+/** How much wider a line is drawn than its text: subrange checks and what readers say are written into it. */
+function insertedWidth(code: editor.IStandaloneCodeEditor, model: editor.ITextModel, line: number): number {
+  const inserts = model.getLineDecorations(line).some(({ options }) => options.after || options.before);
+  if (!inserts) return 0;
+  const top = code.getTopForLineNumber(line);
+  const drawn = [...(code.getDomNode()?.querySelectorAll<HTMLElement>(".view-line") ?? [])].find(
+    ({ style }) => Number.parseFloat(style.top) === top,
+  );
+  const text = code.getOffsetForColumn(line, model.getLineMaxColumn(line));
+  return Math.max(0, (drawn?.firstElementChild?.getBoundingClientRect().width ?? 0) - text);
+}

@@ -1,0 +1,97 @@
+/** One Monaco model for each open file, in step with the document store both ways; diagnostics become markers. */
+
+import { isTable } from "../../../logic/project/explorer";
+import { usePlc } from "../../../store/plc/plc";
+import { edit, useDocuments } from "../../../store/project/documents";
+import type { Problem, Violation } from "../../../wire/types";
+import { editor, MarkerSeverity, Uri } from "./monaco";
+import { LANGUAGE } from "./st";
+
+/** A table of inputs: Monaco's name for what has no syntax. */
+const TEXT = "plaintext";
+const models = new Map<string, editor.ITextModel>();
+const OWNER = "scanbench";
+const RUNTIME = "scanbench.runtime";
+
+const SEVERITY: Record<Problem["severity"], MarkerSeverity> = {
+  error: MarkerSeverity.Error,
+  warning: MarkerSeverity.Warning,
+  info: MarkerSeverity.Info,
+};
+
+/** Scheme of texts as they ran. */
+export const PAST = "scanbench-past";
+
+/** A text as it ran in the past: nobody edits it, and its editor disposes of it. */
+export const pastModel = (path: string, text: string): editor.ITextModel =>
+  editor.createModel(text, isTable(path) ? TEXT : LANGUAGE, Uri.from({ scheme: PAST, path: `/${path}` }));
+
+export function modelOf(path: string, text: string): editor.ITextModel {
+  const known = models.get(path);
+  if (known && !known.isDisposed()) return known;
+  const model = editor.createModel(
+    text,
+    isTable(path) ? TEXT : LANGUAGE,
+    Uri.from({ scheme: "scanbench", path: `/${path}` }),
+  );
+  model.setEOL(editor.EndOfLineSequence.LF);
+  model.onDidChangeContent(() => edit(path, model.getValue()));
+  models.set(path, model);
+  markModel(path, model);
+  markViolations(path, model);
+  return model;
+}
+
+function markModel(path: string, model: editor.ITextModel): void {
+  const { problems } = useDocuments.getState();
+  editor.setModelMarkers(
+    model,
+    OWNER,
+    problems
+      .filter((problem) => problem.file === path)
+      .map((problem) => ({
+        severity: SEVERITY[problem.severity],
+        message: problem.message,
+        code: problem.code,
+        startLineNumber: problem.line,
+        startColumn: problem.column,
+        endLineNumber: problem.end_line,
+        endColumn: Math.max(problem.end_column, problem.line === problem.end_line ? problem.column + 1 : 1),
+      })),
+  );
+}
+
+/** Where an embedded check found a value outside of its subrange while the program ran. */
+function markViolations(path: string, model: editor.ITextModel): void {
+  const { violations } = usePlc.getState().diagnostics;
+  const marker = (violation: Violation) => ({
+    severity: MarkerSeverity.Warning,
+    message: `${violation.text} (${violation.times}x)`,
+    startLineNumber: violation.line,
+    startColumn: violation.column,
+    endLineNumber: violation.end_line,
+    endColumn: violation.end_column,
+  });
+  editor.setModelMarkers(model, RUNTIME, violations.filter((violation) => violation.file === path).map(marker));
+}
+
+usePlc.subscribe((now, before) => {
+  if (now.diagnostics === before.diagnostics) return;
+  for (const [path, model] of models) markViolations(path, model);
+});
+
+// A text that changed in the store but not by typing (theirs was taken, or a colleague saved) goes into the model.
+useDocuments.subscribe((now, before) => {
+  for (const [path, model] of models) {
+    const document = now.open[path];
+    if (!document) {
+      model.dispose();
+      models.delete(path);
+      continue;
+    }
+    if (document.text !== before.open[path]?.text && document.text !== model.getValue()) {
+      model.pushEditOperations([], [{ range: model.getFullModelRange(), text: document.text }], () => null);
+    }
+    if (now.problems !== before.problems) markModel(path, model);
+  }
+});

@@ -1,0 +1,74 @@
+import { type DragEvent, useState } from "react";
+import { grouped } from "../../../logic/format/numbers";
+import { useDocuments } from "../../../store/project/documents";
+import { useRanApart } from "../../../store/project/shownProgram";
+import { t } from "../../../text";
+import { Icon } from "../../../ui/Icon";
+import { IconButton } from "../../../ui/IconButton";
+import { Menu, type MenuItem } from "../../../ui/Menu";
+import { Tree } from "../../../ui/Tree";
+import { AddFiles } from "./AddFiles";
+import { DeleteFile } from "./DeleteFile";
+import { NewFile } from "./NewFile";
+import { type OpenMenu, useExplorerRows } from "./rows";
+import { useAddFiles } from "./useAddFiles";
+
+/** What there is: files by what they declare, the variables of the running program, memory, model. */
+export function Explorer() {
+  const [menu, setMenu] = useState<{ items: readonly MenuItem[]; at: { x: number; y: number } } | null>(null);
+  const [creating, setCreating] = useState(false);
+  const [deleting, setDeleting] = useState<string | null>(null);
+  const project = useDocuments((documents) => documents.project);
+  const openMenu: OpenMenu = (items, at) => setMenu({ items, at });
+  const rows = useExplorerRows(openMenu, setDeleting);
+  const adding = useAddFiles();
+
+  function onDrag(event: DragEvent): void {
+    if (project !== null && event.dataTransfer.types.includes("Files")) event.preventDefault();
+  }
+
+  function onDrop(event: DragEvent): void {
+    const files = [...event.dataTransfer.files];
+    if (project === null || files.length === 0) return;
+    event.preventDefault();
+    void adding.add(files);
+  }
+
+  return (
+    <nav
+      className="pane left"
+      aria-label={t("explorer.label")}
+      data-pane="explorer"
+      onDragOver={onDrag}
+      onDrop={onDrop}
+    >
+      <div className="phead">
+        <h2 className="grow">{t("explorer.label")}</h2>
+        <AddFiles adding={adding} />
+        <IconButton
+          icon="plus"
+          label={t("file.new")}
+          small
+          disabled={project === null}
+          onClick={() => setCreating(true)}
+        />
+      </div>
+      <PastNote />
+      <Tree label={t("explorer.label")} rows={rows} />
+      {menu && <Menu label={t("menu.label")} items={menu.items} at={menu.at} onClose={() => setMenu(null)} />}
+      {creating && <NewFile onClose={() => setCreating(false)} />}
+      {deleting !== null && <DeleteFile path={deleting} onClose={() => setDeleting(null)} />}
+    </nav>
+  );
+}
+
+function PastNote() {
+  const ran = useRanApart();
+  if (ran === null) return null;
+  return (
+    <p className="trouble st past">
+      <Icon name="past" small />
+      <span>{t("past.files", { version: ran.version, scan: grouped(ran.scan) })}</span>
+    </p>
+  );
+}

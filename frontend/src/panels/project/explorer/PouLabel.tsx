@@ -1,0 +1,11 @@
+import type { FileNode, PouNode } from "../../../logic/project/explorer";
+
+/** The name of a declaration; with its file when the file holds more than one. */
+export function PouLabel({ node }: { node: PouNode | FileNode }) {
+  return (
+    <>
+      {node.name}
+      {node.kind === "pou" && node.shared && <span className="faint"> {node.file}</span>}
+    </>
+  );
+}

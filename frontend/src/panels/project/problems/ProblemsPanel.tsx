@@ -1,0 +1,69 @@
+import { grouped } from "../../../logic/format/numbers";
+import { openFile } from "../../../store/page/navigate";
+import { useDocuments } from "../../../store/project/documents";
+import { useRanApart } from "../../../store/project/shownProgram";
+import { t } from "../../../text";
+import { Icon, type IconName } from "../../../ui/Icon";
+import type { Problem } from "../../../wire/types";
+
+const LOOK: Record<Problem["severity"], { icon: IconName; tone: string }> = {
+  error: { icon: "error", tone: "fatal" },
+  warning: { icon: "warning", tone: "warning" },
+  info: { icon: "info", tone: "info" },
+};
+
+/** What the compiler finds in the texts as they stand. A click goes there. */
+export function ProblemsPanel() {
+  const problems = useDocuments((documents) => documents.problems);
+  const trouble = useDocuments((documents) => documents.trouble);
+  const build = useDocuments((documents) => documents.build);
+  const ran = useRanApart();
+  const refused = build.phase === "done" && !build.ok ? build.message : null;
+  return (
+    <div className="pane flexcol" data-pane="problems">
+      {ran && (
+        <p className="trouble st past">
+          <Icon name="past" small />
+          <span>{t("past.problems", { version: ran.version, scan: grouped(ran.scan) })}</span>
+        </p>
+      )}
+      {trouble && <Line tone="fatal" text={trouble} />}
+      {refused && <Line tone="fatal" text={`${t("build.refused")}: ${refused}`} />}
+      {problems.length === 0 && !trouble && !refused ? (
+        <p className="lonely faint">{t("problems.none")}</p>
+      ) : (
+        <ul className="grid scroll problems" aria-label={t("problems.list")}>
+          {problems.map((problem) => (
+            <li key={`${problem.file}:${problem.line}:${problem.column}:${problem.code}:${problem.message}`}>
+              <Row problem={problem} />
+            </li>
+          ))}
+        </ul>
+      )}
+    </div>
+  );
+}
+
+function Line({ tone, text }: { tone: string; text: string }) {
+  return (
+    <p className={`trouble st ${tone}`} role="alert">
+      <Icon name="error" small />
+      <span>{text}</span>
+    </p>
+  );
+}
+
+function Row({ problem }: { problem: Problem }) {
+  const { icon, tone } = LOOK[problem.severity];
+  return (
+    <button type="button" className="gr" onClick={() => openFile(problem.file, problem.line, problem.column)}>
+      <span className={`st ${tone}`}>
+        <Icon name={icon} small />
+        {t(`severity.${problem.severity}`)}
+      </span>
+      <span className="says">{problem.message}</span>
+      <span className="mono muted">{problem.code}</span>
+      <span className="mono muted cut">{`${problem.file}:${problem.line}:${problem.column}`}</span>
+    </button>
+  );
+}

@@ -1,0 +1,51 @@
+import { waitsForSpace } from "../../../logic/plc/plcstate";
+import { usePlc } from "../../../store/plc/plc";
+import { FatalBanner } from "./FatalBanner";
+import { LinkBanner } from "./LinkBanner";
+import { LostBanner } from "./LostBanner";
+import { OffBanner } from "./OffBanner";
+import { PastBanner } from "./PastBanner";
+import { RecordingBanner } from "./RecordingBanner";
+import { RerunBanners } from "./RerunBanner";
+import { RestartingBanner } from "./RestartingBanner";
+import { SpaceBanner } from "./SpaceBanner";
+import { TrapBanner } from "./TrapBanner";
+
+/** At most one banner about the PLC, the most serious: no connection, then what stops it; and one about its recording. Below: the link that was
+ * opened, replays of the run. */
+export function Banners() {
+  const link = usePlc((plc) => plc.link);
+  if (link.state === "lost") return <LostBanner link={link} />;
+  return (
+    <>
+      <PlcBanner />
+      <RecordingBanner />
+      <LinkBanner />
+      <RerunBanners />
+    </>
+  );
+}
+
+function PlcBanner() {
+  const state = usePlc((plc) => plc.state);
+  if (!state) return null;
+  switch (state.state) {
+    case "trapped":
+      return <TrapBanner state={state} />;
+    case "fatal":
+      return <FatalBanner state={state} />;
+    case "restarting":
+    case "silent":
+    case "failed":
+      return <RestartingBanner state={state} />;
+    case "past":
+      return <PastBanner state={state} />;
+    case "off":
+      return <OffBanner />;
+    case "no_space":
+      // One that has a process tells of it as trouble of its recording.
+      return waitsForSpace(state) ? <SpaceBanner state={state} /> : null;
+    default:
+      return null;
+  }
+}

@@ -1,0 +1,15 @@
+import { t } from "../../../text";
+import { Icon } from "../../../ui/Icon";
+import type { InstanceState } from "../../../wire/types";
+
+/** The disk is full, so that the PLC cannot begin: it has no process, and is tried again and again. */
+export function SpaceBanner({ state }: { state: InstanceState }) {
+  return (
+    <div className="banner fatal" role="alert">
+      <Icon name="error" />
+      <span className="grow">
+        <b>{t("no_space.title")}</b> {state.message}
+      </span>
+    </div>
+  );
+}

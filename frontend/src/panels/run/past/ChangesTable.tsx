@@ -1,0 +1,153 @@
+import { useVirtualizer } from "@tanstack/react-virtual";
+import { useMemo, useRef, useState } from "react";
+import { changesAsText, filterChanges, leftOut } from "../../../logic/past/past";
+import { showWriter } from "../../../store/past/writer";
+import { t } from "../../../text";
+import { CopyButton } from "../../../ui/CopyButton";
+import { Icon } from "../../../ui/Icon";
+import { IconButton } from "../../../ui/IconButton";
+import type { RunChanges, VariableChange } from "../../../wire/types";
+
+const ROW = 24;
+
+interface Props {
+  changes: RunChanges;
+  label: string;
+  /** What the two columns of values are. */
+  heads: readonly [string, string];
+  /** Who last wrote it is asked from here; null: not to be asked. */
+  writerBefore: number | null;
+}
+
+/** Variables with two values each: filtered, and to be copied. Only the rows in sight exist in the page. */
+export function ChangesTable({ changes, label, heads, writerBefore }: Props) {
+  const [filter, setFilter] = useState("");
+  const shown = useMemo(() => filterChanges(changes.changes, filter), [changes, filter]);
+  const missing = leftOut(changes);
+  return (
+    <>
+      <div className="row">
+        <span className="inp sm filter">
+          <Icon name="search" small />
+          <input
+            type="search"
+            aria-label={t("changes.filter")}
+            placeholder={t("changes.filter")}
+            value={filter}
+            spellCheck={false}
+            onChange={(event) => setFilter(event.target.value)}
+          />
+        </span>
+        <span className="hint" role="status">
+          {filter.trim() === ""
+            ? t("changes.count", { count: changes.count })
+            : t("changes.shown", { shown: shown.length, count: changes.changes.length })}
+          {missing > 0 && <span className="bad"> {t("changes.leftout", { count: missing })}</span>}
+        </span>
+        <span className="grow" />
+        <CopyButton
+          label={t("changes.copy")}
+          done={t("changes.copied")}
+          className="btn quiet sm"
+          icon="export"
+          text={() => changesAsText(shown, heads)}
+        />
+      </div>
+      {shown.length === 0 ? (
+        <p className="lonely faint">{t("changes.nomatch")}</p>
+      ) : (
+        <Rows rows={shown} label={label} heads={heads} writerBefore={writerBefore} />
+      )}
+    </>
+  );
+}
+
+interface RowsProps extends Omit<Props, "changes"> {
+  rows: readonly VariableChange[];
+}
+
+function Rows({ rows, label, heads, writerBefore }: RowsProps) {
+  const scroll = useRef<HTMLDivElement>(null);
+  const virtual = useVirtualizer({
+    count: rows.length,
+    getScrollElement: () => scroll.current,
+    estimateSize: () => ROW,
+    overscan: 12,
+    scrollMargin: ROW,
+    getItemKey: (index) => rows[index]?.path ?? index,
+  });
+  return (
+    <div
+      ref={scroll}
+      className="grid scroll chtable"
+      role="table"
+      aria-label={label}
+      aria-rowcount={rows.length + 1}
+      // biome-ignore lint/a11y/noNoninteractiveTabindex: what scrolls must be reached by the keyboard
+      tabIndex={0}
+    >
+      <div className="gr h" role="row" aria-rowindex={1}>
+        <span role="columnheader">{t("changes.variable")}</span>
+        <span role="columnheader">{t("changes.type")}</span>
+        <span role="columnheader" className="num">
+          {heads[0]}
+        </span>
+        <span role="columnheader" className="num">
+          {heads[1]}
+        </span>
+        <span role="columnheader">
+          <span className="sr">{t("writer.menu")}</span>
+        </span>
+      </div>
+      <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
+        {virtual.getVirtualItems().map(({ index, start }) => {
+          const row = rows[index];
+          return row && <Row key={row.path} row={row} index={index} top={start - ROW} writerBefore={writerBefore} />;
+        })}
+      </div>
+    </div>
+  );
+}
+
+interface RowProps {
+  row: VariableChange;
+  index: number;
+  top: number;
+  writerBefore: number | null;
+}
+
+function Row({ row, index, top, writerBefore }: RowProps) {
+  const { path, type, before_shown: before, after_shown: after } = row;
+  return (
+    <div
+      className="gr"
+      role="row"
+      aria-rowindex={index + 2}
+      data-path={path}
+      style={{ transform: `translateY(${top}px)` }}
+    >
+      <span role="rowheader" className="mono cut" title={path}>
+        {path}
+      </span>
+      <span role="cell" className="muted cut" title={type}>
+        {type}
+      </span>
+      <span role="cell" className="num cut" title={before}>
+        {before}
+      </span>
+      <span role="cell" className="num cut now" title={after}>
+        {after}
+      </span>
+      <span role="cell" className="askwho">
+        {writerBefore !== null && (
+          <IconButton
+            icon="past"
+            small
+            label={t("writer.title", { path })}
+            onClick={() => showWriter(path, writerBefore)}
+          />
+        )}
+      </span>
+    </div>
+  );
+}

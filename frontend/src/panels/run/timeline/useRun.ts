@@ -1,0 +1,67 @@
+import { useEffect, useState } from "react";
+import { type Axis, including } from "../../../logic/plc/timeline";
+import { bindClock, readClock } from "../../../store/plc/clock";
+import { usePlc } from "../../../store/plc/plc";
+import { useTimeline } from "../../../store/plc/timeline";
+
+/** Scans come by the thousand: the axis grows with them, but is drawn a few times a second only. */
+const REDRAW = 250;
+
+export interface RunOnAxis {
+  /** All scans that can be gone back to. */
+  whole: Axis;
+  /** What is shown of them. */
+  axis: Axis;
+  /** The scan that is shown, or on its way to be. */
+  position: number;
+  past: boolean;
+}
+
+/** The run as the timeline draws it; null while there is none. */
+export function useRun(): RunOnAxis | null {
+  const clock = useSlowClock();
+  const { info, view, follows, aim } = useTimeline();
+  const past = usePlc((plc) => plc.state?.past ?? null);
+  const shown = usePlc((plc) => plc.state?.scan ?? 0);
+  if (!info) return null;
+  const whole = { from: info.first_scan, to: Math.max(info.first_scan, past?.live_scan ?? clock) };
+  const position = aim ?? (past ? shown : whole.to);
+  return { whole, axis: axisOf(view, follows, whole, position), position, past: past !== null };
+}
+
+function axisOf(view: Axis | null, follows: boolean, whole: Axis, position: number): Axis {
+  // A view from before a new run may be wider than all there is.
+  if (view === null || view.to - view.from >= whole.to - whole.from) return whole;
+  if (!follows) return view;
+  return including({ from: whole.to - (view.to - view.from), to: whole.to }, whole, position);
+}
+
+function useSlowClock(): number {
+  const [scan, setScan] = useState(() => readClock().scan);
+  useEffect(() => {
+    let timer: ReturnType<typeof setTimeout> | undefined;
+    const unbind = bindClock(() => {
+      timer ??= setTimeout(() => {
+        timer = undefined;
+        setScan(readClock().scan);
+      }, REDRAW);
+    });
+    return () => {
+      unbind();
+      clearTimeout(timer);
+    };
+  }, []);
+  return scan;
+}
+
+/** PLC time of a scan: the clock of a PLC is its scans times its task interval. */
+export function timeOf(scan: number, intervalNs: number): number {
+  const clock = readClock();
+  return Math.max(0, clock.timeNs + (scan - clock.scan) * intervalNs);
+}
+
+/** The scan that begins at a PLC time, or the nearest one. */
+export function scanOfTime(timeNs: number, intervalNs: number): number {
+  const clock = readClock();
+  return clock.scan + Math.round((timeNs - clock.timeNs) / Math.max(1, intervalNs));
+}

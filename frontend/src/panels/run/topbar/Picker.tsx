@@ -1,0 +1,97 @@
+import { useState } from "react";
+import { showCompare } from "../../../store/past/comparisons";
+import { chooseInstance, chooseProject, refreshApp, useBench } from "../../../store/plc/bench";
+import { showInstances } from "../../../store/plc/instances";
+import { useShownProgram } from "../../../store/project/shownProgram";
+import { openTraceImport } from "../../../store/verify/traceImport";
+import { openVerifyRecords } from "../../../store/verify/verifyRecords";
+import { t } from "../../../text";
+import { Icon } from "../../../ui/Icon";
+import { MenuButton, type MenuItem } from "../../../ui/Menu";
+import type { AppInfo } from "../../../wire/types";
+import { NewInstance } from "./NewInstance";
+import { NewProject } from "./NewProject";
+
+type Asking = "project" | "instance" | null;
+
+/** Which project and which virtual PLC this browser looks at. */
+export function Picker() {
+  const { app, project, instance } = useBench();
+  const [asking, setAsking] = useState<Asking>(null);
+  const shown = useShownProgram(({ version }) => version);
+  const model = instance?.model ?? project?.model ?? "";
+  return (
+    <>
+      <MenuButton
+        label={t("picker.label")}
+        className="picker"
+        items={() => {
+          void refreshApp();
+          return app ? itemsOf(app, project?.id, instance?.id, setAsking) : [];
+        }}
+      >
+        <span className="two">
+          <span className="cut">
+            {project ? `${project.name}${instance ? ` / ${instance.name}` : ""}` : t("picker.none")}
+          </span>
+          <span className="cut">{project ? t("picker.about", { model, version: shown ?? project.version }) : ""}</span>
+        </span>
+        <Icon name="chev-d" />
+      </MenuButton>
+      {asking === "project" && <NewProject onClose={() => setAsking(null)} />}
+      {asking === "instance" && project && <NewInstance project={project} onClose={() => setAsking(null)} />}
+    </>
+  );
+}
+
+function itemsOf(
+  app: AppInfo,
+  project: number | undefined,
+  instance: number | undefined,
+  ask: (what: Asking) => void,
+): MenuItem[] {
+  const instances = app.instances.map(
+    (known): MenuItem => ({
+      label: `${known.project.name} / ${known.name}`,
+      hint: known.model,
+      checked: known.id === instance,
+      onSelect: () => void chooseInstance(known),
+    }),
+  );
+  const idle = app.projects.filter((known) => !app.instances.some((other) => other.project.id === known.id));
+  const projects = idle.map(
+    (known): MenuItem => ({
+      label: known.name,
+      hint: t("picker.noinstance"),
+      checked: known.id === project && instance === undefined,
+      onSelect: () => void chooseProject(known),
+    }),
+  );
+  return [
+    ...instances,
+    ...projects,
+    {
+      label: t("compare.runs"),
+      icon: "swap",
+      separated: true,
+      disabled: instance === undefined,
+      onSelect: () => showCompare(),
+    },
+    { label: t("instances.show"), icon: "list", onSelect: () => showInstances(true) },
+    {
+      label: t("picker.newinstance"),
+      icon: "plc",
+      disabled: project === undefined,
+      onSelect: () => ask("instance"),
+    },
+    { label: t("picker.newproject"), icon: "plus", onSelect: () => ask("project") },
+    {
+      label: t("import.trace"),
+      icon: "import",
+      separated: true,
+      disabled: instance === undefined,
+      onSelect: () => openTraceImport(),
+    },
+    { label: t("verify.records"), icon: "list", disabled: project === undefined, onSelect: openVerifyRecords },
+  ];
+}

@@ -1,0 +1,95 @@
+import { grouped } from "../../../logic/format/numbers";
+import { openFile } from "../../../store/page/navigate";
+import { useOnline, usePlc } from "../../../store/plc/plc";
+import { t } from "../../../text";
+import { Icon } from "../../../ui/Icon";
+import { send } from "../../../wire/send";
+import type { Violation } from "../../../wire/types";
+
+/** What the embedded subrange checks found while the program ran. A click goes to the source. */
+export function DiagnosticsPanel() {
+  const { violations, dropped, count } = usePlc((plc) => plc.diagnostics);
+  const online = useOnline();
+  return (
+    <div className="pane flexcol" data-pane="diagnostics">
+      {violations.length === 0 ? (
+        <p className="lonely faint">{t("diagnostics.none")}</p>
+      ) : (
+        <>
+          <div className="sub">
+            <span>{t("diagnostics.count", { count: grouped(count) })}</span>
+            {dropped > 0 && (
+              <span className="st warning cut" role="status">
+                <Icon name="warning" small />
+                {t("diagnostics.dropped", { dropped: grouped(dropped) })}
+              </span>
+            )}
+            <span className="grow" />
+            <button
+              type="button"
+              className="btn quiet sm"
+              disabled={!online}
+              title={t("diagnostics.clear.hint")}
+              onClick={() => void send({ type: "clear_diagnostics" })}
+            >
+              {t("diagnostics.clear")}
+            </button>
+          </div>
+          <List violations={violations} />
+        </>
+      )}
+    </div>
+  );
+}
+
+function List({ violations }: { violations: readonly Violation[] }) {
+  return (
+    <div className="grid scroll problems violations">
+      <div className="gr h" aria-hidden="true">
+        <span>{t("diagnostics.what")}</span>
+        <span>{t("diagnostics.instance")}</span>
+        <span className="num">{t("diagnostics.times")}</span>
+        <span className="num scans">{t("diagnostics.scans")}</span>
+        <span>{t("diagnostics.where")}</span>
+      </div>
+      <ul aria-label={t("diagnostics.list")}>
+        {violations.map((violation) => (
+          <li
+            key={`${violation.file}:${violation.line}:${violation.column}:${violation.variable}:${violation.instance}`}
+          >
+            <Row violation={violation} />
+          </li>
+        ))}
+      </ul>
+    </div>
+  );
+}
+
+/** What happened, in words of this page's language. */
+export function inWords(violation: Violation): string {
+  if (violation.variable === "EN_CHECK") return t("diagnostics.encheck");
+  const { variable, value, low, high } = violation;
+  return t("diagnostics.outside", { variable, value, low, high });
+}
+
+function Row({ violation }: { violation: Violation }) {
+  const { file, line, column, first_scan: first, last_scan: last } = violation;
+  const text = inWords(violation);
+  const scans = first === last ? grouped(first) : `${grouped(first)}–${grouped(last)}`;
+  return (
+    <button type="button" className="gr" onClick={() => openFile(file, line, column)}>
+      <span className="st warning cut" title={text}>
+        <Icon name="warning" small />
+        <span className="cut">{text}</span>
+      </span>
+      <span className="mono cut" title={violation.instance || violation.pou}>
+        {violation.instance || violation.pou}
+      </span>
+      <span className="num mono" title={t("diagnostics.inscans", { scans })}>
+        {grouped(violation.times)}
+      </span>
+      <span className="num mono muted scans">{scans}</span>
+      <span className="mono muted cut">{`${file}:${line}:${column}`}</span>
+    </button>
+  );
+}

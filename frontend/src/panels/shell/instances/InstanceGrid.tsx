@@ -1,0 +1,132 @@
+import { useVirtualizer } from "@tanstack/react-virtual";
+import { type KeyboardEvent, useEffect, useRef } from "react";
+import { COLUMNS, type Column, type Order } from "../../../logic/plc/instances";
+import { t } from "../../../text";
+import { Icon } from "../../../ui/Icon";
+import type { Instance } from "../../../wire/types";
+import { InstanceLine } from "./InstanceLine";
+
+const ROW = 24;
+const NUMBERS: ReadonlySet<Column> = new Set(["scan", "interval", "cpu", "memory", "late", "run"]);
+
+interface Props {
+  rows: readonly Instance[];
+  order: Order;
+  selected: number | null;
+  onOrder: (order: Order) => void;
+  onSelect: (id: number) => void;
+  onOpen: (instance: Instance) => void;
+  onDelete: (instance: Instance) => void;
+  onMenu: (instance: Instance, at: { x: number; y: number }) => void;
+}
+
+/** The rows: only those in sight exist in the page. Arrow keys choose, Enter opens, Delete asks. */
+export function InstanceGrid({ rows, order, selected, onOrder, onSelect, onOpen, onDelete, onMenu }: Props) {
+  const scroll = useRef<HTMLDivElement>(null);
+  const virtual = useVirtualizer({
+    count: rows.length,
+    getScrollElement: () => scroll.current,
+    estimateSize: () => ROW,
+    overscan: 8,
+    scrollMargin: ROW,
+    scrollPaddingStart: ROW,
+    getItemKey: (index) => rows[index]?.id ?? index,
+  });
+  const now = rows.findIndex(({ id }) => id === selected);
+
+  // A new or just opened list begins where the chosen one is; later the list stays where one scrolled it.
+  // biome-ignore lint/correctness/useExhaustiveDependencies: only the choice moves the list, not its next refresh
+  useEffect(() => {
+    if (now >= 0) virtual.scrollToIndex(now);
+  }, [selected]);
+
+  function step(to: number): void {
+    const row = rows[Math.max(0, Math.min(rows.length - 1, to))];
+    if (row) onSelect(row.id);
+  }
+
+  function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
+    if (event.target !== event.currentTarget) return;
+    const row = rows[now];
+    const page = Math.floor((scroll.current?.clientHeight ?? 0) / ROW) - 1;
+    const target = {
+      ArrowDown: now + 1,
+      ArrowUp: now - 1,
+      PageDown: now + page,
+      PageUp: now - page,
+      Home: 0,
+      End: rows.length - 1,
+    }[event.key];
+    if (target !== undefined) step(target);
+    else if (event.key === "Enter" && row) onOpen(row);
+    else if (event.key === "Delete" && row) onDelete(row);
+    else return;
+    event.preventDefault();
+  }
+
+  return (
+    <div
+      ref={scroll}
+      className="grid scroll ins"
+      role="grid"
+      aria-label={t("instances.list")}
+      aria-rowcount={rows.length + 1}
+      aria-activedescendant={now >= 0 ? `instance-${rows[now]?.id}` : undefined}
+      tabIndex={0}
+      onKeyDown={onKeyDown}
+    >
+      <div className="gr h" role="row" aria-rowindex={1}>
+        {COLUMNS.map((column) => (
+          <Head key={column} column={column} order={order} onOrder={onOrder} />
+        ))}
+        <span role="columnheader" className="c-limits">
+          {t("instances.column.limits")}
+        </span>
+      </div>
+      <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
+        {virtual.getVirtualItems().map((item) => {
+          const row = rows[item.index];
+          return (
+            row && (
+              <InstanceLine
+                key={row.id}
+                instance={row}
+                index={item.index}
+                top={item.start - ROW}
+                selected={row.id === selected}
+                onSelect={onSelect}
+                onOpen={onOpen}
+                onMenu={onMenu}
+              />
+            )
+          );
+        })}
+      </div>
+    </div>
+  );
+}
+
+interface HeadProps {
+  column: Column;
+  order: Order;
+  onOrder: (order: Order) => void;
+}
+
+/** A column's head sorts by it; once more the other way round. Numbers begin with the largest. */
+function Head({ column, order, onOrder }: HeadProps) {
+  const here = order.by === column;
+  const down = here ? !order.down : NUMBERS.has(column);
+  return (
+    <span
+      role="columnheader"
+      className={`c-${column}${NUMBERS.has(column) ? " num" : ""}`}
+      aria-sort={here ? (order.down ? "descending" : "ascending") : "none"}
+      title={column === "late" ? t("instances.late.about") : undefined}
+    >
+      <button type="button" className={`sort${here ? " on" : ""}`} onClick={() => onOrder({ by: column, down })}>
+        {t(`instances.column.${column}`)}
+        {here && <Icon name={order.down ? "chev-d" : "chev-u"} small />}
+      </button>
+    </span>
+  );
+}

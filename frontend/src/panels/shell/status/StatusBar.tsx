@@ -1,0 +1,147 @@
+import { interval, percent } from "../../../logic/format/numbers";
+import { useDebug } from "../../../store/debug/debug";
+import { speedName, useRun } from "../../../store/debug/run";
+import { showSweep, useSweeps } from "../../../store/errors/sweeps";
+import { showPanel } from "../../../store/page/navigate";
+import { chooseLanguage, usePrefs } from "../../../store/page/prefs";
+import { useOnline, usePlc } from "../../../store/plc/plc";
+import { useTimeline } from "../../../store/plc/timeline";
+import { isDirty, useDocuments } from "../../../store/project/documents";
+import { languageNames, languages, t } from "../../../text";
+import { Icon } from "../../../ui/Icon";
+import { MenuButton } from "../../../ui/Menu";
+import { StateWord } from "../../../ui/StateWord";
+
+/** The strip along the bottom: facts that are worth a glance. */
+export function StatusBar() {
+  const online = useOnline();
+  const state = usePlc((plc) => plc.state);
+  return (
+    <footer className="status" data-pane="status" data-live>
+      {online ? (
+        <span>
+          <Icon name="check" />
+          {t("status.connected")}
+        </span>
+      ) : (
+        <StateWord tone="stale" icon="lost" word={t("status.notconnected")} />
+      )}
+      {state && (
+        <span>{t("status.task", { interval: interval(state.interval_ns), speed: speedName(state.speed) })}</span>
+      )}
+      {state && (
+        <span title={t("status.process", { pid: state.pid ?? "–" })}>
+          {t("status.program", { version: state.program_version })}
+        </span>
+      )}
+      {state && state.flavour !== "" && <span title={t("status.flavour.hint")}>{t("status.flavour", state)}</span>}
+      {state !== null && state.restarts > 0 && (
+        <span>{t(state.restarts === 1 ? "status.restarts.one" : "status.restarts", { count: state.restarts })}</span>
+      )}
+      {state !== null && state.forces > 0 && (
+        <StateWord tone="forced" icon="forced" word={t("force.count", { count: state.forces })} />
+      )}
+      <Raised />
+      <Sweeping />
+      <ArmedFaults />
+      <RunRefusal />
+      <span className="right">
+        <FileState />
+      </span>
+      <Language />
+    </footer>
+  );
+}
+
+function Raised() {
+  const errors = usePlc((plc) => plc.errors);
+  const raised = [...errors.values()].filter((row) => row.status === "generated");
+  if (raised.length === 0) return null;
+  const fatal = raised.some((row) => row.severity === "fatal");
+  return (
+    <button type="button" className="link plain" onClick={() => showPanel("errors")}>
+      <StateWord
+        tone={fatal ? "fatal" : "generated"}
+        icon={fatal ? "fatal" : "generated"}
+        word={t(raised.length === 1 ? "status.errors.one" : "status.errors", { count: raised.length })}
+      />
+    </button>
+  );
+}
+
+function ArmedFaults() {
+  const count = usePlc((plc) => plc.armed.length);
+  if (count === 0) return null;
+  return (
+    <button type="button" className="link plain" onClick={() => showPanel("errors")}>
+      <StateWord tone="recording" icon="clock" word={t(count === 1 ? "armed.count.one" : "armed.count", { count })} />
+    </button>
+  );
+}
+
+/** A sweep that runs, of whomever: one click away. */
+function Sweeping() {
+  const sweep = useSweeps((sweeps) => sweeps.list?.find(({ status }) => status === "running"));
+  if (!sweep) return null;
+  const { id, by, done, total } = sweep;
+  const share = percent(total === 0 ? 0 : Math.floor((done / total) * 100));
+  return (
+    <button
+      type="button"
+      className="link plain"
+      title={t("sweep.underway.hint", { by, done, total })}
+      onClick={() => showSweep(id)}
+    >
+      <StateWord tone="info" icon="record" word={t("sweep.underway", { share })} />
+    </button>
+  );
+}
+
+function RunRefusal() {
+  const order = useRun((run) => run.refused);
+  const journey = useTimeline((timeline) => timeline.refused);
+  const steps = useDebug((debug) => debug.refused);
+  const refused = order ?? journey ?? steps;
+  if (!refused) return null;
+  return (
+    <span className="st fatal" role="alert" title={refused}>
+      <Icon name="error" />
+      <span className="cut">{refused}</span>
+    </span>
+  );
+}
+
+function FileState() {
+  const cursor = useDocuments((documents) => documents.cursor);
+  const document = useDocuments((documents) => (documents.active ? documents.open[documents.active] : undefined));
+  if (!document) return null;
+  const saved = document.savedAt
+    ? t("status.saved", { at: new Date(document.savedAt).toLocaleTimeString("en-GB", { timeStyle: "short" }) })
+    : t("status.stored", { version: document.version });
+  return (
+    <>
+      {cursor && <span>{t("status.place", cursor)}</span>}
+      <span>ST</span>
+      <span>{isDirty(document) ? t("unsaved") : saved}</span>
+    </>
+  );
+}
+
+function Language() {
+  const language = usePrefs((prefs) => prefs.language);
+  return (
+    <MenuButton
+      label={t("language")}
+      className="link plain"
+      items={() =>
+        languages.map((known) => ({
+          label: languageNames[known],
+          checked: known === language,
+          onSelect: () => chooseLanguage(known),
+        }))
+      }
+    >
+      {languageNames[language]}
+    </MenuButton>
+  );
+}

@@ -1,0 +1,165 @@
+import { byColumn, changeColumn, countRoles, firstValues, isProposed, ROLES } from "../../../logic/verify/traceImport";
+import { complete } from "../../../store/plc/completion";
+import { editMapping, forgetMapping, loadMapping, useTraceImport } from "../../../store/verify/traceImport";
+import { t } from "../../../text";
+import { Icon } from "../../../ui/Icon";
+import { MenuButton, type MenuItem } from "../../../ui/Menu";
+import { PathField } from "../../../ui/PathField";
+import type { TraceColumnMap, TraceMapping, TraceProblem, UploadedTrace } from "../../../wire/types";
+import { placeOf } from "./Problems";
+
+interface Props {
+  trace: UploadedTrace;
+  mapping: TraceMapping;
+  onSave: () => void;
+}
+
+/** Column by column: its first values, what it is, and which variable here it means. */
+export function Mapping({ trace, mapping, onSave }: Props) {
+  const problems = useTraceImport((state) => state.checked?.problems);
+  const wrong = byColumn(problems ?? []);
+  return (
+    <section className="timap" aria-label={t("import.trace.mapping")}>
+      <div className="row">
+        <b>{t("import.trace.mapping")}</b>
+        <span className="faint grow">{t("import.trace.inputs", countRoles(mapping))}</span>
+        <MenuButton label={t("import.trace.load")} className="btn quiet sm" items={savedItems}>
+          {t("import.trace.load")}
+          <Icon name="chev-d" small />
+        </MenuButton>
+        <button type="button" className="btn quiet sm" onClick={onSave}>
+          {t("import.trace.save")}
+        </button>
+      </div>
+      <div className="titable scroll" role="table" aria-label={t("import.trace.columns")}>
+        <div className="gr h" role="row">
+          <span role="columnheader">{t("import.trace.column")}</span>
+          <span role="columnheader">{t("import.trace.values")}</span>
+          <span role="columnheader">{t("import.trace.role")}</span>
+          <span role="columnheader">{t("import.trace.variable")}</span>
+          <span role="columnheader" aria-label={t("import.trace.proposed")} />
+        </div>
+        {mapping.axis !== "" && <AxisRow trace={trace} axis={mapping.axis} wrong={wrong.get(mapping.axis)} />}
+        {mapping.columns.map((row) => (
+          <ColumnRow
+            key={row.column}
+            row={row}
+            trace={trace}
+            wrong={wrong.get(row.column)}
+            onChange={(change) => editMapping(changeColumn(mapping, row.column, change))}
+          />
+        ))}
+      </div>
+    </section>
+  );
+}
+
+function savedItems(): MenuItem[] {
+  const { saved } = useTraceImport.getState();
+  if (saved.length === 0) return [{ label: t("import.trace.load.none"), disabled: true, onSelect: () => undefined }];
+  return [
+    ...saved.map((each) => ({ label: each.name, hint: each.by, onSelect: () => loadMapping(each) })),
+    ...saved.map((each, index) => ({
+      label: t("import.trace.load.forget", { name: each.name }),
+      icon: "trash" as const,
+      separated: index === 0,
+      onSelect: () => void forgetMapping(each),
+    })),
+  ];
+}
+
+interface AxisRowProps {
+  trace: UploadedTrace;
+  axis: string;
+  wrong: readonly TraceProblem[] | undefined;
+}
+
+function AxisRow({ trace, axis, wrong }: AxisRowProps) {
+  return (
+    <div className="gr" role="row" data-column={axis}>
+      <Name column={axis} wrong={wrong} />
+      <Values trace={trace} column={axis} />
+      <span role="cell" className="faint">
+        {t("import.trace.axis")}
+      </span>
+      <span role="cell" />
+      <span role="cell" />
+    </div>
+  );
+}
+
+interface ColumnRowProps {
+  row: TraceColumnMap;
+  trace: UploadedTrace;
+  wrong: readonly TraceProblem[] | undefined;
+  onChange: (change: Partial<TraceColumnMap>) => void;
+}
+
+function ColumnRow({ row, trace, wrong, onChange }: ColumnRowProps) {
+  const { column, path, role } = row;
+  return (
+    <div className={`gr${role === "ignore" ? " unused" : ""}`} role="row" data-column={column}>
+      <Name column={column} wrong={wrong} />
+      <Values trace={trace} column={column} />
+      <span role="cell">
+        <select
+          className="inp sm"
+          aria-label={t("import.trace.role.of", { column })}
+          value={role}
+          onChange={(event) => onChange({ role: event.target.value as TraceColumnMap["role"] })}
+        >
+          {ROLES.map((each) => (
+            <option key={each} value={each}>
+              {t(`import.trace.role.${each}`)}
+            </option>
+          ))}
+        </select>
+      </span>
+      <span role="cell" className="row">
+        <PathField
+          label={t("import.trace.variable.of", { column })}
+          value={path}
+          complete={complete}
+          bad={role !== "ignore" && (wrong?.some(isOfColumn) ?? false)}
+          onChange={(next) => onChange({ path: next })}
+        />
+      </span>
+      <span role="cell">
+        {isProposed(row, trace.mapping) && (
+          <span className="chip" title={t("import.trace.proposed.about")}>
+            {t("import.trace.proposed")}
+          </span>
+        )}
+      </span>
+    </div>
+  );
+}
+
+/** About the column as such, not about a cell of it: it is told at the head of the file. */
+const isOfColumn = ({ row, warning }: TraceProblem) => !warning && (row === null || row <= 1);
+
+/** The column as the file names it; marked when something is wrong with it. */
+function Name({ column, wrong }: { column: string; wrong: readonly TraceProblem[] | undefined }) {
+  const refusing = wrong?.some(({ warning }) => !warning) ?? false;
+  const why = wrong?.map((problem) => [placeOf(problem), problem.message].filter(Boolean).join(": ")).join("\n");
+  return (
+    <span role="rowheader" className="mono" title={[column, why].filter(Boolean).join("\n")}>
+      {wrong && (
+        <span className={`st ${refusing ? "fatal" : "warning"}`}>
+          <Icon name={refusing ? "error" : "warning"} small />
+          <span className="sr">{wrong[0]?.message}</span>
+        </span>
+      )}
+      <span className="cut">{column}</span>
+    </span>
+  );
+}
+
+function Values({ trace, column }: { trace: UploadedTrace; column: string }) {
+  const text = firstValues(trace.sample, trace.columns.indexOf(column));
+  return (
+    <span role="cell" className="mono muted cut" title={text}>
+      {text}
+    </span>
+  );
+}

@@ -1,0 +1,152 @@
+import { useState } from "react";
+import { grouped } from "../../../logic/format/numbers";
+import { useBench } from "../../../store/plc/bench";
+import { beginTrace, closeTraceImport, saveMapping, useTraceImport } from "../../../store/verify/traceImport";
+import { t } from "../../../text";
+import { AskName } from "../../../ui/AskName";
+import { Dialog } from "../../../ui/Dialog";
+import { Icon } from "../../../ui/Icon";
+import { Axis } from "./Axis";
+import { ChooseFile } from "./ChooseFile";
+import { Mapping } from "./Mapping";
+import { Problems } from "./Problems";
+import "./traceimport.css";
+
+const WIDTH = 940;
+
+/** Brings in the recording of a real controller, and verifies it. Closed without starting it stays as it is. */
+export function TraceImport() {
+  const open = useTraceImport((state) => state.open);
+  return open ? <ImportDialog /> : null;
+}
+
+function ImportDialog() {
+  const { trace, mapping, refused, checked, busy, trouble } = useTraceImport();
+  const instance = useBench((bench) => bench.instance);
+  const [naming, setNaming] = useState(false);
+  // How the file was read, and what is said of the mapping.
+  const told = [...(trace?.problems ?? []), ...(checked?.problems ?? [])];
+  return (
+    <>
+      <Dialog
+        title={t("import.trace.title")}
+        about={t("import.trace.about")}
+        width={WIDTH}
+        onClose={closeTraceImport}
+        footer={
+          <>
+            <Verdict />
+            <button type="button" className="btn quiet" onClick={closeTraceImport}>
+              {t("cancel")}
+            </button>
+            {/* Not by Enter in a field: one types on in the next line. */}
+            <button
+              type="button"
+              className="btn primary"
+              disabled={instance === null || trouble !== null || !checked?.ok || busy}
+              onClick={() => void beginTrace()}
+            >
+              {t("import.trace.start")}
+            </button>
+          </>
+        }
+      >
+        <div className="traceimport">
+          {instance === null && (
+            <p className="hint bad" role="alert">
+              <Icon name="error" small />
+              {t("import.trace.noinstance")}
+            </p>
+          )}
+          <ChooseFile />
+          {refused && <Refused />}
+          {trace && mapping && (
+            <>
+              <Axis trace={trace} mapping={mapping} />
+              <Mapping trace={trace} mapping={mapping} onSave={() => setNaming(true)} />
+              {told.length > 0 && <Problems problems={told} />}
+            </>
+          )}
+        </div>
+      </Dialog>
+      {naming && <SaveMapping onClose={() => setNaming(false)} />}
+    </>
+  );
+}
+
+function SaveMapping({ onClose }: { onClose: () => void }) {
+  return (
+    <AskName
+      title={t("import.trace.save")}
+      label={t("import.trace.save.name")}
+      action={t("import.trace.save.do")}
+      onName={saveMapping}
+      onClose={onClose}
+    />
+  );
+}
+
+/** A file that was not read: nothing of it is here. */
+function Refused() {
+  const refused = useTraceImport((state) => state.refused);
+  if (!refused) return null;
+  return (
+    <div className="tirefused" role="alert">
+      <p className="st fatal">
+        <Icon name="error" small />
+        <span>
+          <b>{t("import.trace.refused", { name: refused.name })}</b> {refused.message}
+        </span>
+      </p>
+      {refused.problems.length > 0 && <Problems problems={refused.problems} />}
+    </div>
+  );
+}
+
+/** Whether it can be verified as it stands. */
+function Verdict() {
+  const { trace, checked, trouble, told, busy } = useTraceImport();
+  if (busy) {
+    return (
+      <span className="tiverdict grow" role="status">
+        {t("import.trace.starting")}
+      </span>
+    );
+  }
+  if (trouble !== null) {
+    return (
+      <span className="hint bad grow" role="alert">
+        <Icon name="error" small />
+        {trouble}
+      </span>
+    );
+  }
+  const wrong = checked?.problems.filter(({ warning }) => !warning).length ?? 0;
+  return (
+    <span className="tiverdict grow" role="status">
+      {trace && !checked && <span className="faint">{t("import.trace.check.busy")}</span>}
+      {checked && !checked.ok && (
+        <span className="st fatal">
+          <Icon name="error" small />
+          {t(wrong === 1 ? "import.trace.check.bad.one" : "import.trace.check.bad", {
+            count: wrong,
+          })}
+        </span>
+      )}
+      {checked?.ok && (
+        <span className="st running">
+          <Icon name="check" small />
+          {t("import.trace.check.ok", { first: grouped(checked.first ?? 0), last: grouped(checked.last ?? 0) })}
+        </span>
+      )}
+      {checked && checked.missing > 0 && (
+        <span className="muted">
+          {t(checked.missing === 1 ? "import.trace.check.missing.one" : "import.trace.check.missing", {
+            count: grouped(checked.missing),
+          })}
+        </span>
+      )}
+      {told && <span className="muted">{told}</span>}
+    </span>
+  );
+}

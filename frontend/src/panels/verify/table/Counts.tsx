@@ -1,0 +1,224 @@
+import { useState } from "react";
+import { grouped, percent } from "../../../logic/format/numbers";
+import { stretchLines } from "../../../logic/verify/verify";
+import { unitsOf } from "../../../logic/verify/verifyColumns";
+import { usePlc } from "../../../store/plc/plc";
+import {
+  exportVerification,
+  keepVerification,
+  type ShownVerification,
+  verifyStretch,
+} from "../../../store/verify/verify";
+import { openVerifyRecords } from "../../../store/verify/verifyRecords";
+import { goToDifference, showOnlyDiffering, useVerifyRows } from "../../../store/verify/verifyRows";
+import { t } from "../../../text";
+import { AskName } from "../../../ui/AskName";
+import { Icon, type IconName } from "../../../ui/Icon";
+import { MenuButton, type MenuItem } from "../../../ui/Menu";
+import { StateWord } from "../../../ui/StateWord";
+import type { VerificationInfo } from "../../../wire/types";
+import { ColumnsDialog } from "./ColumnsDialog";
+import { spanOf } from "./Head";
+
+const STATES: Record<VerificationInfo["state"], [tone: string, icon: IconName]> = {
+  starting: ["info", "wait"],
+  verifying: ["running", "running"],
+  waiting: ["halted", "wait"],
+  stopped: ["stopped", "stopped"],
+  done: ["running", "check"],
+  failed: ["fatal", "error"],
+};
+
+/** How far it is, what came out, and the way from difference to difference. */
+export function Counts({ shown }: { shown: ShownVerification }) {
+  const { info } = shown;
+  const [asked, ask] = useState<"keep" | "columns" | null>(null);
+  const [kept, sayKept] = useState<string | null>(null);
+  const onlyDiffering = useVerifyRows((rows) => rows.onlyDiffering);
+  const none = useVerifyRows((rows) => rows.differing.length === 0);
+  return (
+    <div className="sub tall vfcounts">
+      <Stat value={info.compared} word={t("verify.compared")} id="compared" />
+      <Skipped info={info} />
+      <Stat value={info.differing} word={t("verify.differ")} id="differ" bad={info.differing > 0} />
+      <State info={info} />
+      <RecordUse info={info} />
+      {kept !== null && (
+        <button type="button" className="btn quiet sm vfkept" onClick={openVerifyRecords}>
+          <Icon name="check" small />
+          <span className="cut" role="status">
+            {t("verify.kept", { name: kept })}
+          </span>
+        </button>
+      )}
+      <span className="grow" />
+      <button
+        type="button"
+        className={`btn quiet sm${onlyDiffering ? " on" : ""}`}
+        aria-pressed={onlyDiffering}
+        aria-label={t("verify.only")}
+        title={t("verify.only.about")}
+        onClick={() => showOnlyDiffering(!onlyDiffering)}
+      >
+        <Icon name="filter" small />
+        <span className="long">{t("verify.only")}</span>
+      </button>
+      <button type="button" className="btn quiet sm" title={t("verify.columns")} onClick={() => ask("columns")}>
+        <Icon name="list" small />
+        <span className="long">{t("verify.columns")}</span>
+      </button>
+      <Export shown={shown} onKeep={() => ask("keep")} />
+      <span className="vr" />
+      <Jumps none={none} />
+      {asked === "columns" && <ColumnsOf shown={shown} onClose={() => ask(null)} />}
+      {asked === "keep" && (
+        <AskName
+          title={t("verify.keep.title")}
+          about={t("verify.keep.about")}
+          label={t("verify.keep.label")}
+          action={t("verify.keep.do")}
+          initial={info.title}
+          onName={async (name) => {
+            await keepVerification(name);
+            sayKept(name);
+          }}
+          onClose={() => ask(null)}
+        />
+      )}
+    </div>
+  );
+}
+
+function ColumnsOf({ shown, onClose }: { shown: ShownVerification; onClose: () => void }) {
+  const columns = useVerifyRows((rows) => rows.columns);
+  return <ColumnsDialog range={shown.info.title} units={unitsOf(columns)} onClose={onClose} />;
+}
+
+interface StatProps {
+  value: number;
+  word: string;
+  id: string;
+  bad?: boolean;
+}
+
+function Stat({ value, word, id, bad = false }: StatProps) {
+  return (
+    <span className={`stat${bad ? " st-bad" : ""}`} data-testid={`verify:${id}`}>
+      <b>
+        {bad && <Icon name="differs" small />}
+        {grouped(value)}
+      </b>
+      <span>{word}</span>
+    </span>
+  );
+}
+
+/** Of which scans nothing was compared; what was left out of a run can be verified afterwards. */
+function Skipped({ info }: { info: VerificationInfo }) {
+  if (info.skipped === 0) return <Stat value={0} word={t("verify.skipped")} id="skipped" />;
+  const items = (): MenuItem[] =>
+    stretchLines(info.stretches).map((label, at) => {
+      const [first, last] = info.stretches[at] ?? [0, 0];
+      if (info.source === "trace") return { label, disabled: true, onSelect: () => {} }; // nothing is there to be verified
+      return { label, hint: t("verify.skipped.verify"), onSelect: () => verifyStretch(first, last) };
+    });
+  return (
+    <MenuButton label={t("verify.skipped.which")} className="btn quiet vfskip" items={items}>
+      <Stat value={info.skipped} word={t("verify.skipped")} id="skipped" />
+      <Icon name="chev-d" small />
+    </MenuButton>
+  );
+}
+
+function State({ info }: { info: VerificationInfo }) {
+  const runs = usePlc(({ state }) => state?.state === "running");
+  // One that keeps up with a running PLC waits for each next scan: that is how it goes on.
+  const keepsUp = info.state === "waiting" && info.source === "live" && info.pace === "free" && runs;
+  const state = keepsUp ? "verifying" : info.state;
+  const [tone, icon] = STATES[state];
+  const about = info.scan === null ? spanOf(info) : t("verify.upto", { scan: grouped(info.scan) });
+  return (
+    <span className="vfstate" role="status" data-state={info.state}>
+      <StateWord tone={tone} icon={icon} word={t(`verify.state.${state}`)} title={info.message} />
+      <span className="cut faint" title={about}>
+        {about}
+      </span>
+    </span>
+  );
+}
+
+/** How full the used-variable record got. */
+function RecordUse({ info: { used, limit } }: { info: VerificationInfo }) {
+  const share = Math.min(100, (100 * used) / limit);
+  const text = t("verify.record.use", { share: percent(share), limit: grouped(limit) });
+  return (
+    <span className="vfuse" title={t("verify.record.use.about", { used: grouped(used), limit: grouped(limit) })}>
+      <span className={`progress${share >= 100 ? " interrupted" : ""}`}>
+        <i style={{ width: `${share}%` }} />
+      </span>
+      <span className={`hint${used > limit ? " st halted" : ""}`}>{used > limit ? t("verify.record.full") : text}</span>
+    </span>
+  );
+}
+
+function Export({ shown, onKeep }: { shown: ShownVerification; onKeep: () => void }) {
+  return (
+    <MenuButton
+      label={t("verify.export")}
+      items={() => [
+        ...(["csv", "json", "html"] as const).map((format) => ({
+          label: t(`verify.export.${format}`),
+          icon: "export" as const,
+          onSelect: () => void exportVerification(format),
+        })),
+        ...(shown.record
+          ? []
+          : [{ label: t("verify.keep"), icon: "record" as const, separated: true, onSelect: onKeep }]),
+      ]}
+    >
+      <Icon name="export" small />
+      <span className="long">{t("verify.export")}</span>
+    </MenuButton>
+  );
+}
+
+function Jumps({ none }: { none: boolean }) {
+  const why = none ? t("verify.differences.none") : undefined;
+  return (
+    <>
+      <button
+        type="button"
+        className="btn sm"
+        disabled={none}
+        title={why ?? t("verify.first")}
+        aria-label={t("verify.first")}
+        onClick={() => goToDifference("first")}
+      >
+        <Icon name="differs" small />
+        <span className="long">{t("verify.first")}</span>
+      </button>
+      <button
+        type="button"
+        className="btn sm"
+        disabled={none}
+        title={why ?? t("verify.previous")}
+        aria-label={t("verify.previous")}
+        onClick={() => goToDifference("previous")}
+      >
+        <Icon name="chev-u" small />
+        <span className="long">{t("verify.previous.short")}</span>
+      </button>
+      <button
+        type="button"
+        className="btn sm"
+        disabled={none}
+        title={why ?? t("verify.next")}
+        aria-label={t("verify.next")}
+        onClick={() => goToDifference("next")}
+      >
+        <Icon name="chev-d" small />
+        <span className="long">{t("verify.next.short")}</span>
+      </button>
+    </>
+  );
+}

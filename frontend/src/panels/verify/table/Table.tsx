@@ -1,0 +1,329 @@
+import { defaultRangeExtractor, type Range, useVirtualizer } from "@tanstack/react-virtual";
+import {
+  type CSSProperties,
+  type KeyboardEvent,
+  useCallback,
+  useEffect,
+  useLayoutEffect,
+  useMemo,
+  useRef,
+  useState,
+} from "react";
+import { firstDifferingUnit, isGoing } from "../../../logic/verify/verify";
+import {
+  arranged,
+  heldAcross,
+  type Track,
+  tracksInSight,
+  tracksOf,
+  unitsOf,
+  wholeWidth,
+} from "../../../logic/verify/verifyColumns";
+import type { ShownVerification } from "../../../store/verify/verify";
+import { useArrangement } from "../../../store/verify/verifyColumns";
+import {
+  editBegun,
+  indexAt,
+  lineCount,
+  lineOfRow,
+  seeLines,
+  selectRow,
+  soughtFound,
+  useVerifyRows,
+} from "../../../store/verify/verifyRows";
+import { t } from "../../../text";
+import { Menu, type MenuItem } from "../../../ui/Menu";
+import { useKeptScroll } from "../../../ui/useKeptScroll";
+import { columnMenu } from "./columnMenu";
+import { useEditing } from "./editing";
+import { Heads } from "./Heads";
+import { RowLine } from "./RowLine";
+
+export const ROW = 24;
+/** Two lines of heads. */
+const HEAD = 46;
+
+/** A beside A', scan by scan. The grid holds the focus; the cell with the keys is its active descendant. */
+export function Table({ shown }: { shown: ShownVerification }) {
+  const { info } = shown;
+  const grid = useRef<HTMLDivElement>(null);
+  useKeptScroll(grid);
+  const rows = useVerifyRows();
+  const arrangement = useArrangement(info.title);
+  const units = useMemo(() => unitsOf(rows.columns), [rows.columns]);
+  const steps = useMemo(() => [...rows.byIndex.values()].some(({ kind }) => kind === "step"), [rows.byIndex]);
+  const tracks = useMemo(
+    () => tracksOf(arranged(units, arrangement), arrangement.pinned, { instances: info.instances.length > 1, steps }),
+    [units, arrangement, info.instances.length, steps],
+  );
+  const [menu, setMenu] = useState<{ items: MenuItem[]; at: { x: number; y: number } } | null>(null);
+  const across = useAcross(grid);
+  useHeldAcross(grid, tracks, across.onScroll);
+  const drawn = useMemo(() => tracksInSight(tracks, across.left, across.width), [tracks, across]);
+  const count = lineCount(rows);
+  const follow = useFollowing(grid, isGoing(info) && info.source === "live" && info.pace === "free", rows.selected);
+  const virtual = useVirtualizer({
+    count,
+    getScrollElement: () => grid.current,
+    estimateSize: () => ROW,
+    overscan: 10,
+    scrollMargin: HEAD,
+    scrollPaddingStart: HEAD,
+    getItemKey: (line) => indexAt(rows, line),
+    rangeExtractor: (range) => defaultRangeExtractor(follow.isOn() ? endOf(range) : range),
+  });
+  const items = virtual.getVirtualItems();
+  const from = items[0]?.index ?? 0;
+  const to = (items.at(-1)?.index ?? -1) + 1;
+  useEffect(() => seeLines(from, Math.max(to, from + 40)), [from, to]);
+  useHeldPlace(grid, rows.first, rows.onlyDiffering || follow.isOn());
+  // biome-ignore lint/correctness/useExhaustiveDependencies: more rows are the reason
+  useLayoutEffect(() => {
+    if (follow.isOn() && grid.current) grid.current.scrollTop = grid.current.scrollHeight;
+  }, [rows.count, count, rows.selected]);
+  const at = rows.selected === null ? -1 : lineOfRow(rows, rows.selected);
+  useReveal(at, (line) => virtual.scrollToIndex(line, { align: "auto" }));
+  const editing = useEditing(shown, grid);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: a jump leads to the cell that differs, once
+  useEffect(() => {
+    const row = rows.sought === null ? undefined : rows.byIndex.get(rows.sought);
+    if (!row) return;
+    soughtFound();
+    const unit = firstDifferingUnit(row, units, info.memory);
+    const track = tracks.find((each) => each.unit === unit);
+    if (!unit || !track) return;
+    selectRow(row.index, track.key);
+    reveal(grid.current, tracks, track);
+  }, [rows.sought, rows.byIndex, tracks]);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: the wish is the reason, once
+  useEffect(() => {
+    const track = tracks.find(({ key }) => key === rows.wanted?.track);
+    const row = rows.wanted && rows.byIndex.get(rows.wanted.index);
+    if (!track || !row) return;
+    editBegun();
+    reveal(grid.current, tracks, track);
+    editing.begin(row, track);
+  }, [rows.wanted, tracks]);
+
+  function goTo(line: number, track = rows.track): void {
+    const target = Math.max(0, Math.min(count - 1, line));
+    if (count === 0) return;
+    selectRow(indexAt(rows, target), track);
+    virtual.scrollToIndex(target, { align: "auto" });
+  }
+
+  function goAcross(by: number): void {
+    const cells = tracks.slice(1);
+    const now = cells.findIndex(({ key }) => key === rows.track);
+    const next = cells[Math.max(0, Math.min(cells.length - 1, now + by))];
+    if (!next) return;
+    selectRow(rows.selected ?? indexAt(rows, from), next.key);
+    reveal(grid.current, tracks, next);
+  }
+
+  function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
+    if ((event.target as HTMLElement).matches("input, button")) return;
+    const page = Math.max(1, Math.floor(((grid.current?.clientHeight ?? 0) - HEAD) / ROW) - 1);
+    const down = { ArrowDown: 1, ArrowUp: -1, PageDown: page, PageUp: -page }[event.key];
+    const track = tracks.find(({ key }) => key === rows.track) ?? null;
+    const row = rows.selected === null ? undefined : rows.byIndex.get(rows.selected);
+    if (event.altKey && track?.unit && (event.key === "ArrowLeft" || event.key === "ArrowRight"))
+      columnMenu(info.title, units, track.unit)[event.key === "ArrowLeft" ? 0 : 1]?.onSelect();
+    else if (down !== undefined) goTo(at < 0 ? from : at + down);
+    else if (event.key === "ArrowLeft") goAcross(-1);
+    else if (event.key === "ArrowRight") goAcross(1);
+    else if (event.key === "Home") event.ctrlKey ? goTo(0) : goAcross(-tracks.length);
+    else if (event.key === "End") event.ctrlKey ? goTo(count - 1) : goAcross(tracks.length);
+    else if ((event.key === "Enter" || event.key === "F2") && row && track) editing.begin(row, track);
+    else if (event.key === "ContextMenu" && track) openMenu(track, event.currentTarget);
+    else return;
+    event.preventDefault();
+  }
+
+  function openMenu(track: Track, element: Element): void {
+    const { left, bottom } = (element.querySelector(".vfcell.at") ?? element).getBoundingClientRect();
+    if (track.unit) setMenu({ items: columnMenu(info.title, units, track.unit), at: { x: left, y: bottom } });
+  }
+
+  // The row has the keys until a cell has, and while that cell is out of sight.
+  const active = drawn.some(({ key }) => key === rows.track)
+    ? `vf-${rows.selected}-${rows.track}`
+    : `vf-${rows.selected}`;
+  const width = wholeWidth(tracks);
+  const style = { "--cols": tracks.map((each) => `${each.width}px`).join(" "), "--whole": `${width}px` };
+  return (
+    <div
+      ref={grid}
+      className="grid scroll both ver"
+      role="grid"
+      aria-label={t("verify.table")}
+      aria-rowcount={count + 2}
+      aria-colcount={tracks.length}
+      aria-activedescendant={at >= from && at < to && at >= 0 ? active : undefined}
+      style={style as CSSProperties}
+      tabIndex={0}
+      onKeyDown={onKeyDown}
+      onScroll={across.onScroll}
+    >
+      <Heads
+        range={info.title}
+        memory={info.memory}
+        units={units}
+        tracks={tracks}
+        drawn={drawn}
+        onMenu={(unit, at) => setMenu({ items: columnMenu(info.title, units, unit), at })}
+      />
+      <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
+        {items.map(({ index: line, key, start }) => {
+          const index = indexAt(rows, line);
+          return (
+            <RowLine
+              key={key}
+              row={rows.byIndex.get(index) ?? null}
+              index={index}
+              line={line}
+              top={start - HEAD}
+              drawn={drawn}
+              tracks={tracks}
+              memory={info.memory}
+              source={info.source}
+              formats={arrangement.formats}
+              selected={index === rows.selected}
+              track={index === rows.selected ? rows.track : null}
+              editing={editing.at?.index === index ? editing : null}
+              onEdit={editing.begin}
+            />
+          );
+        })}
+      </div>
+      {count === 0 && <NoRows shown={shown} only={rows.onlyDiffering} />}
+      {menu && <Menu label={t("verify.column")} items={menu.items} at={menu.at} onClose={() => setMenu(null)} />}
+    </div>
+  );
+}
+
+function NoRows({ shown: { info }, only }: { shown: ShownVerification; only: boolean }) {
+  const text =
+    info.state === "failed"
+      ? info.message
+      : only && info.rows > 0
+        ? info.compared > 0
+          ? t("verify.nodifference", { count: info.compared })
+          : t("verify.hint.none")
+        : t(isGoing(info) ? "verify.norows.yet" : "verify.norows");
+  return (
+    <p className="lonely faint vfnone" role="status">
+      {text}
+    </p>
+  );
+}
+
+/** How far it is scrolled to the side, and how wide the window on it is. */
+function useAcross(grid: { current: HTMLDivElement | null }) {
+  const [sight, setSight] = useState({ left: 0, width: 1600 });
+  const note = useCallback(() => {
+    const element = grid.current;
+    if (!element) return;
+    // In steps: most scrolling draws no other columns.
+    const left = Math.floor(element.scrollLeft / 120) * 120;
+    const width = element.clientWidth;
+    setSight((before) => (before.left === left && before.width === width ? before : { left, width }));
+  }, [grid]);
+  useEffect(() => {
+    const element = grid.current;
+    if (!element) return;
+    const sized = new ResizeObserver(note);
+    sized.observe(element);
+    return () => sized.disconnect();
+  }, [grid, note]);
+  return useMemo(() => ({ ...sight, onScroll: note }), [sight, note]);
+}
+
+/** A variable that is used for the first time has its column among the others: what one looks at stays where it is. */
+function useHeldAcross(grid: { current: HTMLDivElement | null }, tracks: readonly Track[], note: () => void): void {
+  const before = useRef(tracks);
+  useLayoutEffect(() => {
+    const old = before.current;
+    before.current = tracks;
+    const element = grid.current;
+    if (!element || old.length === tracks.length) return;
+    const left = heldAcross(old, tracks, element.scrollLeft);
+    if (left === element.scrollLeft) return;
+    element.scrollLeft = left;
+    note();
+  }, [tracks, grid, note]);
+}
+
+/** Rows that are forgotten go at the front: what one reads stays where it is. */
+function useHeldPlace(grid: { current: HTMLDivElement | null }, first: number, moves: boolean): void {
+  const before = useRef(first);
+  useLayoutEffect(() => {
+    const gone = first - before.current;
+    before.current = first;
+    if (gone > 0 && !moves && grid.current) grid.current.scrollTop -= gone * ROW;
+  }, [first, moves, grid]);
+}
+
+/** As many lines at the end: they are drawn at once, not when the browser has told that it scrolled there. */
+const endOf = (range: Range): Range => ({
+  ...range,
+  startIndex: Math.max(0, range.count - 1 - (range.endIndex - range.startIndex)),
+  endIndex: range.count - 1,
+});
+
+/** At the end of one that runs freely the newest rows come into sight by themselves, until somebody looks at another one. */
+function useFollowing(
+  grid: { current: HTMLDivElement | null },
+  live: boolean,
+  selected: number | null,
+): { isOn: () => boolean } {
+  const follows = useRef(live);
+  const isOn = () => live && follows.current && selected === null;
+  const on = useRef(isOn);
+  on.current = isOn;
+  useEffect(() => {
+    const element = grid.current;
+    if (!element) return;
+    let height = element.clientHeight;
+    // Shown again or given another size: it is still the end that one looks at.
+    const sized = new ResizeObserver(() => {
+      height = element.clientHeight;
+      if (on.current()) element.scrollTop = element.scrollHeight;
+    });
+    sized.observe(element);
+    const note = () => {
+      if (element.clientHeight > 0 && element.clientHeight === height)
+        follows.current = element.scrollTop + element.clientHeight >= element.scrollHeight - ROW;
+    };
+    const stop = (event: WheelEvent) => {
+      if (event.deltaY < 0) follows.current = false;
+    };
+    element.addEventListener("scroll", note, { passive: true });
+    element.addEventListener("wheel", stop, { passive: true });
+    return () => {
+      sized.disconnect();
+      element.removeEventListener("scroll", note);
+      element.removeEventListener("wheel", stop);
+    };
+  }, [grid]);
+  return { isOn };
+}
+
+/** Where a jump leads comes into sight; what goes on meanwhile moves nothing. */
+function useReveal(line: number, reveal: (line: number) => void): void {
+  const selected = useVerifyRows((rows) => rows.selected);
+  const last = useRef<number | null>(null);
+  useEffect(() => {
+    if (line < 0 || last.current === selected) return;
+    last.current = selected;
+    reveal(line);
+  }, [line, selected, reveal]);
+}
+
+function reveal(grid: HTMLElement | null, tracks: readonly Track[], track: Track): void {
+  if (!grid || track.sticky) return;
+  const covered = tracks.filter(({ sticky }) => sticky).reduce((sum, { width }) => sum + width, 0);
+  if (track.left < grid.scrollLeft + covered) grid.scrollLeft = track.left - covered;
+  else if (track.left + track.width > grid.scrollLeft + grid.clientWidth)
+    grid.scrollLeft = track.left + track.width - grid.clientWidth;
+}

@@ -1,0 +1,12 @@
+import type { CSSProperties } from "react";
+import type { Track } from "../../../logic/verify/verifyColumns";
+
+/** Where a cell stands in its row: cells out of sight are not drawn, so each says its column. */
+export function placeOf(track: Track, tracks: readonly Track[], span = 1): CSSProperties {
+  const at = tracks.indexOf(track) + 1;
+  return {
+    gridColumn: span === 1 ? at : `${at} / span ${span}`,
+    gridRow: 1,
+    ...(track.sticky ? { left: track.left } : {}),
+  };
+}

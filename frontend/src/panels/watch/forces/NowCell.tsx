@@ -1,0 +1,19 @@
+import { useEffect, useRef } from "react";
+import { bindCell } from "../../../store/plc/values";
+
+/** What stands there at the end of each scan: frames write it directly. */
+export function NowCell({ path }: { path: string }) {
+  const cell = useRef<HTMLSpanElement>(null);
+  useEffect(
+    () =>
+      bindCell(path, "default", ({ text }) => {
+        if (cell.current) cell.current.textContent = text;
+      }),
+    [path],
+  );
+  return (
+    <span className="num" role="gridcell">
+      <span ref={cell} data-testid={`now:${path}`} />
+    </span>
+  );
+}

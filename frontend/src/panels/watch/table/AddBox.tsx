@@ -1,0 +1,43 @@
+import { noPathIn, pathsIn } from "../../../logic/format/paths";
+import { useBench } from "../../../store/plc/bench";
+import { complete } from "../../../store/plc/completion";
+import { addToWatch } from "../../../store/watch/watchlist";
+import { t } from "../../../text";
+import { PathBox } from "../../../ui/PathBox";
+
+/** Typing a path, an address or a range of them, with what the running program has to offer. Enter adds it. */
+export function AddBox() {
+  // A model without areas is watched by variables only.
+  const example = useBench(({ model }) => {
+    const first = model?.areas[0]?.first;
+    return [first, model?.code_word, first && `${first}:8`].filter(Boolean).join(", ");
+  });
+
+  function add(paths: readonly string[]): { text: string } {
+    if (paths.length > 0) addToWatch(paths);
+    return { text: "" };
+  }
+
+  function type(text: string): { text: string; odd?: string } {
+    const odd = noPathIn(text);
+    return odd === null ? add(pathsIn(text)) : { text, odd: t("watch.add.nopath", { text: odd }) };
+  }
+
+  // One line is edited as usual; many lines are many entries.
+  function paste(text: string): boolean {
+    const many = /\S[\r\n]+\s*\S/.test(text);
+    if (many) add(pathsIn(text));
+    return many;
+  }
+
+  return (
+    <PathBox
+      label={t("watch.add")}
+      placeholder={example ? t("watch.add.placeholder.address", { example }) : t("watch.add.placeholder")}
+      complete={complete}
+      onType={type}
+      onTake={({ path }) => add([path])}
+      onPaste={paste}
+    />
+  );
+}

@@ -1,0 +1,52 @@
+import type { Sort, SortColumn } from "../../../logic/watch/watchsort";
+import { setColumn, WATCH_COLUMNS, type WatchColumn } from "../../../store/watch/columns";
+import { sortBy, useWatchList } from "../../../store/watch/watchlist";
+import { t } from "../../../text";
+import { Grip } from "../../../ui/Grip";
+import { Icon } from "../../../ui/Icon";
+
+const LOOK: Record<WatchColumn, string> = { current: "num", change: "num", type: "c-type", address: "", bound: "" };
+
+/** The names of the columns: a click sorts by one, another one backwards, the third as listed. */
+export function GridHead() {
+  const sort = useWatchList((list) => list.sort);
+  return (
+    <div className="gr h" role="row" aria-rowindex={1}>
+      <span className="gut" role="columnheader" aria-label={t("force.column")} />
+      <span role="columnheader" className="first" aria-sort={direction(sort, "target")}>
+        <SortButton column="target" sort={sort} />
+      </span>
+      {WATCH_COLUMNS.map((column) => (
+        <span key={column} role="columnheader" className={LOOK[column]} aria-sort={direction(sort, column)}>
+          <SortButton column={column} sort={sort} />
+          <Grip
+            label={t("watch.width", { column: t(`watch.${column}`) })}
+            onWidth={(width) => setColumn(column, width)}
+          />
+        </span>
+      ))}
+      <span role="columnheader" aria-label={t("watch.remove")} />
+    </div>
+  );
+}
+
+function direction(sort: Sort, column: SortColumn): "ascending" | "descending" | undefined {
+  if (sort?.column !== column) return undefined;
+  return sort.down ? "descending" : "ascending";
+}
+
+function SortButton({ column, sort }: { column: SortColumn; sort: Sort }) {
+  const mine = sort?.column === column;
+  return (
+    <button
+      type="button"
+      className="sorts"
+      tabIndex={-1}
+      title={t(mine ? (sort.down ? "watch.sort.listed" : "watch.sort.down") : "watch.sort.up")}
+      onClick={() => sortBy(column)}
+    >
+      {t(`watch.${column}`)}
+      {mine && <Icon name={sort.down ? "chev-d" : "chev-u"} small />}
+    </button>
+  );
+}

@@ -1,0 +1,220 @@
+import { useVirtualizer } from "@tanstack/react-virtual";
+import {
+  type ClipboardEvent,
+  type CSSProperties,
+  type KeyboardEvent,
+  type Ref,
+  useEffect,
+  useRef,
+  useState,
+} from "react";
+import { pathsIn } from "../../../logic/format/paths";
+import { fromCsv } from "../../../logic/watch/watchcsv";
+import { pathsToWatch, type WatchRow } from "../../../logic/watch/watchrows";
+import { useColumns } from "../../../store/watch/columns";
+import { addAll, addToWatch, select, useWatchList, watchInSight, watchNothing } from "../../../store/watch/watchlist";
+import { t } from "../../../text";
+import { Menu, type MenuItem } from "../../../ui/Menu";
+import { useKeptScroll } from "../../../ui/useKeptScroll";
+import { BindingLine } from "./BindingLine";
+import { GridHead } from "./GridHead";
+import { GroupLine } from "./GroupLine";
+import { gridKey } from "./gridKeys";
+import { MoreLine } from "./MoreLine";
+import { NoteLine } from "./NoteLine";
+import { groupMenu, rowMenu } from "./rowMenu";
+import { useRowDrop } from "./useRowDrop";
+import { ValueLine } from "./ValueLine";
+
+const ROW = 24;
+
+interface Props {
+  rows: readonly WatchRow[];
+  onNewGroup: (path: string) => void;
+  onRenameGroup: (name: string) => void;
+}
+
+/** The rows: only those in sight exist in the page, and are watched. The grid holds the focus, the selected row is its active descendant. */
+export function WatchGrid({ rows, onNewGroup, onRenameGroup }: Props) {
+  const scroll = useRef<HTMLDivElement>(null);
+  useKeptScroll(scroll);
+  const [menu, setMenu] = useState<{ items: MenuItem[]; at: { x: number; y: number } } | null>(null);
+  const selected = useWatchList((list) => list.selected);
+  const columns = useColumnStyle();
+  const drop = useRowDrop(rows);
+  const virtual = useVirtualizer({
+    count: rows.length,
+    getScrollElement: () => scroll.current,
+    estimateSize: () => ROW,
+    overscan: 8,
+    // The head sticks to the top of the same scroller.
+    scrollMargin: ROW,
+    scrollPaddingStart: ROW,
+    getItemKey: (index) => rows[index]?.key ?? index,
+  });
+  const now = rows.findIndex((row) => selectsAs(row) === selected && selected !== null);
+  const items = virtual.getVirtualItems();
+  useInSight(rows, items[0]?.index ?? 0, (items.at(-1)?.index ?? -1) + 1);
+  useReveal(now, (index) => virtual.scrollToIndex(index));
+  useRevealNote(rows, (index) => virtual.scrollToIndex(index));
+
+  function go(to: number, by: 1 | -1): void {
+    for (let i = Math.max(0, Math.min(rows.length - 1, to)); i >= 0 && i < rows.length; i += by) {
+      const name = rows[i] && selectsAs(rows[i] as WatchRow);
+      if (!name) continue;
+      select(name);
+      virtual.scrollToIndex(i);
+      return;
+    }
+  }
+
+  function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
+    if ((event.target as HTMLElement).matches("input, .grip")) return;
+    const page = Math.max(1, Math.floor((scroll.current?.clientHeight ?? ROW) / ROW) - 2);
+    const to = { ArrowDown: now + 1, PageDown: now + page, Home: 0 }[event.key];
+    const back = { ArrowUp: now - 1, PageUp: now - page, End: rows.length - 1 }[event.key];
+    if (to !== undefined) go(to, 1);
+    else if (back !== undefined) go(back, -1);
+    else if (event.key === "ContextMenu") openMenu(rows[now], event.currentTarget);
+    else if (!gridKey(event, rows[now])) return;
+    event.preventDefault();
+  }
+
+  function openMenu(row: WatchRow | undefined, grid: Element): void {
+    const { left, bottom } = (grid.querySelector(".gr.on") ?? grid).getBoundingClientRect();
+    if (row) showMenu(row, { x: left + 40, y: bottom });
+  }
+
+  function showMenu(row: WatchRow, at: { x: number; y: number }): void {
+    if (row.kind === "group") setMenu({ items: groupMenu(row, onRenameGroup), at });
+    else if (row.kind === "value") setMenu({ items: rowMenu(row, onNewGroup), at });
+  }
+
+  return (
+    <div
+      ref={scroll}
+      className="grid wt scroll"
+      role="treegrid"
+      aria-label={t("watch.table")}
+      style={columns}
+      aria-rowcount={rows.length + 1}
+      aria-activedescendant={items.some(({ index }) => index === now) ? `watch-${now}` : undefined}
+      tabIndex={0}
+      onKeyDown={onKeyDown}
+      onPaste={paste}
+      onDragOver={drop.onDragOver}
+      onDragLeave={drop.onDragLeave}
+      onDragEnd={drop.onDragEnd}
+      onDrop={drop.onDrop}
+      onFocus={(event) => {
+        // A click brings the focus, too, and the rows must not move away below the pointer.
+        if (now < 0 && event.currentTarget.matches(":focus-visible")) go(0, 1);
+      }}
+    >
+      <GridHead />
+      <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
+        {items.map((item) => {
+          const row = rows[item.index];
+          if (!row) return null;
+          const level = row.kind === "group" ? 0 : row.level;
+          const line = { index: item.index, style: { transform: `translateY(${item.start - ROW}px)`, "--lv": level } };
+          return (
+            <Line
+              key={item.key}
+              row={row}
+              line={line}
+              selected={selected !== null && selectsAs(row) === selected}
+              target={row.kind === "value" && row.level === 0 && drop.before?.before === row.root}
+              measured={virtual.measureElement}
+              onMenu={showMenu}
+            />
+          );
+        })}
+      </div>
+      {menu && <Menu label={t("menu.label")} items={menu.items} at={menu.at} onClose={() => setMenu(null)} />}
+    </div>
+  );
+}
+
+interface LineProps {
+  row: WatchRow;
+  line: { index: number; style: CSSProperties };
+  selected: boolean;
+  target: boolean;
+  measured: Ref<HTMLDivElement>;
+  onMenu: (row: WatchRow, at: { x: number; y: number }) => void;
+}
+
+function Line({ row, line, selected, target, measured, onMenu }: LineProps) {
+  const menu = (at: { x: number; y: number }) => onMenu(row, at);
+  switch (row.kind) {
+    case "group":
+      return <GroupLine row={row} {...line} selected={selected} onSelect={() => select(row.key)} onMenu={menu} />;
+    case "note":
+      return <NoteLine row={row} {...line} measured={measured} />;
+    case "binding":
+      return <BindingLine row={row} {...line} />;
+    case "more":
+      return <MoreLine row={row} {...line} />;
+    case "value":
+      return <ValueLine row={row} {...line} selected={selected} target={target} onMenu={menu} />;
+  }
+}
+
+/** What a row is selected as; rows that only say something cannot be. */
+const selectsAs = (row: WatchRow) => (row.kind === "value" ? row.path : row.kind === "group" ? row.key : null);
+
+function useInSight(rows: readonly WatchRow[], from: number, to: number): void {
+  const sort = useWatchList((list) => list.sort);
+  const filter = useWatchList((list) => list.filter);
+  // biome-ignore lint/correctness/useExhaustiveDependencies: with another sort or filter others are needed
+  useEffect(() => watchInSight(pathsToWatch(rows.slice(from, to))), [rows, from, to, sort, filter]);
+  useEffect(() => watchNothing, []);
+}
+
+/** What was added, or comes to stand elsewhere by what was done to it, is brought into sight once. */
+function useReveal(index: number, reveal: (index: number) => void): void {
+  const selected = useWatchList((list) => list.selected);
+  const last = useRef<string | null>(null);
+  useEffect(() => {
+    if (index < 0 || last.current === selected) return;
+    last.current = selected;
+    reveal(index);
+  }, [index, selected, reveal]);
+}
+
+/** Why an entry was not taken is brought into sight: it may stand below the last row that is. */
+function useRevealNote(rows: readonly WatchRow[], reveal: (index: number) => void): void {
+  const notes = useWatchList((list) => list.notes);
+  const before = useRef(notes);
+  useEffect(() => {
+    if (before.current === notes) return;
+    const index = rows.findIndex(
+      (row) => row.kind === "note" && notes.has(row.path) && before.current.get(row.path) !== notes.get(row.path),
+    );
+    before.current = notes;
+    if (index >= 0) reveal(index);
+  }, [rows, notes, reveal]);
+}
+
+/** Many lines are many entries; what was copied from a CSV file has formats and groups, too. */
+function paste(event: ClipboardEvent): void {
+  if ((event.target as HTMLElement).matches("input")) return;
+  const text = event.clipboardData.getData("text/plain");
+  event.preventDefault();
+  if (/^\uFEFF?"?path"?[;,\t]/i.test(text)) addAll(fromCsv(text).entries);
+  else addToWatch(pathsIn(text));
+}
+
+/** The dragged widths as custom properties; a column without one keeps what the style sheet says. */
+function useColumnStyle(): CSSProperties {
+  const widths = useColumns();
+  const px = (width: number | undefined) => (width === undefined ? undefined : `${width}px`);
+  return {
+    "--c-current": px(widths.current),
+    "--c-change": px(widths.change),
+    "--c-type": px(widths.type),
+    "--c-address": px(widths.address),
+    "--c-bound": px(widths.bound),
+  };
+}

@@ -1,0 +1,151 @@
+/** The debugger of this PLC as everybody shares it: breakpoints, and how this browser joins the session. */
+
+import { create } from "zustand";
+import type { Wanted } from "../../logic/debug/breakpoints";
+import { isShared, PLAIN } from "../../logic/debug/breakpoints";
+import { t } from "../../text";
+import { type DebugProtocol, dap } from "../../wire/dap";
+import type { BreakpointInfo } from "../../wire/types";
+import { onInstanceChange } from "../plc/reset";
+
+export type Access = BreakpointInfo["access"];
+
+interface Debug {
+  /** Of all groups, in the order in which they were made. */
+  breakpoints: readonly BreakpointInfo[];
+  /** Where a form is open in the editor; null while there is none. */
+  editing: Editing | null;
+  /** Why the last thing asked of the debugger was not done. */
+  refused: string | null;
+}
+
+export interface Editing {
+  file: string;
+  /** In the text as it is shown. */
+  line: number;
+  wanted: Wanted;
+  /** The breakpoint that is changed; null makes a new one. */
+  id: number | null;
+  /** What it does when it is reached; decides which field is asked for. */
+  does: "halt" | "log" | "assign";
+}
+
+export const useDebug = create<Debug>(() => ({ breakpoints: [], editing: null, refused: null }));
+const get = useDebug.getState;
+const set = useDebug.setState;
+
+/** After each connection: a debug session of its own, with the breakpoints that all browsers share. */
+export function joinDebugger(breakpoints: readonly BreakpointInfo[]): void {
+  set({ breakpoints, refused: null });
+  const hello: DebugProtocol.InitializeRequestArguments = {
+    adapterID: "scanbench",
+    clientID: "browser",
+    pathFormat: "path",
+    linesStartAt1: true,
+    columnsStartAt1: true,
+    supportsInvalidatedEvent: true,
+  };
+  void ask("initialize", hello);
+}
+
+onInstanceChange(() => set({ breakpoints: [], editing: null, refused: null }));
+
+export function onBreakpoints(breakpoints: readonly BreakpointInfo[]): void {
+  set({ breakpoints });
+}
+
+/** A request whose refusal is shown in the status bar; null when it was refused. */
+export async function ask<T = object>(command: string, args: object = {}): Promise<T | null> {
+  try {
+    const body = (await dap.request<T | undefined>(command, args)) ?? ({} as T);
+    if (get().refused !== null) set({ refused: null });
+    return body;
+  } catch (error) {
+    set({ refused: reasonOf(error) });
+    return null;
+  }
+}
+
+export const reasonOf = (error: unknown) => (error instanceof Error && error.message ? error.message : t("notsent"));
+
+interface Set {
+  id: number | null;
+  /** Why it cannot hold. */
+  trouble: string | null;
+}
+
+/** Adds a breakpoint to the shared list, or changes the one of this id. Throws what refused it. */
+export async function setBreakpoint(wanted: Wanted, id: number | null = null): Promise<Set> {
+  const { file, ...rest } = wanted;
+  const breakpoint = { ...rest, source: { path: file }, ...(id === null ? {} : { id }) };
+  const body = await dap.request<{ breakpoint: DebugProtocol.Breakpoint }>("scanbench/setBreakpoint", { breakpoint });
+  set({ refused: null });
+  const { verified, message, id: known } = body.breakpoint;
+  // One that is off needs no place to hold at.
+  return { id: known ?? id, trouble: verified || !wanted.enabled ? null : (message ?? null) };
+}
+
+/** The same where no form is open to show a refusal. */
+export async function addBreakpoint(wanted: Partial<Wanted>, id: number | null = null): Promise<void> {
+  try {
+    await setBreakpoint({ ...PLAIN, ...wanted }, id);
+  } catch (error) {
+    set({ refused: reasonOf(error) });
+  }
+}
+
+/** "Break when this is written, changed, read." */
+export function addDataBreakpoint(path: string, access: Access): Promise<void> {
+  return addBreakpoint({ kind: "data", path, access });
+}
+
+/** "Break when this error is raised"; empty is any. */
+export function addErrorBreakpoint(error: string): Promise<void> {
+  return addBreakpoint({ kind: "error", error });
+}
+
+export async function removeBreakpoints(ids?: readonly number[]): Promise<void> {
+  await ask("scanbench/removeBreakpoints", ids ? { ids } : {});
+}
+
+export async function enableBreakpoints(enabled: boolean, ids?: readonly number[]): Promise<void> {
+  await ask("scanbench/enableBreakpoints", { enabled, ...(ids ? { ids } : {}) });
+}
+
+/** The shared line breakpoints at a line of the built text. */
+export function breakpointsAt(file: string, line: number): BreakpointInfo[] {
+  return get().breakpoints.filter(
+    (known) =>
+      isShared(known) &&
+      known.kind === "line" &&
+      known.file === file &&
+      // One that was moved to a statement is found at its line, and where it was asked for.
+      (known.at_line || known.line) === line,
+  );
+}
+
+/** A click on the gutter, F9: takes away what is there, or sets a plain one. */
+export async function toggleBreakpoint(file: string, line: number): Promise<void> {
+  const here = breakpointsAt(file, line);
+  if (here.length > 0) await removeBreakpoints(here.map(({ id }) => id));
+  else await addBreakpoint({ file, line });
+}
+
+/** After a build of this browser: lines that moved with the text. */
+export async function moveBreakpoints(file: string, lines: ReadonlyMap<number, number>): Promise<void> {
+  for (const known of get().breakpoints) {
+    const line = lines.get(known.id);
+    if (line === undefined || !isShared(known) || known.file !== file || known.line === line) continue;
+    await addBreakpoint({ ...wantedOf(known), line }, known.id);
+  }
+}
+
+/** What a person decided of a breakpoint, without what became of it. */
+export function wantedOf(known: BreakpointInfo): Wanted {
+  const { kind, enabled, file, line, path, access, error, scan, condition, hits, log, assign, instance, task } = known;
+  return { kind, enabled, file, line, path, access, error, scan, condition, hits, log, assign, instance, task };
+}
+
+export function editBreakpoint(editing: Editing | null): void {
+  set({ editing });
+}

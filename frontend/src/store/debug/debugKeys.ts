@@ -1,0 +1,18 @@
+/** Keys of the debugger that mean the line of the caret. */
+import { lineIn } from "../../logic/plc/sourceLines";
+import { useDocuments } from "../project/documents";
+import { toggleBreakpoint } from "./debug";
+
+/** The caret's line in the built text; null without an open file. */
+export function caretPlace(): { file: string; line: number } | null {
+  const { active, cursor, open } = useDocuments.getState();
+  const document = active === null ? undefined : open[active];
+  if (!document || !cursor) return null;
+  return { file: document.path, line: lineIn(document.text, document.savedText, cursor.line) };
+}
+
+/** F9. */
+export function toggleBreakpointHere(): void {
+  const place = caretPlace();
+  if (place) void toggleBreakpoint(place.file, place.line);
+}

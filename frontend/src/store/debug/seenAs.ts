@@ -1,0 +1,90 @@
+/** As which instance the text of a block is looked at: its live values are those of one instance. */
+
+import { create } from "zustand";
+import { rest } from "../../wire/rest";
+import type { PlcSymbol } from "../../wire/types";
+import { isAway, loadMembers, useMembers } from "../plc/members";
+import { usePlc } from "../plc/plc";
+import { onInstanceChange } from "../plc/reset";
+import { useStack } from "./stack";
+
+interface SeenAs {
+  /** By the name of a POU, in capitals. */
+  chosen: ReadonlyMap<string, string>;
+  instances: ReadonlyMap<string, readonly string[]>;
+}
+
+export const useSeenAs = create<SeenAs>(() => ({ chosen: new Map(), instances: new Map() }));
+const get = useSeenAs.getState;
+const set = useSeenAs.setState;
+
+const asked = new Set<string>();
+
+/** Another PLC or another program: other instances. What was chosen stays as long as it is there. */
+function resetSeenAs(): void {
+  asked.clear();
+  set({ instances: new Map() });
+}
+
+onInstanceChange(resetSeenAs);
+
+/** Fetches the instances of a POU, once for each program. */
+export async function loadInstances(pou: string): Promise<void> {
+  const key = pou.toUpperCase();
+  const { instance } = useMembers.getState();
+  if (instance === null || isAway() || asked.has(key)) return;
+  asked.add(key);
+  try {
+    const paths = (await rest.instancesOf(instance, pou)).map(({ path }) => path);
+    if (useMembers.getState().instance !== instance) return;
+    set(({ instances }) => ({ instances: new Map(instances).set(key, paths) }));
+  } catch {
+    asked.delete(key); // The PLC is away: it is asked again when the text is looked at the next time.
+  }
+}
+
+export function choose(pou: string, path: string): void {
+  set(({ chosen }) => ({ chosen: new Map(chosen).set(pou.toUpperCase(), path) }));
+}
+
+/** The instance whose values are shown in the text of a POU; undefined while there is none. */
+export function seenAs({ chosen, instances }: SeenAs, pou: string): string | undefined {
+  const key = pou.toUpperCase();
+  const all = instances.get(key);
+  const wanted = chosen.get(key);
+  if (wanted !== undefined && (all === undefined || all.includes(wanted))) return wanted;
+  return all?.[0];
+}
+
+export const seenAsNow = (pou: string) => seenAs(get(), pou);
+
+// Where the program stands is what one wants to see: a halt, and a frame that is chosen, take their instance along.
+usePlc.subscribe(({ state: now }, { state: before }) => {
+  const halt = now?.halt;
+  if (halt?.instance && halt.number !== before?.halt?.number) choose(halt.pou, halt.instance);
+  if (now && before && now.program_version !== before.program_version) resetSeenAs();
+});
+useStack.subscribe(({ frame, frames }, before) => {
+  const here = frames.find(({ id }) => id === frame)?.scanbench;
+  if (frame !== before.frame && here?.instance) choose(here.pou, here.instance);
+});
+
+/** Fetches what names in the text of a POU can mean: its instances, the variables of the one it is seen as, the globals. */
+export async function loadNames(pou: string): Promise<void> {
+  await loadInstances(pou);
+  const instance = seenAsNow(pou);
+  await Promise.all([loadMembers(""), instance === undefined ? [] : loadMembers(instance)]);
+}
+
+/** The instance path of a variable as it is written in a POU; undefined when it is none, or not known (yet). */
+export function pathOf(pou: string, written: string): string | undefined {
+  const { of } = useMembers.getState();
+  const root = /^[^.[^]+/.exec(written)?.[0].toUpperCase();
+  if (root === undefined) return undefined;
+  const rest = written.slice(root.length);
+  const named = (symbol: PlcSymbol) => symbol.name.toUpperCase() === root;
+  const instance = seenAsNow(pou);
+  const own = instance === undefined ? undefined : of.get(instance)?.find(named);
+  const found = own ?? of.get("")?.find(named);
+  return found && (rest !== "" || !found.expandable) ? found.path + rest : undefined;
+}

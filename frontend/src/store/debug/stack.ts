@@ -1,0 +1,201 @@
+/** Where the program stands while it is halted: frames, scopes and the variables in them. */
+
+import { create } from "zustand";
+import { type DebugProtocol, dap } from "../../wire/dap";
+import { usePlc } from "../plc/plc";
+import { onInstanceChange } from "../plc/reset";
+import { ask, reasonOf } from "./debug";
+
+/** What this adapter says of a frame beyond the protocol. */
+export interface Frame extends DebugProtocol.StackFrame {
+  scanbench?: { pou: string; instance: string; task: string };
+}
+
+export interface Variable extends DebugProtocol.Variable {
+  scanbench?: { path: string; alias: string; address: string; writable: boolean };
+}
+
+interface Stack {
+  frames: readonly Frame[];
+  /** Id of the frame that is looked at. */
+  frame: number | null;
+  scopes: readonly DebugProtocol.Scope[];
+  /** By the key of a scope (its name) or of a variable below one (`VAR/belt[3]`). */
+  below: ReadonlyMap<string, readonly Variable[]>;
+  open: ReadonlySet<string>;
+  /** Keys of variables that have another value than at the halt before. */
+  changed: ReadonlySet<string>;
+  /** Why an entry was not taken, by the key of its variable. */
+  refused: ReadonlyMap<string, string>;
+}
+
+const nothing: Omit<Stack, "open"> = {
+  frames: [],
+  frame: null,
+  scopes: [],
+  below: new Map(),
+  changed: new Set(),
+  refused: new Map(),
+};
+
+/** More are shown page by page. */
+const PAGE = 100;
+const OPEN_AT_FIRST = ["VAR_INPUT", "VAR_OUTPUT", "VAR_IN_OUT", "VAR", "VAR_TEMP", "RESULT", "THIS"];
+
+export const useStack = create<Stack>(() => ({ ...nothing, open: new Set(OPEN_AT_FIRST) }));
+const get = useStack.getState;
+const set = useStack.setState;
+
+/** An answer about a halt that is over is dropped. */
+let turn = 0;
+/** The texts of the frame looked at before, to see what changed. */
+let texts: ReadonlyMap<string, string> = new Map();
+let textsOf = "";
+
+function resetStack(): void {
+  turn += 1;
+  texts = new Map();
+  set(nothing);
+}
+
+onInstanceChange(resetStack);
+
+dap.on("stopped", (body) => void load((body as DebugProtocol.StoppedEvent["body"]).threadId ?? 1));
+dap.on("continued", resetWhileRunning);
+dap.on("invalidated", () => void loadFrame());
+dap.on("terminated", resetStack);
+
+// Whoever goes on itself is not told `continued`, and a trap ends a halt, too.
+usePlc.subscribe(({ state: now }, { state: before }) => {
+  if (before?.halt && !now?.halt) resetWhileRunning();
+});
+
+function resetWhileRunning(): void {
+  turn += 1;
+  set(nothing);
+}
+
+async function load(threadId: number): Promise<void> {
+  turn += 1;
+  const mine = turn;
+  const body = await ask<DebugProtocol.StackTraceResponse["body"]>("stackTrace", { threadId, levels: 200 });
+  if (mine !== turn || !body) return;
+  const frames = body.stackFrames as Frame[];
+  set({ ...nothing, frames, frame: frames[0]?.id ?? null });
+  await loadFrame();
+}
+
+export function frameNow(): Frame | undefined {
+  const { frames, frame } = get();
+  return frames.find(({ id }) => id === frame);
+}
+
+export async function chooseFrame(id: number): Promise<void> {
+  set({ frame: id });
+  await loadFrame();
+}
+
+/** Fetches scopes and what is unfolded in them anew. */
+async function loadFrame(): Promise<void> {
+  const mine = turn;
+  const { frame } = get();
+  if (frame === null) return;
+  const body = await ask<DebugProtocol.ScopesResponse["body"]>("scopes", { frameId: frame });
+  if (mine !== turn || get().frame !== frame || !body) return;
+  const below = new Map<string, readonly Variable[]>();
+  for (const scope of body.scopes) {
+    if (get().open.has(scope.name)) await fill(below, scope.name, scope.variablesReference);
+  }
+  if (mine !== turn || get().frame !== frame) return;
+  const name = frameNow()?.name ?? "";
+  const now = textsIn(below);
+  const changed = new Set(
+    name === textsOf ? [...now].flatMap(([key, text]) => (differs(texts.get(key), text) ? [key] : [])) : [],
+  );
+  [texts, textsOf] = [now, name];
+  set({ scopes: body.scopes, below, changed, refused: new Map() });
+}
+
+const differs = (before: string | undefined, now: string) => before !== undefined && before !== now;
+
+async function fill(below: Map<string, readonly Variable[]>, key: string, reference: number): Promise<void> {
+  const variables = await fetchBelow(reference, 0);
+  below.set(key, variables);
+  for (const variable of variables) {
+    const inner = keyOf(key, variable);
+    if (variable.variablesReference > 0 && get().open.has(inner)) await fill(below, inner, variable.variablesReference);
+  }
+}
+
+async function fetchBelow(reference: number, start: number): Promise<readonly Variable[]> {
+  const body = await ask<DebugProtocol.VariablesResponse["body"]>("variables", {
+    variablesReference: reference,
+    start,
+    count: PAGE,
+  });
+  return (body?.variables as Variable[] | undefined) ?? [];
+}
+
+function textsIn(below: ReadonlyMap<string, readonly Variable[]>): Map<string, string> {
+  return new Map([...below].flatMap(([key, all]) => all.map((each) => [keyOf(key, each), each.value] as const)));
+}
+
+export const keyOf = (above: string, variable: Variable) => `${above.split("/")[0]}/${nameOf(variable)}`;
+const nameOf = (variable: Variable) => variable.evaluateName ?? variable.name;
+
+/** How many there are below; what was fetched may be less. */
+export const countOf = (variable: { namedVariables?: number; indexedVariables?: number }) =>
+  (variable.namedVariables ?? 0) + (variable.indexedVariables ?? 0);
+
+export async function toggleVariable(key: string, reference: number): Promise<void> {
+  const open = new Set(get().open);
+  if (open.delete(key)) {
+    set({ open });
+    return;
+  }
+  set({ open: open.add(key) });
+  const mine = turn;
+  const below = new Map(get().below);
+  await fill(below, key, reference);
+  if (mine === turn) set(({ below: now }) => ({ below: new Map([...now, ...below]) }));
+}
+
+export async function moreBelow(key: string, reference: number): Promise<void> {
+  const mine = turn;
+  const known = get().below.get(key) ?? [];
+  const more = await fetchBelow(reference, known.length);
+  if (mine === turn) set(({ below }) => ({ below: new Map(below).set(key, [...known, ...more]) }));
+}
+
+/** Gives a variable of the frame a value through the one door. True when it was taken; else the reason stands in its row. */
+export async function setVariable(key: string, variable: Variable, value: string): Promise<boolean> {
+  const { frame } = get();
+  try {
+    await dap.request("setExpression", { expression: nameOf(variable), value, frameId: frame });
+    await loadFrame();
+    return true;
+  } catch (error) {
+    const refused = new Map(get().refused).set(key, reasonOf(error));
+    set({ refused });
+    return false;
+  }
+}
+
+export function forgetEntry(key: string): void {
+  const refused = new Map(get().refused);
+  if (refused.delete(key)) set({ refused });
+}
+
+/** The text of a variable of the frame by its name as written, for temporaries that no path leads to. */
+export function frameText(name: string): string | undefined {
+  const wanted = name.toUpperCase();
+  for (const scope of get().scopes) {
+    if (scope.name === "GLOBAL") continue;
+    const found = get()
+      .below.get(scope.name)
+      ?.find((variable) => variable.name.toUpperCase() === wanted);
+    // What it consists of says more than how much that is.
+    if (found) return found.variablesReference > 0 ? undefined : found.value;
+  }
+  return undefined;
+}

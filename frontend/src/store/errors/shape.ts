@@ -1,0 +1,21 @@
+/** When the next fault begins and how it goes on, as typed; judged against the scan that the PLC has reached. */
+import { useSyncExternalStore } from "react";
+import { isPlain, readShape, type ShapeForm } from "../../logic/errors/shapes";
+import { bindClock, readClock } from "../plc/clock";
+import { useSimulator } from "./simulator";
+
+interface ReadForm {
+  form: ShapeForm;
+  /** An ordinary Generate. */
+  plain: boolean;
+  troubles: ReturnType<typeof readShape>["troubles"];
+  ready: boolean;
+}
+
+/** A scan that was still to come is over some time: it is told when it happens, without a key being pressed. */
+export function useShape(): ReadForm {
+  const form = useSimulator((state) => state.shape);
+  const troubled = () => JSON.stringify(readShape(form, readClock().scan).troubles);
+  const troubles: ReadForm["troubles"] = JSON.parse(useSyncExternalStore(bindClock, troubled));
+  return { form, plain: isPlain(form), troubles, ready: Object.keys(troubles).length === 0 };
+}

@@ -1,0 +1,67 @@
+/** What this browser prefers: theme and language. `public/theme.js` reads the same entry before the first paint. */
+import { create } from "zustand";
+import { type Language, languages, setLanguage } from "../../text";
+import { keep, recall } from "./localStorage";
+
+export const themes = ["dark", "light", "contrast"] as const;
+export type Theme = (typeof themes)[number];
+
+interface Prefs {
+  theme: Theme;
+  language: Language;
+  /** Show in the editor where the compiler embedded subrange checks. */
+  checks: boolean;
+  /** Show live values behind the lines of the editor. */
+  inline: boolean;
+}
+
+function systemLanguage(): Language {
+  const first = navigator.language.slice(0, 2);
+  return languages.find((language) => language === first) ?? "en";
+}
+
+function initial(): Prefs {
+  const kept = recall<Partial<Prefs>>("prefs", {});
+  const painted = document.documentElement.dataset.theme as Theme | undefined;
+  return {
+    theme: painted ?? "dark",
+    language: languages.find((language) => language === kept.language) ?? systemLanguage(),
+    checks: kept.checks ?? false,
+    inline: kept.inline ?? true,
+  };
+}
+
+export const usePrefs = create<Prefs>(initial);
+
+function apply({ theme, language }: Prefs): void {
+  const root = document.documentElement;
+  // Colours change at once: a value that fades over from the old theme would look like one that has just changed.
+  root.classList.add("switching");
+  root.dataset.theme = theme;
+  root.lang = language;
+  void root.offsetHeight;
+  root.classList.remove("switching");
+  setLanguage(language);
+}
+
+apply(usePrefs.getState());
+usePrefs.subscribe((prefs) => {
+  apply(prefs);
+  keep("prefs", prefs);
+});
+
+export function nextTheme(): void {
+  usePrefs.setState(({ theme }) => ({ theme: themes[(themes.indexOf(theme) + 1) % themes.length] ?? "dark" }));
+}
+
+export function toggleChecks(): void {
+  usePrefs.setState(({ checks }) => ({ checks: !checks }));
+}
+
+export function toggleInline(): void {
+  usePrefs.setState(({ inline }) => ({ inline: !inline }));
+}
+
+export function chooseLanguage(language: Language): void {
+  usePrefs.setState({ language });
+}

@@ -1,0 +1,86 @@
+/** Comparisons of this run with others: what was asked for, how far they are, what came of them. */
+
+import { create } from "zustand";
+import { messageOf } from "../../logic/format/messageOf";
+import { withNewest } from "../../logic/past/past";
+import { past } from "../../wire/past";
+import type { Comparison } from "../../wire/types";
+import { openPage } from "../page/navigate";
+import { useBench } from "../plc/bench";
+
+interface Comparisons {
+  /** Of the instance that is looked at, the newest first. */
+  list: readonly Comparison[];
+  /** Id of the one that is shown. */
+  shown: number | null;
+  /** The instance that is chosen to compare with. */
+  other: number | null;
+  trouble: string | null;
+}
+
+const nothing: Comparisons = { list: [], shown: null, other: null, trouble: null };
+
+export const useComparisons = create<Comparisons>(() => nothing);
+const get = useComparisons.getState;
+const set = useComparisons.setState;
+
+/** The page "Compare runs", with an instance chosen to compare with. */
+export function showCompare(other: number | null = null): void {
+  set({ other: other ?? get().other, trouble: null });
+  openPage("compare");
+}
+
+export const chooseOther = (other: number) => set({ other, trouble: null });
+export const showComparison = (shown: number) => set({ shown, trouble: null });
+
+/** Begins a comparison with another instance, and shows it. */
+export async function compareWithOther(other: number): Promise<void> {
+  await guarded(async (instance) => {
+    onComparison(await past.compare(instance, other));
+    set({ shown: get().list[0]?.id ?? null });
+  });
+}
+
+/** Cancels one that is under way, forgets one that is done. */
+export async function forgetComparison(id: number): Promise<void> {
+  await guarded(async () => {
+    await past.forget(id);
+    set(({ list, shown }) => ({
+      list: list.filter((known) => known.id !== id),
+      shown: shown === id ? null : shown,
+    }));
+  });
+}
+
+/** After each connection: what the socket did not tell. */
+export async function refreshComparisons(): Promise<void> {
+  await guarded(async (instance) => {
+    const list = await past.comparisons(instance);
+    if (useBench.getState().instance?.id === instance) set({ list });
+  });
+}
+
+/** How far one is; of the instance that is looked at. */
+export function onComparison(comparison: Comparison): void {
+  if (comparison.a !== useBench.getState().instance?.id) return;
+  set(({ list }) => ({ list: withNewest(list, comparison) }));
+}
+
+async function guarded(deed: (instance: number) => Promise<void>): Promise<void> {
+  const instance = useBench.getState().instance?.id;
+  if (instance === undefined) return;
+  try {
+    set({ trouble: null });
+    await deed(instance);
+  } catch (error) {
+    set({ trouble: messageOf(error) });
+  }
+}
+
+/** The comparison that is shown: the chosen one, else the newest. */
+export const shownComparison = ({ list, shown }: Comparisons): Comparison | null =>
+  list.find(({ id }) => id === shown) ?? list[0] ?? null;
+
+useBench.subscribe((now, before) => {
+  if (now.instance?.id !== before.instance?.id) set(nothing);
+});

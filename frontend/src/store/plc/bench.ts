@@ -1,0 +1,121 @@
+/** What there is on this server, and what this browser looks at: project, instance, model. */
+
+import { create } from "zustand";
+import { messageOf } from "../../logic/format/messageOf";
+import { readLink } from "../../logic/plc/links";
+import { Refused, rest } from "../../wire/rest";
+import { link } from "../../wire/socket";
+import type { AppInfo, Instance, ModelInfo, Project } from "../../wire/types";
+import { keep, recall } from "../page/localStorage";
+import { resetPlc, usePlc } from "./plc";
+import { instanceChanged } from "./reset";
+
+interface Bench {
+  phase: "loading" | "ready" | "locked" | "failed";
+  problem: string;
+  app: AppInfo | null;
+  project: Project | null;
+  instance: Instance | null;
+  model: ModelInfo | null;
+}
+
+export const useBench = create<Bench>(() => ({
+  phase: "loading",
+  problem: "",
+  app: null,
+  project: null,
+  instance: null,
+  model: null,
+}));
+
+const get = useBench.getState;
+const set = useBench.setState;
+
+/** First thing on the page: what is here, then what the address names, what was looked at last time, else the first instance. */
+export async function start(): Promise<void> {
+  try {
+    const app = await rest.app();
+    set({ app, phase: "ready" });
+    const known = (id: number | null) => app.instances.find((instance) => instance.id === id);
+    const linked = readLink(location)?.instance ?? null;
+    const instance = known(linked) ?? known(recall<number | null>("instance", null)) ?? app.instances[0];
+    if (instance) await chooseInstance(instance);
+    else if (app.projects[0]) await chooseProject(app.projects[0]);
+  } catch (error) {
+    set({ phase: isLocked(error) ? "locked" : "failed", problem: messageOf(error) });
+  }
+}
+
+const isLocked = (error: unknown) => error instanceof Refused && error.status === 401;
+
+/** The server may be back with another key, or this browser has forgotten its own: then no try gets through, and the key is asked for. */
+async function checkKey(): Promise<void> {
+  try {
+    await rest.app(AbortSignal.timeout(KEY_PATIENCE));
+  } catch (error) {
+    if (!isLocked(error)) return;
+    link.connect(null);
+    set({ phase: "locked", problem: messageOf(error) });
+  }
+}
+
+const KEY_PATIENCE = 2000;
+
+usePlc.subscribe(({ link: now }, { link: before }) => {
+  if (now.state === "lost" && now.attempt !== before.attempt) void checkKey();
+});
+
+export async function chooseInstance(instance: Instance): Promise<void> {
+  keep("instance", instance.id);
+  await look(instance.project, instance);
+}
+
+/** A project without an instance can be edited and built, not run. */
+export async function chooseProject(project: Project): Promise<void> {
+  await look(project, null);
+}
+
+async function look(project: Project, instance: Instance | null): Promise<void> {
+  const otherProject = get().project?.id !== project.id;
+  set({ project, instance, model: null });
+  link.connect(null);
+  resetPlc();
+  const ready = instanceChanged({ project, instance, otherProject });
+  link.connect(instance?.id ?? null);
+  await Promise.all([ready, loadModel()]);
+}
+
+/** The model as the PLC has it, with the errors that its program's project added; a project without a PLC has the model alone. */
+async function loadModel(): Promise<void> {
+  const { project, instance } = get();
+  if (!project) return;
+  const model = await (instance ? rest.instanceModel(instance.id) : rest.model(project.model).catch(noSuchModel));
+  const now = get();
+  if (now.project?.id === project.id && now.instance?.id === instance?.id) set({ model });
+}
+
+/** The model file of a project may be gone; the project can be looked at and deleted all the same. */
+function noSuchModel(error: unknown): null {
+  if (error instanceof Refused && error.status === 422) return null;
+  throw error;
+}
+
+// Another program of the project may have other errors of its own.
+usePlc.subscribe(({ state: now }, { state: before }) => {
+  if (now && before && now.program_version !== before.program_version) loadModel().catch(() => undefined);
+});
+
+export async function createInstance(project: Project, name: string): Promise<void> {
+  const instance = await rest.createInstance(project.id, name);
+  await refreshApp();
+  await chooseInstance(instance);
+}
+
+export async function refreshApp(): Promise<void> {
+  set({ app: await rest.app() });
+}
+
+/** A build was accepted: the version in the top bar moves on. */
+export function onProject(project: Project): void {
+  if (get().project?.id === project.id) set({ project });
+}

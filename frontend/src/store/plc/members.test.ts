@@ -1,0 +1,14 @@
+import { afterEach, expect, it } from "vitest";
+import type { InstanceState } from "../../wire/types";
+import { isAway } from "./members";
+import { resetPlc, usePlc } from "./plc";
+
+afterEach(resetPlc);
+
+it("asks nothing of a PLC that waits for space without a process, and goes on asking one that has a process", () => {
+  const waiting = { state: "no_space", pid: null } as InstanceState;
+  usePlc.setState({ state: waiting });
+  expect(isAway()).toBe(true);
+  usePlc.setState({ state: { ...waiting, pid: 7 } });
+  expect(isAway()).toBe(false);
+});

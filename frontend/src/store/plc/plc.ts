@@ -1,0 +1,86 @@
+/** The virtual PLC this browser is connected to: state, users, errors and log, as the server last told. */
+import { create } from "zustand";
+import { type Deed, forbidden } from "../../logic/plc/permits";
+import { t } from "../../text";
+import type { LinkStatus } from "../../wire/socket";
+import type { ArmedFault, Diagnostics, ErrorHistoryRow, Hello, InstanceState, LogLine, User } from "../../wire/types";
+import { setClock } from "./clock";
+
+export type { LinkStatus } from "../../wire/socket";
+
+const LOG_LIMIT = 5000;
+
+export interface Plc {
+  link: LinkStatus;
+  state: InstanceState | null;
+  you: User | null;
+  users: User[];
+  errors: ReadonlyMap<string, ErrorHistoryRow>;
+  /** Faults with a shape that are not over. */
+  armed: readonly ArmedFault[];
+  log: readonly LogLine[];
+  /** What the compiler's embedded checks found while the program ran. */
+  diagnostics: Diagnostics;
+}
+
+const NO_DIAGNOSTICS: Diagnostics = { type: "diagnostics", violations: [], dropped: 0, count: 0 };
+
+const nothing: Plc = {
+  link: { state: "none", lostAt: null, attempt: 0, nextTryAt: null },
+  state: null,
+  you: null,
+  users: [],
+  errors: new Map(),
+  armed: [],
+  log: [],
+  diagnostics: NO_DIAGNOSTICS,
+};
+
+export const usePlc = create<Plc>(() => nothing);
+
+/** True when commands can be given. */
+export const useOnline = () => usePlc((plc) => plc.link.state === "open");
+
+/** True when there was a connection and it went away; a project without an instance has none to lose. */
+export const useLost = () => usePlc((plc) => plc.link.state === "lost");
+
+/** Why something cannot be done to the PLC now, in words; null when it can. */
+export function useForbidden(deed: Deed): string | null {
+  const key = usePlc((plc) => forbidden(plc.state, plc.link.state === "open", deed));
+  return key === null ? null : t(key);
+}
+
+export function resetPlc(): void {
+  usePlc.setState({ ...nothing, link: usePlc.getState().link });
+}
+
+export function onHello(hello: Hello): void {
+  const { state } = hello.instance;
+  setClock(state.scan, state.time_ns);
+  usePlc.setState({
+    state,
+    you: hello.you,
+    users: hello.users,
+    errors: new Map(hello.errors.map((row) => [row.id, row])),
+    armed: hello.armed,
+    log: hello.log,
+    diagnostics: hello.diagnostics,
+  });
+}
+
+export function onState(state: InstanceState): void {
+  setClock(state.scan, state.time_ns);
+  usePlc.setState({ state });
+}
+
+export function onErrors(rows: readonly ErrorHistoryRow[]): void {
+  usePlc.setState(({ errors }) => {
+    const next = new Map(errors);
+    for (const row of rows) next.set(row.id, row);
+    return { errors: next };
+  });
+}
+
+export function onLog(lines: readonly LogLine[]): void {
+  usePlc.setState(({ log }) => ({ log: [...log, ...lines].slice(-LOG_LIMIT) }));
+}

@@ -1,0 +1,112 @@
+/** The run from its first scan to the live one, and the way back into it. */
+
+import { create } from "zustand";
+import { type Axis, including } from "../../logic/plc/timeline";
+import { send } from "../../wire/send";
+import type { Mark, Timeline, TimelineInfo } from "../../wire/types";
+import { readClock } from "./clock";
+import { usePlc } from "./plc";
+import { onInstanceChange } from "./reset";
+
+const MARK_LIMIT = 5000;
+
+interface Run {
+  info: TimelineInfo | null;
+  marks: readonly Mark[];
+  /** What is shown of the run; null is all of it. */
+  view: Axis | null;
+  /** The view moves along with the live end. */
+  follows: boolean;
+  /** Where one is on the way to, until the PLC is there. */
+  aim: number | null;
+  refused: string | null;
+  /** The scans that are selected, both included; null while none are. */
+  selection: Axis | null;
+  /** The damage report that was read and put away. */
+  read: string;
+}
+
+const nothing: Run = {
+  info: null,
+  marks: [],
+  view: null,
+  follows: true,
+  aim: null,
+  refused: null,
+  selection: null,
+  read: "",
+};
+
+export const useTimeline = create<Run>(() => nothing);
+const get = useTimeline.getState;
+const set = useTimeline.setState;
+
+onInstanceChange(() => set(nothing));
+
+export function onTimeline({ info, marks, fresh }: Timeline): void {
+  set((run) => ({ info, marks: fresh ? marks : [...run.marks, ...marks].slice(-MARK_LIMIT) }));
+}
+
+/** Shows a part of the run, all of it with null. A view that ends at the live scan moves along with it. */
+export function setView(view: Axis | null, whole: Axis): void {
+  set({ view, follows: view === null || view.to >= whole.to });
+}
+
+/** A view that stands still is moved to where one goes. */
+function inSight(scan: number | null): Partial<Run> {
+  const { view, follows, info } = get();
+  if (view === null || follows) return {};
+  if (scan === null) return { follows: true };
+  return { view: including(view, { from: info?.first_scan ?? 0, to: liveScan() }, scan) };
+}
+
+/** Selects a stretch of the run, both scans included, in whatever order; null takes the selection away. */
+export function selectStretch(one: number | null, other = one): void {
+  if (one === null || other === null) set({ selection: null });
+  else set({ selection: { from: Math.min(one, other), to: Math.max(one, other) } });
+}
+
+export const putAwayDamage = () => set(({ info }) => ({ read: info?.damage ?? "" }));
+
+/** The newest scan there is, whatever is shown. */
+export function liveScan(): number {
+  return usePlc.getState().state?.past?.live_scan ?? readClock().scan;
+}
+
+let underWay = false;
+let next: { scan: number | null; count: number } | null = null;
+
+/** Shows the PLC as it was before a scan, or in front of its statement of this `count`; null returns to live. While one
+ * request is answered, only the last wish is kept. */
+export async function travel(scan: number | null, count = 0): Promise<void> {
+  set({ aim: scan ?? liveScan(), ...inSight(scan) });
+  next = { scan, count };
+  if (underWay) return;
+  underWay = true;
+  while (next !== null) {
+    const wish: { scan: number | null; count: number } = next;
+    next = null;
+    const answer = await send({ type: "travel", ...wish });
+    set({ refused: answer.ok ? null : answer.message });
+  }
+  underWay = false;
+  set({ aim: null });
+}
+
+/** One scan back from what is shown: into the past, or further into it. */
+export function stepBack(): void {
+  const first = useTimeline.getState().info?.first_scan ?? 0;
+  const { scan } = readClock();
+  if (scan > first) void travel(scan - 1);
+}
+
+/** One scan forward while the past is shown; at its end one is live again. */
+export function stepForward(): void {
+  const { scan } = readClock();
+  void travel(scan + 1 >= liveScan() ? null : scan + 1);
+}
+
+/** Shift+Esc, and the button of the banner. */
+export function returnToLive(): void {
+  if (usePlc.getState().state?.past) void travel(null);
+}

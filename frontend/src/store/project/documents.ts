@@ -1,0 +1,403 @@
+/** The files of the project being edited: texts, what is not saved yet, live diagnostics and builds. */
+
+import { create } from "zustand";
+import { messageOf } from "../../logic/format/messageOf";
+import { forbidden } from "../../logic/plc/permits";
+import { skeleton } from "../../logic/project/explorer";
+import { t } from "../../text";
+import { rest } from "../../wire/rest";
+import type { BuildResult, EmbeddedCheck, FileInfo, FileText, OnlineChange, Pou, Problem } from "../../wire/types";
+import { forget, keep, recall } from "../page/localStorage";
+import { openFile, showPanel } from "../page/navigate";
+import { usePlc } from "../plc/plc";
+import { onInstanceChange } from "../plc/reset";
+
+export interface Document {
+  path: string;
+  text: string;
+  savedText: string;
+  /** The stored version that the text began from. */
+  version: number;
+  savedAt: number | null;
+  /** Somebody saved meanwhile: theirs, to be shown beside mine. */
+  conflict: FileText | null;
+  /** The file is gone, but the text was edited and stays: who deleted it, empty when that is not known. */
+  deletedBy: string | null;
+}
+
+interface Draft {
+  text: string;
+  version: number;
+}
+
+export type BuildState =
+  | { phase: "idle" }
+  | { phase: "running" }
+  | { phase: "done"; ok: boolean; message: string; author: string | null; changes: readonly OnlineChange[] };
+
+interface Documents {
+  project: number | null;
+  files: readonly FileInfo[];
+  open: Readonly<Record<string, Document>>;
+  active: string | null;
+  cursor: { line: number; column: number } | null;
+  pous: readonly Pou[];
+  problems: readonly Problem[];
+  /** Subrange checks of the texts as they stand; the last good ones while there are errors. */
+  checks: readonly EmbeddedCheck[];
+  build: BuildState;
+  /** A build that waits for a yes: variables of running PLCs would begin anew. */
+  asking: BuildResult | null;
+  /** What the last swap of the program did to the running PLCs; null when it was rolled back, or there was none. */
+  change: readonly OnlineChange[] | null;
+  /** Something that failed and is not about one line: shown at the top of the problem list. */
+  trouble: string | null;
+}
+
+const nothing: Omit<Documents, "project"> = {
+  files: [],
+  open: {},
+  active: null,
+  cursor: null,
+  pous: [],
+  problems: [],
+  checks: [],
+  build: { phase: "idle" },
+  asking: null,
+  change: null,
+  trouble: null,
+};
+
+export const useDocuments = create<Documents>(() => ({ project: null, ...nothing }));
+
+const get = useDocuments.getState;
+const set = useDocuments.setState;
+
+export const isDirty = (document: Document | undefined) =>
+  document !== undefined && document.text !== document.savedText;
+
+/** True when this browser holds a text of the file that is stored nowhere else. */
+export function holdsUnsaved(path: string): boolean {
+  const { project, open } = get();
+  if (open[path]) return isDirty(open[path]);
+  return project !== null && recall<Draft | null>(draftKey(project, path), null) !== null;
+}
+
+const draftKey = (project: number, path: string) => `draft.${project}.${path}`;
+
+function patch(path: string, change: Partial<Document>): void {
+  set(({ open }) => {
+    const document = open[path];
+    return document ? { open: { ...open, [path]: { ...document, ...change } } } : {};
+  });
+}
+
+/** Shows another project: its files, and what the compiler says about them. */
+export async function loadProject(project: number): Promise<void> {
+  set({ project, ...nothing });
+  await refreshFiles();
+  await check();
+}
+
+onInstanceChange(({ project, otherProject }) => otherProject && loadProject(project.id));
+
+export async function refreshFiles(): Promise<void> {
+  const { project } = get();
+  if (project === null) return;
+  const files = await rest.files(project);
+  if (get().project === project) set({ files });
+}
+
+/** Fetches a file for editing; an unsaved text of last time is taken up again. */
+export async function openDocument(path: string): Promise<void> {
+  const { project, open } = get();
+  if (project === null || open[path]) return;
+  const draft = recall<Draft | null>(draftKey(project, path), null);
+  const stored = await storedFile(project, path, draft !== null);
+  if (get().project !== project || get().open[path]) return;
+  const document: Document = {
+    path,
+    text: draft?.text ?? stored?.text ?? "",
+    savedText: stored?.text ?? "",
+    version: stored ? (draft?.version ?? stored.version) : 0,
+    savedAt: null,
+    conflict: null,
+    deletedBy: stored ? null : "",
+  };
+  set((state) => ({ open: { ...state.open, [path]: document } }));
+  if (draft) scheduleCheck();
+}
+
+/** Null when there is no such file, which is no failure for a browser that still holds a text of it. */
+async function storedFile(project: number, path: string, mayBeGone: boolean): Promise<FileText | null> {
+  const known = get().files.some((file) => file.path === path);
+  if (!known && !(await rest.files(project)).some((file) => file.path === path)) {
+    if (mayBeGone) return null;
+    throw new Error(t("file.gone", { path }));
+  }
+  return rest.file(project, path);
+}
+
+/** An unsaved text stays in the browser and comes back when the file is opened again. */
+export function closeDocument(path: string): void {
+  if (isDirty(get().open[path])) scheduleCheck();
+  set(({ open, active }) => {
+    const { [path]: _closed, ...rest } = open;
+    return { open: rest, active: active === path ? null : active };
+  });
+}
+
+/** Whether this browser really holds the unsaved text: its storage may be full or switched off. */
+export function isKept(path: string): boolean {
+  const { project, open } = get();
+  return project !== null && recall<Draft | null>(draftKey(project, path), null)?.text === open[path]?.text;
+}
+
+/** Takes the unsaved text away, here and in the browser's storage. */
+export function discardEdits(path: string): void {
+  const { project, open } = get();
+  const document = open[path];
+  if (project === null || !document) return;
+  forget(draftKey(project, path));
+  patch(path, { text: document.savedText });
+  scheduleCheck();
+}
+
+export function edit(path: string, text: string): void {
+  const { project, open } = get();
+  const document = open[path];
+  if (project === null || !document || document.text === text) return;
+  patch(path, { text });
+  if (text === document.savedText) forget(draftKey(project, path));
+  else keep(draftKey(project, path), { text, version: document.version } satisfies Draft);
+  scheduleCheck();
+}
+
+/** Saves one file. False when it was not saved, because somebody else saved first or the server refused. */
+export async function save(path: string): Promise<boolean> {
+  const { project, open } = get();
+  const document = open[path];
+  if (project === null || !document) return false;
+  if (!isDirty(document)) return true;
+  if (isCutOff()) return false;
+  const { text } = document;
+  try {
+    const result = await rest.save(project, path, text, document.version);
+    if ("conflict" in result) {
+      patch(path, { conflict: result.conflict.theirs });
+      return false;
+    }
+    stored(path, text, result.saved);
+    set({ trouble: null });
+    return true;
+  } catch (error) {
+    set({ trouble: `${path}: ${messageOf(error)}` });
+    return false;
+  }
+}
+
+/** Without a connection a request would wait for ever, and the save would come as a surprise later. */
+function isCutOff(): boolean {
+  const lost = usePlc.getState().link.state === "lost";
+  if (lost) set({ trouble: t("lost.nosave") });
+  return lost;
+}
+
+function stored(path: string, text: string, file: FileInfo): void {
+  const { project, open, files } = get();
+  patch(path, { savedText: text, version: file.version, savedAt: Date.now(), conflict: null, deletedBy: null });
+  if (project !== null && open[path]?.text === text) forget(draftKey(project, path));
+  const others = files.filter((known) => known.path !== path);
+  set({ files: [...others, file].sort((a, b) => a.path.localeCompare(b.path)) });
+}
+
+/** Ends a conflict: mine is based on theirs and saved again, or theirs replaces mine. */
+export async function resolveConflict(path: string, choice: "mine" | "theirs"): Promise<void> {
+  const { project, open } = get();
+  const theirs = open[path]?.conflict;
+  if (project === null || !theirs) return;
+  if (choice === "theirs" && theirs.version === 0) {
+    forget(draftKey(project, path));
+    closeDocument(path);
+    await refreshFiles();
+    return;
+  }
+  if (choice === "theirs") {
+    patch(path, { text: theirs.text, savedText: theirs.text, version: theirs.version, conflict: null });
+    forget(draftKey(project, path));
+    scheduleCheck();
+    return;
+  }
+  patch(path, { savedText: theirs.text, version: theirs.version, conflict: null });
+  await save(path);
+}
+
+/**
+ * Saves what is not saved, then builds; the running PLCs, or those `chosen`, get the new program in their seams, once `agreed` if
+ * values are lost.
+ */
+export async function build(agreed = false, chosen: readonly number[] | null = null): Promise<void> {
+  const { project, open } = get();
+  if (project === null || get().build.phase === "running" || isCutOff()) return;
+  const why = forbidden(usePlc.getState().state, true, "build");
+  if (why !== null) {
+    set({ build: refusedBuild(t(why)), asking: null });
+    return;
+  }
+  set({ build: { phase: "running" }, asking: null });
+  try {
+    for (const document of Object.values(open)) {
+      if (!(await save(document.path))) {
+        set({ build: { phase: "idle" } });
+        if (get().open[document.path]?.conflict) openFile(document.path);
+        else showPanel("problems");
+        return;
+      }
+    }
+    onBuilt(await rest.build(project, agreed, chosen), null);
+  } catch (error) {
+    set({ build: refusedBuild(messageOf(error)) });
+  }
+  const { build: now } = get();
+  if (now.phase === "done" && !now.ok) showPanel("problems");
+}
+
+const refusedBuild = (message: string): BuildState => ({
+  phase: "done",
+  ok: false,
+  message,
+  author: null,
+  changes: [],
+});
+
+export function onBuilt(result: BuildResult, author: string | null): void {
+  if (get().project !== result.project.id) return;
+  if (result.needs_agreement) set({ build: { phase: "idle" }, asking: result });
+  else {
+    const swapped = result.ok && result.changes.some((change) => change.refusal === "");
+    const { ok, message, changes } = result;
+    set({ build: { phase: "done", ok, message, author, changes } });
+    // A build that found nothing to do leaves the last change to be taken back.
+    if (swapped) set({ change: result.changes });
+  }
+  const dirty = Object.values(get().open).some(isDirty);
+  if (dirty) scheduleCheck();
+  else set({ problems: result.problems, ...(result.pous.length > 0 ? { pous: result.pous } : {}) });
+}
+
+/** What the last build said is about the PLC as it is now: not about its past, and no more once its program was rolled back. */
+usePlc.subscribe(({ state }, { state: before }) => {
+  if (!state || !before || get().build.phase !== "done") return;
+  const shown = state.past !== null && before.past === null;
+  const older = state.past === null && before.past === null && state.program_version < before.program_version;
+  if (shown) set({ build: { phase: "idle" } });
+  if (older) set({ build: { phase: "idle" }, change: null });
+});
+
+/** Somebody (perhaps this browser) saved: a clean text follows, an edited one waits for its own save to show both. */
+export async function onSaved(file: FileInfo): Promise<void> {
+  const { project, open, files } = get();
+  const document = open[file.path];
+  if (document?.deletedBy != null) patch(file.path, { deletedBy: null });
+  if (!files.some((known) => known.path === file.path)) await refreshFiles();
+  if (project === null || !document || isDirty(document) || file.version <= document.version) {
+    scheduleCheck();
+    return;
+  }
+  const fresh = await rest.file(project, file.path);
+  const now = get().open[file.path];
+  if (now && !isDirty(now) && fresh.version > now.version) {
+    patch(file.path, { text: fresh.text, savedText: fresh.text, version: fresh.version });
+  }
+  scheduleCheck();
+}
+
+const deleting = new Set<string>();
+
+/** Somebody deleted a file: its tab closes with the list of files, unless it holds a text that was edited. */
+export async function onDeleted(path: string, author: string): Promise<void> {
+  if (deleting.has(path)) return;
+  const { project, open } = get();
+  const document = open[path];
+  if (project !== null && document && isDirty(document)) {
+    patch(path, { savedText: "", version: 0, conflict: null, deletedBy: author });
+    keep(draftKey(project, path), { text: document.text, version: 0 } satisfies Draft);
+  }
+  set(({ files }) => ({ files: files.filter((file) => file.path !== path) }));
+  scheduleCheck();
+}
+
+/** After a connection: what was saved and deleted meanwhile was told to nobody here. */
+export async function catchUp(): Promise<void> {
+  const { project } = get();
+  if (project === null) return;
+  let files: FileInfo[];
+  try {
+    files = await rest.files(project);
+  } catch {
+    return; // The connection went away again: the next one catches up.
+  }
+  if (get().project !== project) return;
+  const known = new Map(files.map((file) => [file.path, file]));
+  for (const document of Object.values(get().open)) {
+    const file = known.get(document.path);
+    if (file && file.version > document.version) await onSaved(file);
+    else if (!file && document.version > 0) await onDeleted(document.path, "");
+  }
+  if (get().project === project) set({ files });
+}
+
+/** Makes a new file, with the frame of what its name promises unless there is a text. Throws what the server said when it refuses. */
+export async function createFile(path: string, text = skeleton(path)): Promise<void> {
+  const { project } = get();
+  if (project === null) return;
+  const result = await rest.save(project, path, text, 0);
+  if ("conflict" in result) throw new Error(result.conflict.message);
+  await refreshFiles();
+  scheduleCheck();
+}
+
+export async function deleteFile(path: string): Promise<void> {
+  const { project } = get();
+  if (project === null) return;
+  deleting.add(path);
+  try {
+    await rest.deleteFile(project, path);
+    forget(draftKey(project, path));
+    closeDocument(path);
+    await refreshFiles();
+  } finally {
+    deleting.delete(path);
+  }
+  scheduleCheck();
+}
+
+/** A check takes the server some 15 ms: a problem is to be seen while the finger leaves the key. */
+const CHECK_DELAY = 50;
+let checkTimer: ReturnType<typeof setTimeout> | undefined;
+let checkTurn = 0;
+
+function scheduleCheck(): void {
+  clearTimeout(checkTimer);
+  checkTimer = setTimeout(() => void check(), CHECK_DELAY);
+}
+
+/** Asks the compiler about the texts as they stand; an answer that was overtaken is dropped. */
+async function check(): Promise<void> {
+  const { project, open } = get();
+  if (project === null) return;
+  checkTurn += 1;
+  const turn = checkTurn;
+  const dirty = Object.values(open).filter(isDirty);
+  try {
+    const result = await rest.check(
+      project,
+      Object.fromEntries(dirty.map((document) => [document.path, document.text])),
+    );
+    if (turn !== checkTurn || get().project !== project) return;
+    const broken = result.problems.some((problem) => problem.severity === "error");
+    set({ problems: result.problems, pous: result.pous, ...(broken ? {} : { checks: result.checks }) });
+  } catch (error) {
+    if (turn === checkTurn) set({ trouble: messageOf(error) });
+  }
+}

@@ -1,0 +1,19 @@
+/** The text of a file as it was saved last, for panels that show lines of it without opening it. */
+import { rest } from "../../wire/rest";
+import { useBench } from "../plc/bench";
+import { useDocuments } from "./documents";
+
+/** Null: there is no such file (any more), or nobody answers. */
+export async function savedText(path: string): Promise<string | null> {
+  const open = useDocuments.getState().open[path];
+  if (open) return open.savedText;
+  const project = useBench.getState().project?.id;
+  const { files, project: listed } = useDocuments.getState();
+  if (project === undefined) return null;
+  if (listed === project && files.length > 0 && !files.some((file) => file.path === path)) return null;
+  try {
+    return (await rest.file(project, path)).text;
+  } catch {
+    return null;
+  }
+}

@@ -1,6 +1,0 @@
-/** The user does not want to wait for the next turn of the back-off. */
-import { link } from "../wire/socket";
-
-export function reconnectNow(): void {
-  link.tryNow();
-}

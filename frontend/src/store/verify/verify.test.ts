@@ -1,0 +1,90 @@
+import { afterEach, beforeEach, expect, it, vi } from "vitest";
+import type { VerificationInfo } from "../../wire/types";
+import { verify as wire } from "../../wire/verify";
+import { drive, onVerifications, resetVerify, setCell, useVerify } from "./verify";
+
+const info = (memory: VerificationInfo["memory"], compared: number): VerificationInfo => ({
+  id: 1,
+  by: "Ada",
+  title: "Belt",
+  range: { pou: "Belt", file: "", first: 0, last: 0, instance: "" },
+  source: "live",
+  trace: "",
+  pace: "free",
+  auto: false,
+  memory,
+  state: "verifying",
+  message: "",
+  instances: [],
+  limit: 4096,
+  first: 100,
+  last: null,
+  scan: null,
+  compared,
+  skipped: 0,
+  stretches: [],
+  differing: 0,
+  first_difference: null,
+  first_scan: null,
+  rows: 0,
+  forgotten: 0,
+  used: 0,
+  generation: 0,
+});
+
+/** An answer that comes when it is told to. */
+function slow(on: "drive" | "setCells"): (answer: VerificationInfo) => void {
+  let come: (answer: VerificationInfo) => void = () => {};
+  vi.spyOn(wire, on).mockReturnValue(
+    new Promise((resolve) => {
+      come = resolve;
+    }),
+  );
+  return (answer) => come(answer);
+}
+
+beforeEach(() => {
+  // The rows that are in sight are not what this is about.
+  vi.spyOn(wire, "rows").mockResolvedValue({ columns: [], rows: [], first: 0, count: 0, differing: [] });
+  resetVerify();
+  onVerifications([info("recorded", 1)]);
+});
+afterEach(() => vi.restoreAllMocks());
+
+const known = () => useVerify.getState().verifications.map(({ memory, compared }) => [memory, compared]);
+
+it("takes an answer over as long as nothing newer was told", async () => {
+  const answer = slow("drive");
+  const driven = drive({ memory: "set" });
+  answer(info("set", 1));
+  expect(await driven).toBe(true);
+  expect(known()).toEqual([["set", 1]]);
+});
+
+it("does not take an answer over what was told meanwhile", async () => {
+  const answer = slow("drive");
+  const driven = drive({ memory: "set" });
+  onVerifications([info("set", 7)]);
+  answer(info("recorded", 1));
+  await driven;
+  expect(known()).toEqual([["set", 7]]);
+});
+
+it("neither for edited inputs", async () => {
+  onVerifications([info("set", 2)]);
+  const answer = slow("setCells");
+  const edited = setCell(100, 1, "position", "7");
+  onVerifications([info("set", 9)]);
+  answer(info("set", 2));
+  expect(await edited).toBeNull();
+  expect(known()).toEqual([["set", 9]]);
+});
+
+it("what was ended meanwhile does not come back by an answer", async () => {
+  const answer = slow("drive");
+  const driven = drive({ action: "stop" });
+  onVerifications([]);
+  answer(info("set", 1));
+  await driven;
+  expect(known()).toEqual([]);
+});
