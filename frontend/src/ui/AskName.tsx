@@ -1,7 +1,7 @@
 import { type ReactNode, useState } from "react";
 import { t } from "../text";
-import { Dialog } from "./Dialog";
 import { Field } from "./Field";
+import { FormDialog } from "./FormDialog";
 
 interface Props {
   title: string;
@@ -22,56 +22,30 @@ interface Props {
 
 /** A dialog that asks for one name. */
 export function AskName({
-  title,
-  about,
   label,
   action,
   initial = "",
   missing = t("name.missing"),
   onName,
-  onClose,
   children,
+  ...frame
 }: Props) {
   const [typed, setTyped] = useState<string | null>(null);
   const name = typed ?? initial;
-  const [refused, setRefused] = useState<string | null>(null);
-  const [busy, setBusy] = useState(false);
 
   async function submit(): Promise<void> {
-    if (name.trim() === "") {
-      setRefused(missing);
-      return;
-    }
-    setBusy(true);
-    try {
-      await onName(name.trim());
-      onClose();
-    } catch (error) {
-      setRefused(error instanceof Error ? error.message : String(error));
-      setBusy(false);
-    }
+    if (name.trim() === "") throw new Error(missing);
+    await onName(name.trim());
   }
 
   return (
-    <Dialog
-      title={title}
-      about={about}
-      onClose={onClose}
-      onSubmit={() => void submit()}
-      footer={
+    <FormDialog {...frame} submit={action} onSubmit={submit}>
+      {({ refused }) => (
         <>
-          <span className="grow" />
-          <button type="button" className="btn quiet" onClick={onClose}>
-            {t("cancel")}
-          </button>
-          <button type="submit" className="btn primary" disabled={busy}>
-            {action}
-          </button>
+          {children}
+          <Field label={label} value={name} onChange={setTyped} refused={refused} />
         </>
-      }
-    >
-      {children}
-      <Field label={label} value={name} onChange={setTyped} refused={refused} />
-    </Dialog>
+      )}
+    </FormDialog>
   );
 }

@@ -12,10 +12,12 @@ interface Props {
   onClose: () => void;
   /** Enter in a field, or the primary button. */
   onSubmit?: () => void;
+  /** Something in it was typed or chosen. */
+  onEdit?: () => void;
 }
 
 /** A modal dialog: the browser traps the focus, Escape closes. */
-export function Dialog({ title, about, width = 460, children, footer, onClose, onSubmit }: Props) {
+export function Dialog({ title, about, width = 460, children, footer, onClose, onSubmit, onEdit }: Props) {
   const dialog = useRef<HTMLDialogElement>(null);
   const id = useId();
   useEffect(() => {
@@ -38,7 +40,7 @@ export function Dialog({ title, about, width = 460, children, footer, onClose, o
         onClose();
       }}
     >
-      <form onSubmit={submit} method="dialog">
+      <form onSubmit={submit} onChange={onEdit} method="dialog">
         <header>
           <div className="grow">
             <h2 id={id}>{title}</h2>

@@ -1,5 +1,6 @@
-import { type KeyboardEvent, type ReactNode, useEffect, useLayoutEffect, useRef, useState } from "react";
+import { type KeyboardEvent, type ReactNode, useCallback, useEffect, useLayoutEffect, useRef, useState } from "react";
 import { createPortal } from "react-dom";
+import { t } from "../text";
 import { Icon, type IconName } from "./Icon";
 
 export interface MenuItem {
@@ -91,6 +92,16 @@ export function Menu({ label, items, at, onClose }: MenuProps) {
     </div>,
     layer(),
   );
+}
+
+/** The menu of a row or a place: what opens it, and the menu while it is open. */
+export function useMenu(label = t("menu.label")) {
+  const [menu, setMenu] = useState<Pick<MenuProps, "items" | "at"> | null>(null);
+  const open = useCallback((items: MenuProps["items"], at: MenuProps["at"]) => setMenu({ items, at }), []);
+  return {
+    open,
+    menu: menu && <Menu label={label} {...menu} onClose={() => setMenu(null)} />,
+  };
 }
 
 /** What is outside of a modal dialog cannot be clicked: the menu of one stands in it. */

@@ -1,17 +1,12 @@
-import { type ClipboardEvent, type KeyboardEvent, useEffect, useId, useRef, useState } from "react";
-import { t } from "../text";
+import { type ClipboardEvent, type KeyboardEvent, useEffect, useState } from "react";
+import { ComboBox } from "./ComboBox";
 import { Icon } from "./Icon";
+import { type Offer, useOffers } from "./useOffers";
 
 /** What is in the line now; and why what was typed is not taken. */
 interface Taken {
   text: string;
   odd?: string;
-}
-
-/** A path, and what stands beside it. */
-interface Offer {
-  path: string;
-  type: string;
 }
 
 interface Props<T extends Offer> {
@@ -26,58 +21,33 @@ interface Props<T extends Offer> {
   onPaste?: (text: string) => boolean;
 }
 
-const DELAY = 80;
-
-/** Typing a path, with what the running program has to offer: arrows choose, Tab takes into the line, Enter takes. */
+/** Typing a path, with what the running program has to offer: Tab takes into the line, Enter takes. */
 export function PathBox<T extends Offer>(props: Props<T>) {
-  const { label, placeholder, className = "", complete, onType, onTake, onPaste } = props;
+  const { className = "", complete, onType, onTake, onPaste, ...field } = props;
+  const offering = useOffers(complete);
   const [text, setText] = useState("");
-  const [offers, setOffers] = useState<readonly T[]>([]);
-  const [chosen, setChosen] = useState(-1);
   const [odd, setOdd] = useState("");
-  const turn = useRef(0);
-  const id = useId();
 
-  useEffect(() => {
-    turn.current += 1;
-    const mine = turn.current;
-    if (text.trim() === "") {
-      setOffers([]);
-      return;
-    }
-    const timer = setTimeout(() => {
-      void complete(text.trim()).then((symbols) => {
-        if (turn.current !== mine) return;
-        setOffers(symbols);
-        setChosen(-1);
-      });
-    }, DELAY);
-    return () => clearTimeout(timer);
-  }, [text, complete]);
+  const { ask } = offering;
+  useEffect(() => ask(text), [ask, text]);
+
+  function type(next: string): void {
+    setText(next);
+    setOdd("");
+  }
 
   async function settle(taken: Taken | Promise<Taken>): Promise<void> {
-    turn.current += 1; // offers that are on their way come too late
-    setOffers([]);
+    offering.close(); // offers that are on their way come too late
     const now = await taken;
     setText((typed) => (typed === text ? now.text : typed)); // somebody may have gone on typing
     setOdd(now.odd ?? "");
   }
 
-  function close(): void {
-    setOffers([]);
-    setOdd("");
-  }
-
-  function onKeyDown(event: KeyboardEvent): void {
-    const count = offers.length;
-    const offer = offers[chosen];
-    if (event.key === "ArrowDown" && count > 0) setChosen((chosen + 1) % count);
-    else if (event.key === "ArrowUp" && count > 0) setChosen((chosen + count - 1) % count);
-    else if (event.key === "Tab" && offer) setText(offer.path);
-    else if (event.key === "Escape" && (count > 0 || odd)) close();
-    else if (event.key === "Enter") void settle(offer ? onTake(offer) : onType(text));
-    else return;
-    event.preventDefault();
+  function onKey({ key }: KeyboardEvent): boolean {
+    if (key === "Escape" && odd) setOdd("");
+    else if (key === "Enter") void settle(onType(text));
+    else return false;
+    return true;
   }
 
   function onPasted(event: ClipboardEvent): void {
@@ -87,54 +57,26 @@ export function PathBox<T extends Offer>(props: Props<T>) {
     void settle({ text: "" });
   }
 
-  const open = offers.length > 0;
   return (
     <div className={`addbox ${className}`}>
       <span className="inp sm">
         <Icon name="plus" small />
-        <input
-          role="combobox"
-          aria-label={label}
-          aria-expanded={open}
-          aria-controls={id}
-          aria-autocomplete="list"
-          aria-activedescendant={chosen >= 0 ? `${id}-${chosen}` : undefined}
-          placeholder={placeholder}
+        <ComboBox
+          {...field}
           value={text}
-          spellCheck={false}
-          autoComplete="off"
-          aria-invalid={odd !== ""}
-          onChange={(event) => {
-            setText(event.target.value);
-            setOdd("");
-          }}
-          onKeyDown={onKeyDown}
+          offering={offering}
+          bad={odd !== ""}
+          onType={type}
+          onTake={(offer, by) => (by === "Tab" ? type(offer.path) : void settle(onTake(offer)))}
+          onKey={onKey}
           onPaste={onPasted}
-          onBlur={close}
+          onBlur={() => setOdd("")}
+          list="menu offers"
         />
       </span>
       {odd && (
         <div className="menu offers nopath" role="alert">
           {odd}
-        </div>
-      )}
-      {open && (
-        <div className="menu offers" role="listbox" id={id} aria-label={t("watch.offers")}>
-          {offers.map((symbol, index) => (
-            <div
-              key={symbol.path}
-              id={`${id}-${index}`}
-              role="option"
-              aria-selected={index === chosen}
-              className={`mi${index === chosen ? " on" : ""}`}
-              onPointerDown={(event) => event.preventDefault()}
-              onClick={() => void settle(onTake(symbol))}
-            >
-              <Icon name="var" small />
-              <span className="mono cut">{symbol.path}</span>
-              <span className="k">{symbol.type}</span>
-            </div>
-          ))}
         </div>
       )}
     </div>

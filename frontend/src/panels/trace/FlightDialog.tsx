@@ -1,13 +1,12 @@
 import { useState } from "react";
-import { messageOf } from "../../logic/format/messageOf";
 import { grouped, interval } from "../../logic/format/numbers";
 import { spanText } from "../../logic/trace/plots";
 import { usePlc } from "../../store/plc/plc";
 import { liveScan, useTimeline } from "../../store/plc/timeline";
 import { fly, shownOf, useTraces } from "../../store/trace/traces";
 import { t } from "../../text";
-import { Dialog } from "../../ui/Dialog";
 import { Field } from "../../ui/Field";
+import { FormDialog } from "../../ui/FormDialog";
 
 /** The flight recorder: the last scans of any variables, found out from the journal. */
 export function FlightDialog({ onClose }: { onClose: () => void }) {
@@ -17,7 +16,6 @@ export function FlightDialog({ onClose }: { onClose: () => void }) {
   const [signals, setSignals] = useState(shown?.signals.map(({ text }) => text).join("\n") ?? "");
   const [scans, setScans] = useState("1000");
   const [every, setEvery] = useState("1");
-  const [refused, setRefused] = useState<string | null>(null);
   const there = liveScan() - kept;
   const count = Number(scans.replace(/\D/g, ""));
 
@@ -26,49 +24,38 @@ export function FlightDialog({ onClose }: { onClose: () => void }) {
       .split("\n")
       .map((line) => line.trim())
       .filter(Boolean);
-    if (wanted.length === 0) return setRefused(t("trace.flight.nosignals"));
-    if (!(count > 0)) return setRefused(t("trace.flight.noscans"));
-    try {
-      await fly(wanted, Math.min(count, there), Math.max(1, Number(every) || 1));
-      onClose();
-    } catch (error) {
-      setRefused(messageOf(error));
-    }
+    if (wanted.length === 0) throw new Error(t("trace.flight.nosignals"));
+    if (!(count > 0)) throw new Error(t("trace.flight.noscans"));
+    await fly(wanted, Math.min(count, there), Math.max(1, Number(every) || 1));
   }
 
   return (
-    <Dialog
+    <FormDialog
       title={t("trace.flight.title")}
       about={t("trace.flight.about")}
+      submit={t("trace.flight.record")}
+      onSubmit={submit}
       onClose={onClose}
-      onSubmit={() => void submit()}
-      footer={
-        <>
-          <span className="grow" />
-          <button type="button" className="btn quiet" onClick={onClose}>
-            {t("cancel")}
-          </button>
-          <button type="submit" className="btn primary">
-            {t("trace.flight.record")}
-          </button>
-        </>
-      }
     >
-      <label className="field">
-        <span>{t("trace.flight.signals")}</span>
-        <textarea
-          className="inp mono trsignals"
-          rows={6}
-          value={signals}
-          spellCheck={false}
-          onChange={(event) => setSignals(event.target.value)}
-        />
-      </label>
-      <Field label={t("trace.flight.scans", { there: grouped(there) })} value={scans} onChange={setScans} mono />
-      <Field label={t("trace.flight.every")} value={every} onChange={setEvery} mono refused={refused} />
-      <p className="hint">
-        {t("trace.flight.span", { span: spanText(Math.min(count, there) * period), interval: interval(period) })}
-      </p>
-    </Dialog>
+      {({ refused }) => (
+        <>
+          <label className="field">
+            <span>{t("trace.flight.signals")}</span>
+            <textarea
+              className="inp mono trsignals"
+              rows={6}
+              value={signals}
+              spellCheck={false}
+              onChange={(event) => setSignals(event.target.value)}
+            />
+          </label>
+          <Field label={t("trace.flight.scans", { there: grouped(there) })} value={scans} onChange={setScans} mono />
+          <Field label={t("trace.flight.every")} value={every} onChange={setEvery} mono refused={refused} />
+          <p className="hint">
+            {t("trace.flight.span", { span: spanText(Math.min(count, there) * period), interval: interval(period) })}
+          </p>
+        </>
+      )}
+    </FormDialog>
   );
 }

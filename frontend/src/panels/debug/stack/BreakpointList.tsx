@@ -7,7 +7,7 @@ import { usePlc } from "../../../store/plc/plc";
 import { useDocuments } from "../../../store/project/documents";
 import { t } from "../../../text";
 import { IconButton } from "../../../ui/IconButton";
-import { Menu, type MenuItem } from "../../../ui/Menu";
+import { type MenuItem, useMenu } from "../../../ui/Menu";
 import { Tree, type TreeRow } from "../../../ui/Tree";
 import type { BreakpointInfo } from "../../../wire/types";
 import { AddBreakpoint } from "./AddBreakpoint";
@@ -18,13 +18,11 @@ import { Section } from "./Section";
 export function BreakpointList() {
   const breakpoints = useDebug((debug) => debug.breakpoints);
   const you = usePlc((plc) => plc.you?.name);
-  const [menu, setMenu] = useState<{ items: readonly MenuItem[]; at: { x: number; y: number } } | null>(null);
+  const { open, menu } = useMenu();
   const [edited, setEdited] = useState<BreakpointInfo | null>(null);
   const edit = (known: BreakpointInfo) => (known.kind === "line" ? editInText(known) : setEdited(known));
   const pous = useDocuments((documents) => documents.pous);
-  const rows = breakpoints.map((known) =>
-    rowOf(known, placeOf(known, pous), you, edit, (items, at) => setMenu({ items, at })),
-  );
+  const rows = breakpoints.map((known) => rowOf(known, placeOf(known, pous), you, edit, open));
   return (
     <Section
       id="breakpoints"
@@ -44,7 +42,7 @@ export function BreakpointList() {
       ) : (
         <p className="sectnote">{t("debug.bp.none")}</p>
       )}
-      {menu && <Menu label={t("menu.label")} {...menu} onClose={() => setMenu(null)} />}
+      {menu}
       {edited && <EditBreakpoint known={edited} onClose={() => setEdited(null)} />}
     </Section>
   );

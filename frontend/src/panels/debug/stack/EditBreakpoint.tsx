@@ -4,9 +4,8 @@ import { allErrors } from "../../../logic/errors/catalogue";
 import { reasonOf, removeBreakpoints, setBreakpoint, wantedOf } from "../../../store/debug/debug";
 import { useBench } from "../../../store/plc/bench";
 import { t } from "../../../text";
-import { Dialog } from "../../../ui/Dialog";
 import { Field } from "../../../ui/Field";
-import { Icon } from "../../../ui/Icon";
+import { FormDialog } from "../../../ui/FormDialog";
 import type { BreakpointInfo } from "../../../wire/types";
 
 interface Props {
@@ -22,49 +21,27 @@ export function EditBreakpoint({ known, onClose }: Props) {
   const id = "id" in known ? known.id : null;
   const [wanted, setWanted] = useState<Wanted>("id" in known ? wantedOf(known) : known);
   const [scan, setScan] = useState(known.scan > 0 ? String(known.scan) : "");
-  const [refused, setRefused] = useState<string | null>(null);
-  const change = (part: Partial<Wanted>) => {
-    setRefused(null);
-    setWanted({ ...wanted, ...part });
-  };
+  const change = (part: Partial<Wanted>) => setWanted({ ...wanted, ...part });
 
   async function submit(): Promise<void> {
     const missing = missingIn(wanted, scan);
-    if (missing) {
-      setRefused(missing);
-      return;
-    }
-    try {
-      const answer = await setBreakpoint({ ...wanted, scan: wanted.kind === "scan" ? Number(scan) : 0 }, id);
-      if (answer.trouble === null) {
-        onClose();
-        return;
-      }
-      setRefused(answer.trouble);
-      // A new one that can never hold stands nowhere else than here: there is no line at which it could be mended.
-      if (id === null && answer.id !== null) await removeBreakpoints([answer.id]);
-    } catch (error) {
-      setRefused(reasonOf(error));
-    }
+    if (missing) throw new Error(missing);
+    const answer = await setBreakpoint({ ...wanted, scan: wanted.kind === "scan" ? Number(scan) : 0 }, id).catch(
+      (error: unknown) => Promise.reject(new Error(reasonOf(error))),
+    );
+    if (answer.trouble === null) return;
+    // A new one that can never hold stands nowhere else than here: there is no line at which it could be mended.
+    if (id === null && answer.id !== null) await removeBreakpoints([answer.id]);
+    throw new Error(answer.trouble);
   }
 
   return (
-    <Dialog
+    <FormDialog
       title={id === null ? t(`debug.new.${newName(wanted.kind)}`) : placeOf(known)}
       about={t("debug.edit.about")}
+      submit={t(id === null ? "debug.form.set" : "debug.form.change")}
+      onSubmit={submit}
       onClose={onClose}
-      onSubmit={() => void submit()}
-      footer={
-        <>
-          <span className="grow" />
-          <button type="button" className="btn quiet" onClick={onClose}>
-            {t("cancel")}
-          </button>
-          <button type="submit" className="btn primary">
-            {t(id === null ? "debug.form.set" : "debug.form.change")}
-          </button>
-        </>
-      }
     >
       {wanted.kind === "data" && <Data wanted={wanted} onChange={change} />}
       {wanted.kind === "error" && <RaisedError wanted={wanted} onChange={change} />}
@@ -85,13 +62,7 @@ export function EditBreakpoint({ known, onClose }: Props) {
         mono
         placeholder={t("debug.form.hits.hint")}
       />
-      {refused && (
-        <span className="hint bad" role="alert">
-          <Icon name="error" small />
-          {refused}
-        </span>
-      )}
-    </Dialog>
+    </FormDialog>
   );
 }
 

@@ -17,7 +17,7 @@ import { forceOf, useForces } from "../../../store/watch/forces";
 import { addToWatch } from "../../../store/watch/watchlist";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
-import { Menu, type MenuItem } from "../../../ui/Menu";
+import { type MenuItem, useMenu } from "../../../ui/Menu";
 import { Tree, type TreeRow } from "../../../ui/Tree";
 import { Section } from "./Section";
 
@@ -35,8 +35,8 @@ export function Variables() {
   const stack = useStack();
   const past = usePlc((plc) => plc.state?.past != null);
   const [edited, edit] = useState<string | null>(null);
-  const [menu, setMenu] = useState<{ items: readonly MenuItem[]; at: { x: number; y: number } } | null>(null);
-  const doing: Doing = { edited, edit, openMenu: (items, at) => setMenu({ items, at }), past };
+  const { open, menu } = useMenu();
+  const doing: Doing = { edited, edit, openMenu: open, past };
   const rows = stack.scopes.flatMap((scope): TreeRow[] => {
     const open = stack.open.has(scope.name);
     const toggle = () => void toggleVariable(scope.name, scope.variablesReference);
@@ -55,7 +55,7 @@ export function Variables() {
   return (
     <Section id="variables" title={t("debug.variables")}>
       <Tree label={t("debug.variables")} rows={rows} />
-      {menu && <Menu label={t("menu.label")} {...menu} onClose={() => setMenu(null)} />}
+      {menu}
     </Section>
   );
 }

@@ -1,7 +1,6 @@
 import { useEffect, useMemo, useState } from "react";
 import { everything, type HistoryView, recordLines } from "../../../logic/errors/history";
 import { VERDICTS } from "../../../logic/errors/sweep";
-import { messageOf } from "../../../logic/format/messageOf";
 import { dayTime } from "../../../logic/format/numbers";
 import { useCatalogueOf } from "../../../store/errors/catalogue";
 import { deleteRecord, importedAddress, loadRecord, showRecord, useRecords } from "../../../store/errors/records";
@@ -88,7 +87,6 @@ function Whole({ imported }: { imported: ImportedRecord }) {
           hint={t("record.delete.hint")}
           verb={t("record.delete")}
           onDo={() => deleteRecord(info)}
-          reasonOf={messageOf}
           onClose={() => setDoomed(false)}
         />
       )}

@@ -1,11 +1,10 @@
-import { useVirtualizer } from "@tanstack/react-virtual";
-import { type KeyboardEvent, useEffect, useRef } from "react";
+import { type KeyboardEvent, useEffect } from "react";
 import { type MatrixRow, type Place, stateWord, stepIn } from "../../../logic/errors/sweep";
 import { t } from "../../../text";
+import { ROW, useGrid } from "../../../ui/useGrid";
 import type { CellRef, Sweep } from "../../../wire/types";
 import { cellId, Row } from "./Row";
 
-const ROW = 24;
 const GROUP = 28;
 
 interface Props {
@@ -19,20 +18,16 @@ interface Props {
 
 /** Errors by states; only the rows in sight exist in the page. Arrow keys move, Home and End lead along a row, with Ctrl to the corners. */
 export function Matrix({ sweep, rows, selected, onSelect, onEnter }: Props) {
-  const grid = useRef<HTMLDivElement>(null);
   const { states } = sweep;
   const row = rows.findIndex((known) => known.kind === "error" && known.error.id === selected?.error);
   const column = selected ? states.indexOf(selected.state) : -1;
   const place = row >= 0 && column >= 0 ? { row, column } : null;
-  const virtual = useVirtualizer({
+  const { virtual, ...lines } = useGrid({
     count: rows.length,
-    getScrollElement: () => grid.current,
-    estimateSize: (index) => (rows[index]?.kind === "group" ? GROUP : ROW),
-    overscan: 6,
-    scrollMargin: ROW,
-    scrollPaddingStart: ROW,
-    getItemKey: (index) => keyOf(rows[index], index),
+    heightOf: (index) => (rows[index]?.kind === "group" ? GROUP : ROW),
+    keyOf: (index) => keyOf(rows[index], index),
   });
+  const grid = lines.scroll;
 
   // Another view has other rows at other heights.
   // biome-ignore lint/correctness/useExhaustiveDependencies: the rows are the reason
@@ -99,8 +94,9 @@ export function Matrix({ sweep, rows, selected, onSelect, onEnter }: Props) {
           </span>
         ))}
       </div>
-      <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
-        {virtual.getVirtualItems().map(({ index, key, start }) => {
+      <div {...lines.body}>
+        {lines.items.map((item) => {
+          const { index, key } = item;
           const known = rows[index];
           return (
             known && (
@@ -109,7 +105,7 @@ export function Matrix({ sweep, rows, selected, onSelect, onEnter }: Props) {
                 sweep={sweep.id}
                 row={known}
                 index={index}
-                top={start - ROW}
+                top={lines.topOf(item)}
                 states={states}
                 column={index === row ? column : null}
                 onSelect={onSelect}

@@ -1,5 +1,4 @@
 import { type ReactNode, useEffect, useState } from "react";
-import { messageOf } from "../../../logic/format/messageOf";
 import { grouped } from "../../../logic/format/numbers";
 import { useCatalogue } from "../../../store/errors/catalogue";
 import { useSimulator } from "../../../store/errors/simulator";
@@ -7,8 +6,8 @@ import { beginSweep, closeQuestion, useSweeps } from "../../../store/errors/swee
 import { useBench } from "../../../store/plc/bench";
 import { usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
-import { Dialog } from "../../../ui/Dialog";
 import { Field } from "../../../ui/Field";
+import { FormDialog } from "../../../ui/FormDialog";
 import { Icon } from "../../../ui/Icon";
 import { KeepHere } from "./KeepHere";
 
@@ -29,8 +28,6 @@ export function RunAll() {
   const [from, setFrom] = useState<"now" | "states">(states.length > 0 ? "states" : "now");
   const [left, setLeft] = useState<ReadonlySet<number>>(new Set());
   const [window, setWindow] = useState(String(WINDOW));
-  const [refused, setRefused] = useState<string | null>(null);
-  const [busy, setBusy] = useState(false);
   // The states of the project may come after the dialog.
   useEffect(() => setFrom(states.length > 0 ? "states" : "now"), [states.length]);
 
@@ -47,18 +44,11 @@ export function RunAll() {
   const why = count === 0 ? t("sweep.run.noerrors") : points === 0 ? t("sweep.run.nostates") : null;
 
   async function begin(): Promise<void> {
-    if (why || badWindow) return;
-    setBusy(true);
-    try {
-      await beginSweep({
-        errors: which === "all" ? null : chosen[which],
-        states: begins.map(({ id }) => id),
-        window: scans,
-      });
-    } catch (error) {
-      setRefused(messageOf(error));
-      setBusy(false);
-    }
+    await beginSweep({
+      errors: which === "all" ? null : chosen[which],
+      states: begins.map(({ id }) => id),
+      window: scans,
+    });
   }
 
   const toggle = (id: number) => {
@@ -68,23 +58,15 @@ export function RunAll() {
   };
 
   return (
-    <Dialog
+    <FormDialog
       title={t("sweep.run.title")}
       about={t("sweep.run.about")}
       width={560}
+      submit={t("sweep.run.do", { count: grouped(count * points) })}
+      disabled={why !== null || badWindow !== null}
+      onSubmit={begin}
       onClose={closeQuestion}
-      onSubmit={() => void begin()}
-      footer={
-        <>
-          <Outlook refused={refused} why={why} count={count} points={points} />
-          <button type="button" className="btn quiet" onClick={closeQuestion}>
-            {t("cancel")}
-          </button>
-          <button type="submit" className="btn primary" disabled={busy || why !== null || badWindow !== null}>
-            {t("sweep.run.do", { count: grouped(count * points) })}
-          </button>
-        </>
-      }
+      aside={({ refused }) => <Outlook refused={refused} why={why} count={count} points={points} />}
     >
       <fieldset className="choices">
         <legend>{t("sweep.run.errors")}</legend>
@@ -142,7 +124,7 @@ export function RunAll() {
         <KeepHere taken={states.map(({ name }) => name)} />
       </fieldset>
       <Field label={t("sweep.run.window")} value={window} onChange={setWindow} refused={badWindow} mono />
-    </Dialog>
+    </FormDialog>
   );
 }
 

@@ -1,5 +1,4 @@
 import { useState } from "react";
-import { messageOf } from "../../../logic/format/messageOf";
 import { dayTime, grouped } from "../../../logic/format/numbers";
 import { deleteState, useSweeps } from "../../../store/errors/sweeps";
 import { t } from "../../../text";
@@ -67,7 +66,6 @@ export function States() {
           hint={t("states.delete.hint", { instance: doomed.instance })}
           verb={t("sweep.delete.do")}
           onDo={() => deleteState(doomed)}
-          reasonOf={messageOf}
           onClose={() => setDoomed(null)}
         />
       )}

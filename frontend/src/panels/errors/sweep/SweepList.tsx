@@ -1,6 +1,5 @@
 import { useState } from "react";
 import { stateWord, VERDICTS } from "../../../logic/errors/sweep";
-import { messageOf } from "../../../logic/format/messageOf";
 import { dayTime, percent } from "../../../logic/format/numbers";
 import { compareSweeps, deleteSweep, keepState, openSweep, showSweep } from "../../../store/errors/sweeps";
 import { useBench } from "../../../store/plc/bench";
@@ -77,7 +76,6 @@ export function SweepList({ list }: { list: readonly SweepSummary[] }) {
           hint={t(doomed.status === "running" ? "sweep.delete.running" : "sweep.delete.hint")}
           verb={t("sweep.delete.do")}
           onDo={() => deleteSweep(doomed.id)}
-          reasonOf={messageOf}
           onClose={() => setDoomed(null)}
         />
       )}

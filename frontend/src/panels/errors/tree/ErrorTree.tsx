@@ -1,9 +1,9 @@
-import { type KeyboardEvent, type MouseEvent, useEffect, useRef, useState } from "react";
+import { type KeyboardEvent, type MouseEvent, useEffect, useRef } from "react";
 import { type CatalogueRow, rowFor } from "../../../logic/errors/catalogue";
 import { addErrorBreakpoint } from "../../../store/debug/debug";
 import { selectError, toggleChecked, toggleGroup, useSimulator } from "../../../store/errors/simulator";
 import { t } from "../../../text";
-import { Menu, type MenuItem } from "../../../ui/Menu";
+import { type MenuItem, useMenu } from "../../../ui/Menu";
 import { Group, Leaf, RefusalRow } from "./rows";
 
 interface Props {
@@ -23,7 +23,7 @@ export function ErrorTree({ rows, label, refused, onGenerate }: Props) {
   const typed = useRef({ text: "", at: 0 });
   const selected = useSimulator((state) => state.selected);
   const now = rows.findIndex((row) => row.key === selected);
-  const [menu, setMenu] = useState<{ items: readonly MenuItem[]; at: { x: number; y: number } } | null>(null);
+  const { open, menu } = useMenu();
   useRowInSight(grid, selected);
 
   /** By the mouse at the row below it, by the menu key at the one selected. */
@@ -38,7 +38,7 @@ export function ErrorTree({ rows, label, refused, onGenerate }: Props) {
       icon: "bp-data",
       onSelect: () => void addErrorBreakpoint(row.error.id),
     };
-    setMenu({ items: [raised], at: { x: event.clientX, y: event.clientY } });
+    open([raised], { x: event.clientX, y: event.clientY });
   }
 
   function move(index: number): void {
@@ -107,7 +107,7 @@ export function ErrorTree({ rows, label, refused, onGenerate }: Props) {
         ),
       )}
       {rows.length === 0 && <p className="lonely faint">{t("errors.nomatch")}</p>}
-      {menu && <Menu label={t("menu.label")} {...menu} onClose={() => setMenu(null)} />}
+      {menu}
     </div>
   );
 }

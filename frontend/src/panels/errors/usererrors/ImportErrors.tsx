@@ -1,7 +1,7 @@
 import { useState } from "react";
 import { importUserErrors, isEdited, useUserErrors } from "../../../store/errors/userErrors";
 import { t } from "../../../text";
-import { Dialog } from "../../../ui/Dialog";
+import { FormDialog } from "../../../ui/FormDialog";
 import { Icon } from "../../../ui/Icon";
 
 /** Asks for a file, and what becomes of the errors that are here. It stays open while the file is wrong. */
@@ -10,64 +10,53 @@ export function ImportErrors({ onClose }: { onClose: () => void }) {
   const count = state.errors.length;
   const [file, setFile] = useState<File | null>(null);
   const [how, setHow] = useState<"replace" | "add">(count > 0 ? "add" : "replace");
-  const [refused, setRefused] = useState<string | null>(null);
-  const choose = (chosen: File | null) => {
-    setFile(chosen);
-    setRefused(null);
-  };
 
   async function take(): Promise<void> {
     const why = file ? await importUserErrors(file, how) : t("usererrors.import.missing");
-    if (why === null) onClose();
-    else setRefused(why);
+    if (why !== null) throw new Error(why);
   }
 
   return (
-    <Dialog
+    <FormDialog
       title={t("usererrors.import.title")}
       about={t("usererrors.import.about")}
+      submit={t("usererrors.import.do")}
+      onSubmit={take}
       onClose={onClose}
-      onSubmit={() => void take()}
-      footer={
-        <>
-          <span className="grow hint bad">{isEdited(state) && t("usererrors.import.edited")}</span>
-          <button type="button" className="btn quiet" onClick={onClose}>
-            {t("cancel")}
-          </button>
-          <button type="submit" className="btn primary">
-            {t("usererrors.import.do")}
-          </button>
-        </>
-      }
+      aside={<span className="grow hint bad">{isEdited(state) && t("usererrors.import.edited")}</span>}
     >
-      <label className="field">
-        <span>{t("usererrors.import.file")}</span>
-        <input
-          type="file"
-          accept=".xml,application/xml,text/xml"
-          className="inp file"
-          onChange={(event) => choose(event.target.files?.[0] ?? null)}
-        />
-      </label>
-      {count > 0 && (
-        <fieldset className="uehow">
-          <legend>{t("usererrors.import.how")}</legend>
-          {(["add", "replace"] as const).map((each) => (
-            <label key={each} className="row">
-              <input type="radio" name="how" checked={how === each} onChange={() => setHow(each)} />
-              {count === 1 ? t(`usererrors.import.${each}.one`) : t(`usererrors.import.${each}`, { count })}
-            </label>
-          ))}
-        </fieldset>
+      {({ refused }) => (
+        <>
+          <label className="field">
+            <span>{t("usererrors.import.file")}</span>
+            <input
+              type="file"
+              accept=".xml,application/xml,text/xml"
+              className="inp file"
+              onChange={(event) => setFile(event.target.files?.[0] ?? null)}
+            />
+          </label>
+          {count > 0 && (
+            <fieldset className="uehow">
+              <legend>{t("usererrors.import.how")}</legend>
+              {(["add", "replace"] as const).map((each) => (
+                <label key={each} className="row">
+                  <input type="radio" name="how" checked={how === each} onChange={() => setHow(each)} />
+                  {count === 1 ? t(`usererrors.import.${each}.one`) : t(`usererrors.import.${each}`, { count })}
+                </label>
+              ))}
+            </fieldset>
+          )}
+          <p className="uerefused" role="alert">
+            {refused && (
+              <>
+                <Icon name="error" small />
+                <span>{refused}</span>
+              </>
+            )}
+          </p>
+        </>
       )}
-      <p className="uerefused" role="alert">
-        {refused && (
-          <>
-            <Icon name="error" small />
-            <span>{refused}</span>
-          </>
-        )}
-      </p>
-    </Dialog>
+    </FormDialog>
   );
 }

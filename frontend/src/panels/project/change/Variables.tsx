@@ -1,10 +1,7 @@
-import { useVirtualizer } from "@tanstack/react-virtual";
-import { useRef } from "react";
 import type { Fate } from "../../../logic/project/change";
 import { t } from "../../../text";
+import { useGrid } from "../../../ui/useGrid";
 import type { LostVariable } from "../../../wire/types";
-
-const ROW = 24;
 
 interface Props {
   plc: string;
@@ -14,19 +11,11 @@ interface Props {
 
 /** The variables that share a fate; for those that begin anew it says why. Only the rows in sight exist in the page. */
 export function Variables({ plc, fate, variables }: Props) {
-  const scroll = useRef<HTMLDivElement>(null);
-  const virtual = useVirtualizer({
-    count: variables.length,
-    getScrollElement: () => scroll.current,
-    estimateSize: () => ROW,
-    overscan: 8,
-    scrollMargin: ROW,
-    scrollPaddingStart: ROW,
-  });
+  const grid = useGrid({ count: variables.length });
   const reasons = fate === "anew";
   return (
     <div
-      ref={scroll}
+      ref={grid.scroll}
       className={`grid scroll lost${reasons ? "" : " bare"}`}
       role="table"
       aria-label={`${plc}: ${t(`change.fate.${fate}`)}`}
@@ -38,8 +27,8 @@ export function Variables({ plc, fate, variables }: Props) {
         <span role="columnheader">{t(`change.fate.${fate}`)}</span>
         {reasons && <span role="columnheader">{t("change.why")}</span>}
       </div>
-      <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
-        {virtual.getVirtualItems().map((item) => {
+      <div {...grid.body}>
+        {grid.items.map((item) => {
           const variable = variables[item.index];
           return (
             variable && (
@@ -48,7 +37,7 @@ export function Variables({ plc, fate, variables }: Props) {
                 className="gr"
                 role="row"
                 aria-rowindex={item.index + 2}
-                style={{ transform: `translateY(${item.start - ROW}px)` }}
+                style={{ transform: `translateY(${grid.topOf(item)}px)` }}
               >
                 <span role="cell" className="mono cut" title={variable.path}>
                   {variable.path}

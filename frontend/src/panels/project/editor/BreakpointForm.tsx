@@ -5,6 +5,7 @@ import { loadInstances, useSeenAs } from "../../../store/debug/seenAs";
 import { useTasks } from "../../../store/plc/tasks";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
+import { Segments } from "../../../ui/Segments";
 
 interface Props {
   editing: Editing;
@@ -62,20 +63,13 @@ export function BreakpointForm({ editing, pou, onClose }: Props) {
       onKeyDown={onKeyDown}
     >
       <div className="row wrap">
-        <div className="seg" role="radiogroup" aria-label={t("debug.form.does")}>
-          {DOES.map((each) => (
-            <button
-              key={each}
-              type="button"
-              role="radio"
-              aria-checked={does === each}
-              className={does === each ? "on" : ""}
-              onClick={() => setDoes(each)}
-            >
-              {t(`debug.form.${each}`)}
-            </button>
-          ))}
-        </div>
+        <Segments
+          label={t("debug.form.does")}
+          look=""
+          value={does}
+          options={DOES.map((each) => ({ value: each, word: t(`debug.form.${each}`) }))}
+          onChoose={setDoes}
+        />
         {does !== "halt" && (
           <Entry
             label={t(`debug.form.${does}.label`)}

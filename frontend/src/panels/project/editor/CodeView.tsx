@@ -6,7 +6,7 @@ import { useNavigation } from "../../../store/page/navigate";
 import { build, save, useDocuments } from "../../../store/project/documents";
 import { shownText } from "../../../store/project/shownProgram";
 import { t } from "../../../text";
-import { Menu, type MenuItem } from "../../../ui/Menu";
+import { useMenu } from "../../../ui/Menu";
 import { BreakpointForm } from "./BreakpointForm";
 import "./checks";
 import "./completion";
@@ -36,7 +36,7 @@ const left = new Map<string, editor.ICodeEditorViewState | null>();
 export default function CodeView({ path, past }: { path: string; past: string | null }) {
   const host = useRef<HTMLDivElement>(null);
   const view = useRef<editor.IStandaloneCodeEditor | null>(null);
-  const [menu, setMenu] = useState<{ items: readonly MenuItem[]; at: { x: number; y: number } } | null>(null);
+  const { open, menu } = useMenu(t("debug.menu"));
 
   useEffect(() => {
     const document = useDocuments.getState().open[path];
@@ -61,7 +61,7 @@ export default function CodeView({ path, past }: { path: string; past: string | 
     let gutter: Gutter | null = null;
     const openMenu = (line: number, at: { x: number; y: number }) => {
       if (!gutter) return;
-      setMenu({ items: lineMenu({ path, line, built: gutter.built(line), here: gutter.at(line) }), at });
+      open(lineMenu({ path, line, built: gutter.built(line), here: gutter.at(line) }), at);
     };
     const breakpoints = showBreakpoints(code, path, openMenu);
     gutter = breakpoints;
@@ -98,13 +98,13 @@ export default function CodeView({ path, past }: { path: string; past: string | 
       ran?.dispose();
       view.current = null;
     };
-  }, [path, past]);
+  }, [path, past, open]);
 
   return (
     <>
       <div ref={host} className="codehost" />
       <Editing path={path} view={view} />
-      {menu && <Menu label={t("debug.menu")} {...menu} onClose={() => setMenu(null)} />}
+      {menu}
     </>
   );
 }

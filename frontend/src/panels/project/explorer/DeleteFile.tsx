@@ -1,4 +1,3 @@
-import { messageOf } from "../../../logic/format/messageOf";
 import { deleteFile } from "../../../store/project/documents";
 import { t } from "../../../text";
 import { Confirm } from "../../../ui/Confirm";
@@ -12,7 +11,6 @@ export function DeleteFile({ path, onClose }: { path: string; onClose: () => voi
       hint={t("file.delete.hint")}
       verb={t("file.delete")}
       onDo={() => deleteFile(path)}
-      reasonOf={messageOf}
       onClose={onClose}
     />
   );

@@ -5,22 +5,21 @@ import { useRanApart } from "../../../store/project/shownProgram";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
-import { Menu, type MenuItem } from "../../../ui/Menu";
+import { useMenu } from "../../../ui/Menu";
 import { Tree } from "../../../ui/Tree";
 import { AddFiles } from "./AddFiles";
 import { DeleteFile } from "./DeleteFile";
 import { NewFile } from "./NewFile";
-import { type OpenMenu, useExplorerRows } from "./rows";
+import { useExplorerRows } from "./rows";
 import { useAddFiles } from "./useAddFiles";
 
 /** What there is: files by what they declare, the variables of the running program, memory, model. */
 export function Explorer() {
-  const [menu, setMenu] = useState<{ items: readonly MenuItem[]; at: { x: number; y: number } } | null>(null);
+  const { open, menu } = useMenu();
   const [creating, setCreating] = useState(false);
   const [deleting, setDeleting] = useState<string | null>(null);
   const project = useDocuments((documents) => documents.project);
-  const openMenu: OpenMenu = (items, at) => setMenu({ items, at });
-  const rows = useExplorerRows(openMenu, setDeleting);
+  const rows = useExplorerRows(open, setDeleting);
   const adding = useAddFiles();
 
   function onDrag(event: DragEvent): void {
@@ -55,7 +54,7 @@ export function Explorer() {
       </div>
       <PastNote />
       <Tree label={t("explorer.label")} rows={rows} />
-      {menu && <Menu label={t("menu.label")} items={menu.items} at={menu.at} onClose={() => setMenu(null)} />}
+      {menu}
       {creating && <NewFile onClose={() => setCreating(false)} />}
       {deleting !== null && <DeleteFile path={deleting} onClose={() => setDeleting(null)} />}
     </nav>

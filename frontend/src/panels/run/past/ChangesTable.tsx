@@ -1,14 +1,12 @@
-import { useVirtualizer } from "@tanstack/react-virtual";
-import { useMemo, useRef, useState } from "react";
+import { useMemo, useState } from "react";
 import { changesAsText, filterChanges, leftOut } from "../../../logic/past/past";
 import { showWriter } from "../../../store/past/writer";
 import { t } from "../../../text";
 import { CopyButton } from "../../../ui/CopyButton";
 import { Icon } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
+import { useGrid } from "../../../ui/useGrid";
 import type { RunChanges, VariableChange } from "../../../wire/types";
-
-const ROW = 24;
 
 interface Props {
   changes: RunChanges;
@@ -67,18 +65,10 @@ interface RowsProps extends Omit<Props, "changes"> {
 }
 
 function Rows({ rows, label, heads, writerBefore }: RowsProps) {
-  const scroll = useRef<HTMLDivElement>(null);
-  const virtual = useVirtualizer({
-    count: rows.length,
-    getScrollElement: () => scroll.current,
-    estimateSize: () => ROW,
-    overscan: 12,
-    scrollMargin: ROW,
-    getItemKey: (index) => rows[index]?.path ?? index,
-  });
+  const grid = useGrid({ count: rows.length, keyOf: (index) => rows[index]?.path ?? index });
   return (
     <div
-      ref={scroll}
+      ref={grid.scroll}
       className="grid scroll chtable"
       role="table"
       aria-label={label}
@@ -99,10 +89,14 @@ function Rows({ rows, label, heads, writerBefore }: RowsProps) {
           <span className="sr">{t("writer.menu")}</span>
         </span>
       </div>
-      <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
-        {virtual.getVirtualItems().map(({ index, start }) => {
-          const row = rows[index];
-          return row && <Row key={row.path} row={row} index={index} top={start - ROW} writerBefore={writerBefore} />;
+      <div {...grid.body}>
+        {grid.items.map((item) => {
+          const row = rows[item.index];
+          return (
+            row && (
+              <Row key={row.path} row={row} index={item.index} top={grid.topOf(item)} writerBefore={writerBefore} />
+            )
+          );
         })}
       </div>
     </div>

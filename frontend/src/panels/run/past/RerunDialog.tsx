@@ -1,5 +1,4 @@
 import { useState } from "react";
-import { messageOf } from "../../../logic/format/messageOf";
 import { grouped } from "../../../logic/format/numbers";
 import { type RerunForm, readRerun } from "../../../logic/past/rerun";
 import { copyName } from "../../../logic/plc/instances";
@@ -8,9 +7,8 @@ import { beginRerun, closeRerun, type RerunWish, useReruns } from "../../../stor
 import { useBench } from "../../../store/plc/bench";
 import { useTimeline } from "../../../store/plc/timeline";
 import { t } from "../../../text";
-import { Dialog } from "../../../ui/Dialog";
 import { Field } from "../../../ui/Field";
-import { Icon } from "../../../ui/Icon";
+import { FormDialog } from "../../../ui/FormDialog";
 
 /** What is to be another this time: the error, its scan, or that it comes at all. */
 export function RerunDialog() {
@@ -22,55 +20,23 @@ function Ask({ wish }: { wish: RerunWish }) {
   const { errors, byId } = useCatalogue();
   const first = useTimeline((timeline) => timeline.info?.first_scan ?? 0);
   const [form, setForm] = useState<RerunForm>(() => formOf(wish));
-  const [refused, setRefused] = useState<string | null>(null);
-  const [busy, setBusy] = useState(false);
-  const change = (part: Partial<RerunForm>) => {
-    setForm({ ...form, ...part });
-    setRefused(null);
-  };
+  const change = (part: Partial<RerunForm>) => setForm({ ...form, ...part });
   const others = errors.filter(({ id }) => id !== wish.error);
 
   async function submit(): Promise<void> {
     const read = readRerun(form, wish, first);
-    if ("trouble" in read) {
-      setRefused(t(read.trouble, { first: grouped(first) }));
-      return;
-    }
-    setBusy(true);
-    try {
-      await beginRerun(read.wanted);
-      closeRerun();
-    } catch (error) {
-      setRefused(messageOf(error));
-      setBusy(false);
-    }
+    if ("trouble" in read) throw new Error(t(read.trouble, { first: grouped(first) }));
+    await beginRerun(read.wanted);
   }
 
   return (
-    <Dialog
+    <FormDialog
       title={t("rerun.title", { error: byId.get(wish.error)?.name ?? wish.error, scan: grouped(wish.scan) })}
       about={t("rerun.about")}
       width={520}
+      submit={t("rerun.do")}
+      onSubmit={submit}
       onClose={closeRerun}
-      onSubmit={() => void submit()}
-      footer={
-        <>
-          <span className="hint bad grow" role="alert">
-            {refused && (
-              <>
-                <Icon name="error" small />
-                {refused}
-              </>
-            )}
-          </span>
-          <button type="button" className="btn quiet" onClick={closeRerun}>
-            {t("cancel")}
-          </button>
-          <button type="submit" className="btn primary" disabled={busy}>
-            {t("rerun.do")}
-          </button>
-        </>
-      }
     >
       <label className="field">
         <span>{t("rerun.how")}</span>
@@ -100,7 +66,7 @@ function Ask({ wish }: { wish: RerunWish }) {
       {form.how !== "out" && <When form={form} scan={wish.scan} onChange={change} />}
       <Field label={t("rerun.behind")} value={form.behind} onChange={(behind) => change({ behind })} mono />
       <Field label={t("rerun.name")} value={form.name} onChange={(name) => change({ name })} />
-    </Dialog>
+    </FormDialog>
   );
 }
 

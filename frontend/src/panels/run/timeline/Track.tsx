@@ -8,7 +8,7 @@ import { useAllMarks } from "../../../store/past/differences";
 import { useForbidden } from "../../../store/plc/plc";
 import { selectStretch, travel, useTimeline } from "../../../store/plc/timeline";
 import { t } from "../../../text";
-import { Menu, type MenuItem } from "../../../ui/Menu";
+import { useMenu } from "../../../ui/Menu";
 import { Marks } from "./Marks";
 import { pointMenu, stretchMenu } from "./menus";
 import { type RunOnAxis, timeOf } from "./useRun";
@@ -28,7 +28,7 @@ export function Track({ run, interval }: Props) {
   const width = useWidth(track);
   const [hover, setHover] = useState<number | null>(null);
   const dragging = useRef<"travel" | "select" | null>(null);
-  const [menu, setMenu] = useState<{ items: MenuItem[]; at: { x: number; y: number } } | null>(null);
+  const { open, menu } = useMenu(t("timeline.label"));
   const locked = useForbidden("travel") !== null;
   const marks = useAllMarks();
   const selection = useTimeline((timeline) => timeline.selection);
@@ -83,7 +83,7 @@ export function Track({ run, interval }: Props) {
     const inside = chosen && scan >= chosen.from && scan <= chosen.to;
     const here = marks.filter((mark) => mark.scan === scan);
     const items = inside ? stretchMenu(chosen, whole) : pointMenu({ scan, marks: here, position });
-    setMenu({ items, at });
+    open(items, at);
   }
 
   /** By keyboard: at the end of the stretch that is selected, else at the playhead. */
@@ -164,7 +164,7 @@ export function Track({ run, interval }: Props) {
         onKeyDown={onKeyDown}
       />
       <Marks marks={marks} axis={axis} whole={whole} width={width} position={position} />
-      {menu && <Menu label={t("timeline.label")} {...menu} onClose={() => setMenu(null)} />}
+      {menu}
       {hover !== null && hover !== position && (
         <span className={`tl-hover ${edgeOf(placeOf(hover, axis) * width, width)}`} style={{ left: at(hover) }}>
           {t("timeline.hover", { scan: grouped(hover), time: plcTime(timeOf(hover, interval)) })}

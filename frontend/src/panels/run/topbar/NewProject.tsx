@@ -4,8 +4,8 @@ import { useBench } from "../../../store/plc/bench";
 import { listModels } from "../../../store/plc/models";
 import { createProject } from "../../../store/project/newProject";
 import { t } from "../../../text";
-import { Dialog } from "../../../ui/Dialog";
 import { Field } from "../../../ui/Field";
+import { FormDialog } from "../../../ui/FormDialog";
 import type { ModelSummary } from "../../../wire/types";
 import { ModelFacts } from "./ModelFacts";
 
@@ -16,97 +16,81 @@ export function NewProject({ onClose }: { onClose: () => void }) {
   const [model, setModel] = useState("");
   const taken = useBench(({ app }) => app?.instances);
   const [instance, setInstance] = useState(() => freeName((taken ?? []).map((known) => known.name)));
-  const [refused, setRefused] = useState<{ instance: boolean; why: string } | null>(null);
+  const [unreachable, setUnreachable] = useState<string | null>(null);
+  const [wrongInstance, setWrongInstance] = useState(false);
 
-  const [creating, setCreating] = useState(false);
+  const isTaken = (wanted: string) => taken?.some((known) => known.name === wanted) === true;
 
   const loadModels = useCallback(() => {
-    setRefused(null);
+    setUnreachable(null);
     listModels()
       .then((all) => {
         setModels(all);
         setModel((chosen) => chosen || (all.find((known) => known.name === "GENERIC-IEC") ?? all[0])?.name || "");
       })
-      .catch((error: unknown) => setRefused({ instance: false, why: messageOf(error) }));
+      .catch((error: unknown) => setUnreachable(messageOf(error)));
   }, []);
   useEffect(loadModels, [loadModels]);
 
-  async function create(): Promise<void> {
-    if (creating) return;
+  async function create(): Promise<boolean> {
     // Without a model there is nothing to make; the one that is asked for again may come now.
     if (model === "") {
       loadModels();
-      return;
+      return false;
     }
-    if (name.trim() === "" || instance.trim() === "") {
-      setRefused({ instance: name.trim() !== "", why: t("name.missing") });
-      return;
-    }
+    const [project, first] = [name.trim(), instance.trim()];
+    setWrongInstance(project !== "" && (first === "" || isTaken(first)));
+    if (project === "" || first === "") throw new Error(t("name.missing"));
     // Asked before anything is made: a project without its instance would be left behind.
-    if (taken?.some((known) => known.name === instance.trim())) {
-      setRefused({ instance: true, why: t("newproject.taken", { name: instance.trim() }) });
-      return;
-    }
-    setCreating(true);
-    try {
-      await createProject(name.trim(), model, instance.trim());
-      onClose();
-    } catch (error) {
-      setRefused({ instance: false, why: messageOf(error) });
-    } finally {
-      setCreating(false);
-    }
+    if (isTaken(first)) throw new Error(t("newproject.taken", { name: first }));
+    await createProject(project, model, first);
+    return true;
   }
 
   return (
-    <Dialog
+    <FormDialog
       title={t("newproject.title")}
       about={t("newproject.about")}
       width={520}
+      submit={model === "" && unreachable !== null ? t("lost.now") : t("create")}
+      disabled={model === "" && unreachable === null}
+      onSubmit={create}
       onClose={onClose}
-      onSubmit={() => void create()}
-      footer={
-        <>
-          <span className="grow" />
-          <button type="button" className="btn quiet" onClick={onClose}>
-            {t("cancel")}
-          </button>
-          <button type="submit" className="btn primary" disabled={creating || (model === "" && refused === null)}>
-            {model === "" && refused !== null ? t("lost.now") : t("create")}
-          </button>
-        </>
-      }
     >
-      <Field
-        label={t("newproject.name")}
-        value={name}
-        onChange={setName}
-        refused={refused && !refused.instance ? refused.why : null}
-      />
-      <label className="field">
-        <span>{t("newproject.model")}</span>
-        <select
-          className="inp"
-          value={model}
-          disabled={models.length === 0}
-          onChange={(event) => setModel(event.target.value)}
-        >
-          {models.length === 0 && <option value="">{t("newproject.loading")}</option>}
-          {models.map((known) => (
-            <option key={known.name} value={known.name}>
-              {known.vendor ? `${known.vendor} ${known.name}` : known.name}
-            </option>
-          ))}
-        </select>
-      </label>
-      <ModelFacts model={models.find((known) => known.name === model)} />
-      <Field
-        label={t("newproject.instance")}
-        value={instance}
-        onChange={setInstance}
-        refused={refused?.instance ? refused.why : null}
-      />
-    </Dialog>
+      {({ refused }) => (
+        <>
+          <Field
+            label={t("newproject.name")}
+            value={name}
+            onChange={setName}
+            refused={unreachable ?? (wrongInstance ? null : refused)}
+          />
+          <label className="field">
+            <span>{t("newproject.model")}</span>
+            <select
+              className="inp"
+              value={model}
+              disabled={models.length === 0}
+              onChange={(event) => setModel(event.target.value)}
+            >
+              {models.length === 0 && <option value="">{t("newproject.loading")}</option>}
+              {models.map((known) => (
+                <option key={known.name} value={known.name}>
+                  {known.vendor ? `${known.vendor} ${known.name}` : known.name}
+                </option>
+              ))}
+            </select>
+          </label>
+          <ModelFacts model={models.find((known) => known.name === model)} />
+          <Field
+            label={t("newproject.instance")}
+            value={instance}
+            onChange={setInstance}
+            refused={wrongInstance ? refused : null}
+          />
+        </>
+      )}
+    </FormDialog>
   );
 }
 

@@ -1,4 +1,3 @@
-import { messageOf } from "../../../logic/format/messageOf";
 import { newRun } from "../../../store/debug/run";
 import { t } from "../../../text";
 import { Confirm } from "../../../ui/Confirm";
@@ -12,7 +11,6 @@ export function NewRun({ onClose }: { onClose: () => void }) {
       hint={t("newrun.hint")}
       verb={t("newrun.do")}
       onDo={newRun}
-      reasonOf={messageOf}
       onClose={onClose}
     />
   );

@@ -2,72 +2,60 @@ import { useState } from "react";
 import { withName } from "../../../logic/plc/expression";
 import { runUntil, useRun } from "../../../store/debug/run";
 import { t } from "../../../text";
-import { Dialog } from "../../../ui/Dialog";
 import { Field } from "../../../ui/Field";
-
-interface Refused {
-  message: string;
-  near: readonly string[];
-}
+import { FormDialog } from "../../../ui/FormDialog";
 
 /** Asks for the condition at which a run ends; a name that is not known gets the names that come near. */
 export function RunUntil({ onClose }: { onClose: () => void }) {
   const conditions = useRun((run) => run.conditions);
   const [condition, setCondition] = useState(conditions[0] ?? "");
-  const [refused, setRefused] = useState<Refused | null>(null);
-
-  function change(text: string): void {
-    setCondition(text);
-    setRefused(null);
-  }
-
+  const [near, setNear] = useState<readonly string[]>([]);
   async function run(): Promise<void> {
     const text = condition.trim();
-    if (text === "") {
-      setRefused({ message: t("run.noexpression"), near: [] });
-      return;
-    }
+    setNear([]);
+    if (text === "") throw new Error(t("run.noexpression"));
     const answer = await runUntil(text);
-    if (answer.ok) onClose();
-    else setRefused({ message: answer.message || t("notsent"), near: answer.near ?? [] });
+    if (answer.ok) return;
+    setNear(answer.near ?? []);
+    throw new Error(answer.message || t("notsent"));
   }
 
   return (
-    <Dialog
+    <FormDialog
       title={t("run.until.title")}
       about={t("run.until.about")}
       width={520}
+      submit={t("run.scans.do")}
+      onSubmit={run}
       onClose={onClose}
-      onSubmit={() => void run()}
-      footer={
-        <>
-          <span className="grow" />
-          <button type="button" className="btn quiet" onClick={onClose}>
-            {t("cancel")}
-          </button>
-          <button type="submit" className="btn primary">
-            {t("run.scans.do")}
-          </button>
-        </>
-      }
     >
-      <Field
-        label={t("run.until.condition")}
-        value={condition}
-        onChange={change}
-        refused={refused?.message ?? null}
-        mono
-        placeholder="Main.count > 3"
-      />
-      {refused && refused.near.length > 0 && (
-        <Offers
-          label={t("run.near")}
-          texts={refused.near}
-          onChoose={(name) => change(withName(condition, refused.message, name))}
-        />
-      )}
-      {conditions.length > 0 && <Offers label={t("run.last")} texts={conditions} onChoose={change} />}
-    </Dialog>
+      {({ refused, forget }) => {
+        const change = (text: string) => {
+          setCondition(text);
+          forget();
+        };
+        return (
+          <>
+            <Field
+              label={t("run.until.condition")}
+              value={condition}
+              onChange={setCondition}
+              refused={refused}
+              mono
+              placeholder="Main.count > 3"
+            />
+            {refused !== null && near.length > 0 && (
+              <Offers
+                label={t("run.near")}
+                texts={near}
+                onChoose={(name) => change(withName(condition, refused, name))}
+              />
+            )}
+            {conditions.length > 0 && <Offers label={t("run.last")} texts={conditions} onChoose={change} />}
+          </>
+        );
+      }}
+    </FormDialog>
   );
 }
 

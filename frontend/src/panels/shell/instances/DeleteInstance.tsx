@@ -1,4 +1,3 @@
-import { messageOf } from "../../../logic/format/messageOf";
 import { deleteInstance } from "../../../store/plc/instances";
 import { t } from "../../../text";
 import { Confirm } from "../../../ui/Confirm";
@@ -13,7 +12,6 @@ export function DeleteInstance({ instance, onClose }: { instance: Instance; onCl
       hint={t("instances.delete.hint")}
       verb={t("instances.delete.do")}
       onDo={() => deleteInstance(instance)}
-      reasonOf={messageOf}
       onClose={onClose}
     />
   );

@@ -1,12 +1,11 @@
-import { useVirtualizer } from "@tanstack/react-virtual";
-import { type KeyboardEvent, useEffect, useRef } from "react";
+import type { KeyboardEvent } from "react";
 import { COLUMNS, type Column, type Order } from "../../../logic/plc/instances";
 import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
+import { useGrid, useReveal } from "../../../ui/useGrid";
 import type { Instance } from "../../../wire/types";
 import { InstanceLine } from "./InstanceLine";
 
-const ROW = 24;
 const NUMBERS: ReadonlySet<Column> = new Set(["scan", "interval", "cpu", "memory", "late", "run"]);
 
 interface Props {
@@ -22,41 +21,21 @@ interface Props {
 
 /** The rows: only those in sight exist in the page. Arrow keys choose, Enter opens, Delete asks. */
 export function InstanceGrid({ rows, order, selected, onOrder, onSelect, onOpen, onDelete, onMenu }: Props) {
-  const scroll = useRef<HTMLDivElement>(null);
-  const virtual = useVirtualizer({
-    count: rows.length,
-    getScrollElement: () => scroll.current,
-    estimateSize: () => ROW,
-    overscan: 8,
-    scrollMargin: ROW,
-    scrollPaddingStart: ROW,
-    getItemKey: (index) => rows[index]?.id ?? index,
-  });
+  const grid = useGrid({ count: rows.length, keyOf: (index) => rows[index]?.id ?? index });
   const now = rows.findIndex(({ id }) => id === selected);
 
   // A new or just opened list begins where the chosen one is; later the list stays where one scrolled it.
-  // biome-ignore lint/correctness/useExhaustiveDependencies: only the choice moves the list, not its next refresh
-  useEffect(() => {
-    if (now >= 0) virtual.scrollToIndex(now);
-  }, [selected]);
+  useReveal(now, selected, grid.reveal);
 
   function step(to: number): void {
-    const row = rows[Math.max(0, Math.min(rows.length - 1, to))];
+    const row = rows[grid.clamped(to)];
     if (row) onSelect(row.id);
   }
 
   function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
     if (event.target !== event.currentTarget) return;
     const row = rows[now];
-    const page = Math.floor((scroll.current?.clientHeight ?? 0) / ROW) - 1;
-    const target = {
-      ArrowDown: now + 1,
-      ArrowUp: now - 1,
-      PageDown: now + page,
-      PageUp: now - page,
-      Home: 0,
-      End: rows.length - 1,
-    }[event.key];
+    const target = grid.stepOf(event.key, now);
     if (target !== undefined) step(target);
     else if (event.key === "Enter" && row) onOpen(row);
     else if (event.key === "Delete" && row) onDelete(row);
@@ -66,7 +45,7 @@ export function InstanceGrid({ rows, order, selected, onOrder, onSelect, onOpen,
 
   return (
     <div
-      ref={scroll}
+      ref={grid.scroll}
       className="grid scroll ins"
       role="grid"
       aria-label={t("instances.list")}
@@ -83,8 +62,8 @@ export function InstanceGrid({ rows, order, selected, onOrder, onSelect, onOpen,
           {t("instances.column.limits")}
         </span>
       </div>
-      <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
-        {virtual.getVirtualItems().map((item) => {
+      <div {...grid.body}>
+        {grid.items.map((item) => {
           const row = rows[item.index];
           return (
             row && (
@@ -92,7 +71,7 @@ export function InstanceGrid({ rows, order, selected, onOrder, onSelect, onOpen,
                 key={row.id}
                 instance={row}
                 index={item.index}
-                top={item.start - ROW}
+                top={grid.topOf(item)}
                 selected={row.id === selected}
                 onSelect={onSelect}
                 onOpen={onOpen}

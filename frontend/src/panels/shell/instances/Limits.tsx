@@ -1,10 +1,8 @@
 import { useState } from "react";
-import { messageOf } from "../../../logic/format/messageOf";
 import { changeInstance } from "../../../store/plc/instances";
 import { t } from "../../../text";
-import { Dialog } from "../../../ui/Dialog";
 import { Field } from "../../../ui/Field";
-import { Icon } from "../../../ui/Icon";
+import { FormDialog } from "../../../ui/FormDialog";
 import type { Instance, InstanceLimits } from "../../../wire/types";
 
 const LIMITS = [
@@ -23,48 +21,26 @@ export function Limits({ instance, onClose }: { instance: Instance; onClose: () 
     run_mib: String(instance.limits.run_mib ?? ""),
   }));
   const [tried, setTried] = useState(false);
-  const [refused, setRefused] = useState<string | null>(null);
 
-  async function save(): Promise<void> {
+  async function save(): Promise<boolean> {
     setTried(true);
     const limits: InstanceLimits = { cpu_percent: null, memory_mib: null, run_mib: null };
     for (const { key, minimum, maximum } of LIMITS) {
       const value = readLimit(texts[key], minimum, maximum);
-      if (value === undefined) return;
+      if (value === undefined) return false;
       limits[key] = value;
     }
-    try {
-      await changeInstance(instance, { limits });
-      onClose();
-    } catch (error) {
-      setRefused(messageOf(error));
-    }
+    await changeInstance(instance, { limits });
+    return true;
   }
 
   return (
-    <Dialog
+    <FormDialog
       title={t("instances.limits.title", instance)}
       about={t("instances.limits.about")}
+      submit={t("instances.limits.do")}
+      onSubmit={save}
       onClose={onClose}
-      onSubmit={() => void save()}
-      footer={
-        <>
-          <span className="hint bad grow" role="alert">
-            {refused && (
-              <>
-                <Icon name="error" small />
-                {refused}
-              </>
-            )}
-          </span>
-          <button type="button" className="btn quiet" onClick={onClose}>
-            {t("cancel")}
-          </button>
-          <button type="submit" className="btn primary">
-            {t("instances.limits.do")}
-          </button>
-        </>
-      }
     >
       {LIMITS.map(({ key, label, minimum, maximum, usual }) => (
         <Field
@@ -80,7 +56,7 @@ export function Limits({ instance, onClose }: { instance: Instance; onClose: () 
           }
         />
       ))}
-    </Dialog>
+    </FormDialog>
   );
 }
 

@@ -1,4 +1,3 @@
-import { useVirtualizer } from "@tanstack/react-virtual";
 import { type RefObject, useCallback, useEffect, useLayoutEffect, useMemo, useRef, useState } from "react";
 import { inNames } from "../../../logic/errors/catalogue";
 import { grouped, wallTime } from "../../../logic/format/numbers";
@@ -7,7 +6,7 @@ import { usePlc } from "../../../store/plc/plc";
 import { t } from "../../../text";
 import { Icon, type IconName } from "../../../ui/Icon";
 import { MenuButton } from "../../../ui/Menu";
-import { useKeptScroll } from "../../../ui/useKeptScroll";
+import { useGrid } from "../../../ui/useGrid";
 import type { ErrorInfo, LogLine } from "../../../wire/types";
 
 const LOOK: Record<LogLine["kind"], { icon: IconName; tone: string }> = {
@@ -68,20 +67,11 @@ function KindMenu({ kind, onKind }: { kind: Filter; onKind: (kind: Filter) => vo
 
 function Lines({ log }: { log: readonly LogLine[] }) {
   const { errors } = useCatalogue();
-  const scroll = useRef<HTMLDivElement>(null);
-  useKeptScroll(scroll);
-  const virtual = useVirtualizer({
-    count: log.length,
-    getScrollElement: () => scroll.current,
-    estimateSize: () => 24,
-    overscan: 10,
-    scrollMargin: 24,
-    scrollPaddingStart: 24,
-  });
-  const onScroll = useFollow(scroll, log);
+  const grid = useGrid({ count: log.length });
+  const onScroll = useFollow(grid.scroll, log);
   return (
     <div
-      ref={scroll}
+      ref={grid.scroll}
       className="grid scroll loglines"
       role="table"
       aria-label={t("log.label")}
@@ -99,10 +89,12 @@ function Lines({ log }: { log: readonly LogLine[] }) {
         <span role="columnheader">{t("log.text")}</span>
         <span role="columnheader">{t("log.by")}</span>
       </div>
-      <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
-        {virtual.getVirtualItems().map((item) => {
+      <div {...grid.body}>
+        {grid.items.map((item) => {
           const line = log[item.index];
-          return line && <Line key={item.key} line={line} errors={errors} start={item.start - 24} index={item.index} />;
+          return (
+            line && <Line key={item.key} line={line} errors={errors} start={grid.topOf(item)} index={item.index} />
+          );
         })}
       </div>
     </div>

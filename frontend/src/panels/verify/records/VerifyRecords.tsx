@@ -1,5 +1,4 @@
 import { type KeyboardEvent, useState } from "react";
-import { messageOf } from "../../../logic/format/messageOf";
 import { dayTime, grouped } from "../../../logic/format/numbers";
 import { titleOf } from "../../../logic/verify/verify";
 import { useBench } from "../../../store/plc/bench";
@@ -69,7 +68,6 @@ function RecordsDialog() {
           hint={t("verify.records.delete.hint")}
           verb={t("verify.records.delete.do")}
           onDo={() => deleteRecord(deleting)}
-          reasonOf={messageOf}
           onClose={() => setDeleting(null)}
         />
       )}

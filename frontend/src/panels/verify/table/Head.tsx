@@ -20,8 +20,8 @@ import { t } from "../../../text";
 import { Icon } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
 import { MenuButton, type MenuItem } from "../../../ui/Menu";
+import { Segments } from "../../../ui/Segments";
 import { Switch } from "../../../ui/Switch";
-import { Segments } from "./Segments";
 
 /** The whole dock for this panel, and back. */
 export interface Whole {

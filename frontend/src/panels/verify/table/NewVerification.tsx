@@ -6,11 +6,10 @@ import { liveScan, useTimeline } from "../../../store/plc/timeline";
 import { useDocuments } from "../../../store/project/documents";
 import { beginVerification, reasonOf, stopAsking, type VerifyWish } from "../../../store/verify/verify";
 import { t } from "../../../text";
-import { Dialog } from "../../../ui/Dialog";
 import { Field } from "../../../ui/Field";
-import { Icon } from "../../../ui/Icon";
+import { FormDialog } from "../../../ui/FormDialog";
+import { Segments } from "../../../ui/Segments";
 import type { NewVerification as Wanted } from "../../../wire/types";
-import { Segments } from "./Segments";
 
 const LIMIT = 4096;
 type What = "scan" | "pou" | "lines";
@@ -36,8 +35,6 @@ export function NewVerification({ wish }: { wish: VerifyWish }) {
   });
   const [pace, setPace] = useState<Wanted["pace"]>("free");
   const [limit, setLimit] = useState(String(LIMIT));
-  const [refused, setRefused] = useState<string | null>(null);
-  const [busy, setBusy] = useState(false);
   const around = what === "pou" ? pou : "";
   const instances = useInstances(around);
 
@@ -69,41 +66,18 @@ export function NewVerification({ wish }: { wish: VerifyWish }) {
 
   async function submit(): Promise<void> {
     const asked = wanted();
-    if (typeof asked === "string") return setRefused(asked);
-    setBusy(true);
-    try {
-      await beginVerification(asked);
-    } catch (error) {
-      setRefused(reasonOf(error));
-      setBusy(false);
-    }
+    if (typeof asked === "string") throw new Error(asked);
+    await beginVerification(asked).catch((error: unknown) => Promise.reject(new Error(reasonOf(error))));
   }
 
   return (
-    <Dialog
+    <FormDialog
       title={t("verify.new.title")}
       about={t("verify.new.about")}
       width={520}
+      submit={t("verify.begin")}
+      onSubmit={submit}
       onClose={stopAsking}
-      onSubmit={() => void submit()}
-      footer={
-        <>
-          <span className="hint bad grow" role="alert">
-            {refused && (
-              <>
-                <Icon name="error" small />
-                {refused}
-              </>
-            )}
-          </span>
-          <button type="button" className="btn quiet" onClick={stopAsking}>
-            {t("cancel")}
-          </button>
-          <button type="submit" className="btn primary" disabled={busy}>
-            {t("verify.begin")}
-          </button>
-        </>
-      }
     >
       <div className="vfnew">
         <span className="muted">{t("verify.new.what")}</span>
@@ -201,7 +175,7 @@ export function NewVerification({ wish }: { wish: VerifyWish }) {
         <Field label={t("verify.new.limit")} value={limit} mono onChange={setLimit} />
         <p className="hint vfend">{t("verify.new.limit.about")}</p>
       </div>
-    </Dialog>
+    </FormDialog>
   );
 }
 

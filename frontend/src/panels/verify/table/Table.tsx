@@ -1,4 +1,4 @@
-import { defaultRangeExtractor, type Range, useVirtualizer } from "@tanstack/react-virtual";
+import { defaultRangeExtractor, type Range } from "@tanstack/react-virtual";
 import {
   type CSSProperties,
   type KeyboardEvent,
@@ -32,14 +32,14 @@ import {
   useVerifyRows,
 } from "../../../store/verify/verifyRows";
 import { t } from "../../../text";
-import { Menu, type MenuItem } from "../../../ui/Menu";
+import { useMenu } from "../../../ui/Menu";
+import { belowRow, ROW, useGrid, useReveal } from "../../../ui/useGrid";
 import { useKeptScroll } from "../../../ui/useKeptScroll";
 import { columnMenu } from "./columnMenu";
 import { useEditing } from "./editing";
 import { Heads } from "./Heads";
 import { RowLine } from "./RowLine";
 
-export const ROW = 24;
 /** Two lines of heads. */
 const HEAD = 46;
 
@@ -56,25 +56,21 @@ export function Table({ shown }: { shown: ShownVerification }) {
     () => tracksOf(arranged(units, arrangement), arrangement.pinned, { instances: info.instances.length > 1, steps }),
     [units, arrangement, info.instances.length, steps],
   );
-  const [menu, setMenu] = useState<{ items: MenuItem[]; at: { x: number; y: number } } | null>(null);
+  const { open, menu } = useMenu(t("verify.column"));
   const across = useAcross(grid);
   useHeldAcross(grid, tracks, across.onScroll);
   const drawn = useMemo(() => tracksInSight(tracks, across.left, across.width), [tracks, across]);
   const count = lineCount(rows);
   const follow = useFollowing(grid, isGoing(info) && info.source === "live" && info.pace === "free", rows.selected);
-  const virtual = useVirtualizer({
+  const lines = useGrid({
     count,
-    getScrollElement: () => grid.current,
-    estimateSize: () => ROW,
+    scroll: grid,
+    head: HEAD,
     overscan: 10,
-    scrollMargin: HEAD,
-    scrollPaddingStart: HEAD,
-    getItemKey: (line) => indexAt(rows, line),
-    rangeExtractor: (range) => defaultRangeExtractor(follow.isOn() ? endOf(range) : range),
+    keyOf: (line) => indexAt(rows, line),
+    rangeOf: (range) => defaultRangeExtractor(follow.isOn() ? endOf(range) : range),
   });
-  const items = virtual.getVirtualItems();
-  const from = items[0]?.index ?? 0;
-  const to = (items.at(-1)?.index ?? -1) + 1;
+  const { from, to } = lines;
   useEffect(() => seeLines(from, Math.max(to, from + 40)), [from, to]);
   useHeldPlace(grid, rows.first, rows.onlyDiffering || follow.isOn());
   // biome-ignore lint/correctness/useExhaustiveDependencies: more rows are the reason
@@ -82,7 +78,7 @@ export function Table({ shown }: { shown: ShownVerification }) {
     if (follow.isOn() && grid.current) grid.current.scrollTop = grid.current.scrollHeight;
   }, [rows.count, count, rows.selected]);
   const at = rows.selected === null ? -1 : lineOfRow(rows, rows.selected);
-  useReveal(at, (line) => virtual.scrollToIndex(line, { align: "auto" }));
+  useReveal(at, rows.selected, lines.reveal);
   const editing = useEditing(shown, grid);
   // biome-ignore lint/correctness/useExhaustiveDependencies: a jump leads to the cell that differs, once
   useEffect(() => {
@@ -106,10 +102,10 @@ export function Table({ shown }: { shown: ShownVerification }) {
   }, [rows.wanted, tracks]);
 
   function goTo(line: number, track = rows.track): void {
-    const target = Math.max(0, Math.min(count - 1, line));
+    const target = lines.clamped(line);
     if (count === 0) return;
     selectRow(indexAt(rows, target), track);
-    virtual.scrollToIndex(target, { align: "auto" });
+    lines.reveal(target);
   }
 
   function goAcross(by: number): void {
@@ -123,13 +119,12 @@ export function Table({ shown }: { shown: ShownVerification }) {
 
   function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
     if ((event.target as HTMLElement).matches("input, button")) return;
-    const page = Math.max(1, Math.floor(((grid.current?.clientHeight ?? 0) - HEAD) / ROW) - 1);
-    const down = { ArrowDown: 1, ArrowUp: -1, PageDown: page, PageUp: -page }[event.key];
+    const down = ["Home", "End"].includes(event.key) ? undefined : lines.stepOf(event.key, at);
     const track = tracks.find(({ key }) => key === rows.track) ?? null;
     const row = rows.selected === null ? undefined : rows.byIndex.get(rows.selected);
     if (event.altKey && track?.unit && (event.key === "ArrowLeft" || event.key === "ArrowRight"))
       columnMenu(info.title, units, track.unit)[event.key === "ArrowLeft" ? 0 : 1]?.onSelect();
-    else if (down !== undefined) goTo(at < 0 ? from : at + down);
+    else if (down !== undefined) goTo(at < 0 ? from : down);
     else if (event.key === "ArrowLeft") goAcross(-1);
     else if (event.key === "ArrowRight") goAcross(1);
     else if (event.key === "Home") event.ctrlKey ? goTo(0) : goAcross(-tracks.length);
@@ -141,8 +136,7 @@ export function Table({ shown }: { shown: ShownVerification }) {
   }
 
   function openMenu(track: Track, element: Element): void {
-    const { left, bottom } = (element.querySelector(".vfcell.at") ?? element).getBoundingClientRect();
-    if (track.unit) setMenu({ items: columnMenu(info.title, units, track.unit), at: { x: left, y: bottom } });
+    if (track.unit) open(columnMenu(info.title, units, track.unit), belowRow(element, ".vfcell.at", 0));
   }
 
   // The row has the keys until a cell has, and while that cell is out of sight.
@@ -171,10 +165,11 @@ export function Table({ shown }: { shown: ShownVerification }) {
         units={units}
         tracks={tracks}
         drawn={drawn}
-        onMenu={(unit, at) => setMenu({ items: columnMenu(info.title, units, unit), at })}
+        onMenu={(unit, at) => open(columnMenu(info.title, units, unit), at)}
       />
-      <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
-        {items.map(({ index: line, key, start }) => {
+      <div {...lines.body}>
+        {lines.items.map((item) => {
+          const { index: line, key } = item;
           const index = indexAt(rows, line);
           return (
             <RowLine
@@ -182,7 +177,7 @@ export function Table({ shown }: { shown: ShownVerification }) {
               row={rows.byIndex.get(index) ?? null}
               index={index}
               line={line}
-              top={start - HEAD}
+              top={lines.topOf(item)}
               drawn={drawn}
               tracks={tracks}
               memory={info.memory}
@@ -197,7 +192,7 @@ export function Table({ shown }: { shown: ShownVerification }) {
         })}
       </div>
       {count === 0 && <NoRows shown={shown} only={rows.onlyDiffering} />}
-      {menu && <Menu label={t("verify.column")} items={menu.items} at={menu.at} onClose={() => setMenu(null)} />}
+      {menu}
     </div>
   );
 }
@@ -307,17 +302,6 @@ function useFollowing(
     };
   }, [grid]);
   return { isOn };
-}
-
-/** Where a jump leads comes into sight; what goes on meanwhile moves nothing. */
-function useReveal(line: number, reveal: (line: number) => void): void {
-  const selected = useVerifyRows((rows) => rows.selected);
-  const last = useRef<number | null>(null);
-  useEffect(() => {
-    if (line < 0 || last.current === selected) return;
-    last.current = selected;
-    reveal(line);
-  }, [line, selected, reveal]);
 }
 
 function reveal(grid: HTMLElement | null, tracks: readonly Track[], track: Track): void {

@@ -1,5 +1,4 @@
-import { useVirtualizer } from "@tanstack/react-virtual";
-import { type CSSProperties, type KeyboardEvent, useEffect, useMemo, useRef, useState } from "react";
+import { type CSSProperties, type KeyboardEvent, useEffect, useMemo, useState } from "react";
 import { grouped } from "../../../logic/format/numbers";
 import { splitPath } from "../../../logic/format/paths";
 import { useForbidden } from "../../../store/plc/plc";
@@ -11,13 +10,11 @@ import { t } from "../../../text";
 import { Empty } from "../../../ui/Empty";
 import { Icon } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
-import { Menu, type MenuItem } from "../../../ui/Menu";
-import { useKeptScroll } from "../../../ui/useKeptScroll";
+import { type MenuItem, useMenu } from "../../../ui/Menu";
+import { belowRow, useGrid } from "../../../ui/useGrid";
 import type { ForceInfo } from "../../../wire/types";
 import { NowCell } from "./NowCell";
 import "./forces.css";
-
-const ROW = 24;
 
 /** All forces that hold, whoever made them: what was there before, what the program wants, what goes out; released one by one or all at once. */
 export function ForcesPanel() {
@@ -64,50 +61,35 @@ export function ForcesPanel() {
 const COLUMNS = ["value", "before", "program", "after", "now"] as const;
 
 function ForceGrid({ forces }: { forces: readonly ForceInfo[] }) {
-  const scroll = useRef<HTMLDivElement>(null);
-  useKeptScroll(scroll);
   const [selected, setSelected] = useState(0);
-  const [menu, setMenu] = useState<{ items: MenuItem[]; at: { x: number; y: number } } | null>(null);
-  const virtual = useVirtualizer({
-    count: forces.length,
-    getScrollElement: () => scroll.current,
-    estimateSize: () => ROW,
-    overscan: 8,
-    scrollMargin: ROW,
-    scrollPaddingStart: ROW,
-  });
+  const { open, menu } = useMenu();
+  const grid = useGrid({ count: forces.length });
   const now = Math.min(selected, forces.length - 1);
-  const items = virtual.getVirtualItems();
   useEffect(() => watch(forces.map(({ path }) => path)), [forces]);
 
   function go(to: number): void {
-    const index = Math.max(0, Math.min(forces.length - 1, to));
-    setSelected(index);
-    virtual.scrollToIndex(index);
+    setSelected(grid.clamped(to));
+    grid.reveal(grid.clamped(to));
   }
 
   function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
-    const to = { ArrowDown: now + 1, ArrowUp: now - 1, Home: 0, End: forces.length - 1 }[event.key];
+    const to = grid.stepOf(event.key, now);
     const force = forces[now];
     if (to !== undefined) go(to);
     else if (event.key === "Delete" || (event.key === "F7" && event.shiftKey)) void releaseForce(force?.path ?? null);
-    else if (event.key === "ContextMenu" && force) {
-      const { left, bottom } = (
-        event.currentTarget.querySelector(".gr.on") ?? event.currentTarget
-      ).getBoundingClientRect();
-      setMenu({ items: forceMenu(force), at: { x: left + 40, y: bottom } });
-    } else return;
+    else if (event.key === "ContextMenu" && force) open(forceMenu(force), belowRow(event.currentTarget));
+    else return;
     event.preventDefault();
   }
 
   return (
     <div
-      ref={scroll}
+      ref={grid.scroll}
       className="grid forces scroll"
       role="grid"
       aria-label={t("forces.label")}
       aria-rowcount={forces.length + 1}
-      aria-activedescendant={items.some(({ index }) => index === now) ? `force-${now}` : undefined}
+      aria-activedescendant={grid.isDrawn(now) ? `force-${now}` : undefined}
       tabIndex={0}
       onKeyDown={onKeyDown}
     >
@@ -126,8 +108,9 @@ function ForceGrid({ forces }: { forces: readonly ForceInfo[] }) {
         </span>
         <span role="columnheader" aria-label={t("force.release")} />
       </div>
-      <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
-        {items.map(({ index, start }) => {
+      <div {...grid.body}>
+        {grid.items.map((item) => {
+          const { index } = item;
           const force = forces[index];
           if (!force) return null;
           return (
@@ -135,15 +118,15 @@ function ForceGrid({ forces }: { forces: readonly ForceInfo[] }) {
               key={force.path}
               force={force}
               index={index}
-              style={{ transform: `translateY(${start - ROW}px)` }}
+              style={{ transform: `translateY(${grid.topOf(item)}px)` }}
               selected={index === now}
               onSelect={() => setSelected(index)}
-              onMenu={(at) => setMenu({ items: forceMenu(force), at })}
+              onMenu={(at) => open(forceMenu(force), at)}
             />
           );
         })}
       </div>
-      {menu && <Menu label={t("menu.label")} items={menu.items} at={menu.at} onClose={() => setMenu(null)} />}
+      {menu}
     </div>
   );
 }

@@ -1,21 +1,12 @@
-import { useVirtualizer } from "@tanstack/react-virtual";
-import {
-  type ClipboardEvent,
-  type CSSProperties,
-  type KeyboardEvent,
-  type Ref,
-  useEffect,
-  useRef,
-  useState,
-} from "react";
+import { type ClipboardEvent, type CSSProperties, type KeyboardEvent, type Ref, useEffect, useRef } from "react";
 import { pathsIn } from "../../../logic/format/paths";
 import { fromCsv } from "../../../logic/watch/watchcsv";
 import { pathsToWatch, type WatchRow } from "../../../logic/watch/watchrows";
 import { useColumns } from "../../../store/watch/columns";
 import { addAll, addToWatch, select, useWatchList, watchInSight, watchNothing } from "../../../store/watch/watchlist";
 import { t } from "../../../text";
-import { Menu, type MenuItem } from "../../../ui/Menu";
-import { useKeptScroll } from "../../../ui/useKeptScroll";
+import { useMenu } from "../../../ui/Menu";
+import { belowRow, useGrid, useReveal } from "../../../ui/useGrid";
 import { BindingLine } from "./BindingLine";
 import { GridHead } from "./GridHead";
 import { GroupLine } from "./GroupLine";
@@ -26,8 +17,6 @@ import { groupMenu, rowMenu } from "./rowMenu";
 import { useRowDrop } from "./useRowDrop";
 import { ValueLine } from "./ValueLine";
 
-const ROW = 24;
-
 interface Props {
   rows: readonly WatchRow[];
   onNewGroup: (path: string) => void;
@@ -36,69 +25,51 @@ interface Props {
 
 /** The rows: only those in sight exist in the page, and are watched. The grid holds the focus, the selected row is its active descendant. */
 export function WatchGrid({ rows, onNewGroup, onRenameGroup }: Props) {
-  const scroll = useRef<HTMLDivElement>(null);
-  useKeptScroll(scroll);
-  const [menu, setMenu] = useState<{ items: MenuItem[]; at: { x: number; y: number } } | null>(null);
+  const { open, menu } = useMenu();
   const selected = useWatchList((list) => list.selected);
   const columns = useColumnStyle();
   const drop = useRowDrop(rows);
-  const virtual = useVirtualizer({
-    count: rows.length,
-    getScrollElement: () => scroll.current,
-    estimateSize: () => ROW,
-    overscan: 8,
-    // The head sticks to the top of the same scroller.
-    scrollMargin: ROW,
-    scrollPaddingStart: ROW,
-    getItemKey: (index) => rows[index]?.key ?? index,
-  });
+  const grid = useGrid({ count: rows.length, keyOf: (index) => rows[index]?.key ?? index });
   const now = rows.findIndex((row) => selectsAs(row) === selected && selected !== null);
-  const items = virtual.getVirtualItems();
-  useInSight(rows, items[0]?.index ?? 0, (items.at(-1)?.index ?? -1) + 1);
-  useReveal(now, (index) => virtual.scrollToIndex(index));
-  useRevealNote(rows, (index) => virtual.scrollToIndex(index));
+  useInSight(rows, grid.from, grid.to);
+  useReveal(now, selected, grid.reveal);
+  useRevealNote(rows, grid.reveal);
 
   function go(to: number, by: 1 | -1): void {
-    for (let i = Math.max(0, Math.min(rows.length - 1, to)); i >= 0 && i < rows.length; i += by) {
+    for (let i = grid.clamped(to); i >= 0 && i < rows.length; i += by) {
       const name = rows[i] && selectsAs(rows[i] as WatchRow);
       if (!name) continue;
       select(name);
-      virtual.scrollToIndex(i);
+      grid.reveal(i);
       return;
     }
   }
 
   function onKeyDown(event: KeyboardEvent<HTMLDivElement>): void {
     if ((event.target as HTMLElement).matches("input, .grip")) return;
-    const page = Math.max(1, Math.floor((scroll.current?.clientHeight ?? ROW) / ROW) - 2);
-    const to = { ArrowDown: now + 1, PageDown: now + page, Home: 0 }[event.key];
-    const back = { ArrowUp: now - 1, PageUp: now - page, End: rows.length - 1 }[event.key];
-    if (to !== undefined) go(to, 1);
-    else if (back !== undefined) go(back, -1);
-    else if (event.key === "ContextMenu") openMenu(rows[now], event.currentTarget);
-    else if (!gridKey(event, rows[now])) return;
+    const to = grid.stepOf(event.key, now);
+    // A row that only says something is passed over, on the way that the key leads.
+    if (to !== undefined) go(to, ["ArrowUp", "PageUp", "End"].includes(event.key) ? -1 : 1);
+    else if (event.key === "ContextMenu") {
+      if (rows[now]) showMenu(rows[now], belowRow(event.currentTarget));
+    } else if (!gridKey(event, rows[now])) return;
     event.preventDefault();
   }
 
-  function openMenu(row: WatchRow | undefined, grid: Element): void {
-    const { left, bottom } = (grid.querySelector(".gr.on") ?? grid).getBoundingClientRect();
-    if (row) showMenu(row, { x: left + 40, y: bottom });
-  }
-
   function showMenu(row: WatchRow, at: { x: number; y: number }): void {
-    if (row.kind === "group") setMenu({ items: groupMenu(row, onRenameGroup), at });
-    else if (row.kind === "value") setMenu({ items: rowMenu(row, onNewGroup), at });
+    if (row.kind === "group") open(groupMenu(row, onRenameGroup), at);
+    else if (row.kind === "value") open(rowMenu(row, onNewGroup), at);
   }
 
   return (
     <div
-      ref={scroll}
+      ref={grid.scroll}
       className="grid wt scroll"
       role="treegrid"
       aria-label={t("watch.table")}
       style={columns}
       aria-rowcount={rows.length + 1}
-      aria-activedescendant={items.some(({ index }) => index === now) ? `watch-${now}` : undefined}
+      aria-activedescendant={grid.isDrawn(now) ? `watch-${now}` : undefined}
       tabIndex={0}
       onKeyDown={onKeyDown}
       onPaste={paste}
@@ -112,12 +83,12 @@ export function WatchGrid({ rows, onNewGroup, onRenameGroup }: Props) {
       }}
     >
       <GridHead />
-      <div className="virtual" role="rowgroup" style={{ height: virtual.getTotalSize() }}>
-        {items.map((item) => {
+      <div {...grid.body}>
+        {grid.items.map((item) => {
           const row = rows[item.index];
           if (!row) return null;
           const level = row.kind === "group" ? 0 : row.level;
-          const line = { index: item.index, style: { transform: `translateY(${item.start - ROW}px)`, "--lv": level } };
+          const line = { index: item.index, style: { transform: `translateY(${grid.topOf(item)}px)`, "--lv": level } };
           return (
             <Line
               key={item.key}
@@ -125,13 +96,13 @@ export function WatchGrid({ rows, onNewGroup, onRenameGroup }: Props) {
               line={line}
               selected={selected !== null && selectsAs(row) === selected}
               target={row.kind === "value" && row.level === 0 && drop.before?.before === row.root}
-              measured={virtual.measureElement}
+              measured={grid.virtual.measureElement}
               onMenu={showMenu}
             />
           );
         })}
       </div>
-      {menu && <Menu label={t("menu.label")} items={menu.items} at={menu.at} onClose={() => setMenu(null)} />}
+      {menu}
     </div>
   );
 }
@@ -170,17 +141,6 @@ function useInSight(rows: readonly WatchRow[], from: number, to: number): void {
   // biome-ignore lint/correctness/useExhaustiveDependencies: with another sort or filter others are needed
   useEffect(() => watchInSight(pathsToWatch(rows.slice(from, to))), [rows, from, to, sort, filter]);
   useEffect(() => watchNothing, []);
-}
-
-/** What was added, or comes to stand elsewhere by what was done to it, is brought into sight once. */
-function useReveal(index: number, reveal: (index: number) => void): void {
-  const selected = useWatchList((list) => list.selected);
-  const last = useRef<string | null>(null);
-  useEffect(() => {
-    if (index < 0 || last.current === selected) return;
-    last.current = selected;
-    reveal(index);
-  }, [index, selected, reveal]);
 }
 
 /** Why an entry was not taken is brought into sight: it may stand below the last row that is. */

@@ -1,0 +1,142 @@
+import {
+  type ClipboardEvent,
+  type KeyboardEvent,
+  type ReactNode,
+  type RefObject,
+  useEffect,
+  useLayoutEffect,
+  useRef,
+  useState,
+} from "react";
+import { createPortal } from "react-dom";
+import { t } from "../text";
+import { Icon } from "./Icon";
+import { layer } from "./Menu";
+import type { Offer, Offering } from "./useOffers";
+
+interface Props<T extends Offer> {
+  label: string;
+  value: string;
+  offering: Offering<T>;
+  onType: (text: string, caret: number) => void;
+  onTake: (offer: T, by: "Enter" | "Tab" | "click") => void;
+  /** What the keys mean beyond choosing; true when one did something. */
+  onKey?: (event: KeyboardEvent) => boolean;
+  onPaste?: (event: ClipboardEvent) => void;
+  onFocus?: () => void;
+  onBlur?: () => void;
+  input?: RefObject<HTMLInputElement | null>;
+  className?: string;
+  placeholder?: string;
+  bad?: boolean;
+  disabled?: boolean;
+  id?: string;
+  /** Id of the text that says why it is bad. */
+  about?: string;
+  /** Class of the list, which then stands where the field does; without one it floats above all. */
+  list?: string;
+  /** The list's name. */
+  listed?: string;
+}
+
+/** A line of text with a list of what could be meant: arrows choose, Enter and Tab take, Escape closes. The focus stays in the line. */
+export function ComboBox<T extends Offer>(props: Props<T>) {
+  const { label, value, offering, bad = false, list, listed = t("watch.offers"), onTake } = props;
+  const own = useRef<HTMLInputElement>(null);
+  const input = props.input ?? own;
+  const { id, offers, chosen } = offering;
+  const open = offers.length > 0;
+
+  function onKeyDown(event: KeyboardEvent): void {
+    if (!offering.onKey(event, onTake) && !props.onKey?.(event)) return;
+    event.preventDefault();
+    event.stopPropagation();
+  }
+
+  const options = offers.map((offer, index) => (
+    <div
+      key={offer.path}
+      id={`${id}-${index}`}
+      role="option"
+      aria-selected={index === chosen}
+      className={`mi${index === chosen ? " on" : ""}`}
+      onPointerDown={(event) => event.preventDefault()}
+      onClick={() => onTake(offer, "click")}
+    >
+      {offer.type && <Icon name="var" small />}
+      <span className="mono cut">{offer.path}</span>
+      <span className="k">{offer.type}</span>
+    </div>
+  ));
+  const box = { id, role: "listbox", "aria-label": listed };
+  return (
+    <>
+      <input
+        ref={input}
+        id={props.id}
+        className={props.className}
+        role="combobox"
+        aria-label={label}
+        aria-expanded={open}
+        aria-controls={open ? id : undefined}
+        aria-autocomplete="list"
+        aria-activedescendant={chosen >= 0 ? `${id}-${chosen}` : undefined}
+        aria-invalid={bad}
+        aria-describedby={props.about}
+        placeholder={props.placeholder}
+        value={value}
+        disabled={props.disabled}
+        spellCheck={false}
+        autoComplete="off"
+        onChange={({ target }) => props.onType(target.value, target.selectionStart ?? target.value.length)}
+        onKeyDown={onKeyDown}
+        onPaste={props.onPaste}
+        onFocus={props.onFocus}
+        onBlur={() => {
+          offering.close();
+          props.onBlur?.();
+        }}
+      />
+      {open && list !== undefined && (
+        <div {...box} className={list}>
+          {options}
+        </div>
+      )}
+      {open && list === undefined && input.current && (
+        <Floating {...box} below={input.current} onGone={offering.close}>
+          {options}
+        </Floating>
+      )}
+    </>
+  );
+}
+
+interface FloatingProps {
+  id: string;
+  role: string;
+  "aria-label": string;
+  below: HTMLElement;
+  children: ReactNode;
+  onGone: () => void;
+}
+
+/** Outside of whatever the field scrolls in, so that it is not cut off; gone when that scrolls. */
+function Floating({ below, onGone, ...box }: FloatingProps) {
+  const menu = useRef<HTMLDivElement>(null);
+  const [place, setPlace] = useState({ left: 0, top: 0 });
+  useLayoutEffect(() => {
+    const { left, top, bottom } = below.getBoundingClientRect();
+    const { width = 0, height = 0 } = menu.current?.getBoundingClientRect() ?? {};
+    const fits = bottom + 2 + height <= innerHeight;
+    setPlace({ left: Math.max(4, Math.min(left, innerWidth - width - 4)), top: fits ? bottom + 2 : top - height - 2 });
+  }, [below]);
+  useEffect(() => {
+    addEventListener("scroll", onGone, true);
+    addEventListener("resize", onGone);
+    return () => {
+      removeEventListener("scroll", onGone, true);
+      removeEventListener("resize", onGone);
+    };
+  });
+  return createPortal(<div ref={menu} className="menu" style={place} {...box} />, layer());
+}
