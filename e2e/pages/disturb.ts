@@ -49,13 +49,13 @@ export class Disturb {
     await expect(this.pane.getByRole('radio', { name: kind })).toBeChecked();
   }
 
-  async when(when: 'In the next scan' | 'In a scan' | 'By chance'): Promise<void> {
+  async when(when: 'In the next scan' | 'In a scan' | 'At random'): Promise<void> {
     await this.field('When').selectOption(when);
   }
 
   async takeBack(text: string | RegExp): Promise<void> {
     await this.line(text)
-      .getByRole('button', { name: /^Take back/ })
+      .getByRole('button', { name: /^Remove/ })
       .click();
   }
 }

@@ -1,7 +1,7 @@
 import { expect, type Locator, type Page } from '@playwright/test';
 
 export interface Wanted {
-  errors?: 'All of the model' | 'Non-fatal only' | 'Ticked in the error simulator';
+  errors?: 'All errors of the model' | 'Non-fatal only' | 'Selected in the error simulator';
   /** Kept states to begin from; without, the PLC as it is now. */
   states?: string[];
   scans?: number;
@@ -93,7 +93,7 @@ export class Sweeps {
   }
 
   /** Opens the dialog and fills it in. */
-  async ask({ errors = 'All of the model', states, scans }: Wanted): Promise<void> {
+  async ask({ errors = 'All errors of the model', states, scans }: Wanted): Promise<void> {
     const button = this.pane.getByRole('button', { name: 'Run all…' });
     if (await button.isVisible()) await button.click();
     else await this.fromMenu('Run all…');
@@ -152,6 +152,6 @@ export class Sweeps {
 
   /** Gives the other panels their room back. */
   async narrow(): Promise<void> {
-    await this.page.getByRole('button', { name: 'Put the other panels back' }).click();
+    await this.page.getByRole('button', { name: 'Restore the other panels' }).click();
   }
 }

@@ -13,7 +13,7 @@ export class TopBar {
   }
 
   get here(): Locator {
-    return this.page.getByRole('list', { name: 'Here now' });
+    return this.page.getByRole('list', { name: 'Connected users' });
   }
 
   mode(name: 'PROGRAM' | 'MONITOR' | 'RUN'): Locator {

@@ -45,7 +45,7 @@ export class Trace {
 
   /** Waits for a signal to do something. */
   async arm(signal: string, when: string): Promise<void> {
-    await this.pane.getByRole('combobox', { name: 'What it does' }).selectOption(when);
+    await this.pane.getByRole('combobox', { name: 'Trigger condition' }).selectOption(when);
     await this.enter('When', signal);
     await expect(this.state).toHaveText('Armed');
   }

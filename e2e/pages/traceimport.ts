@@ -5,11 +5,11 @@ export class TraceImport {
   constructor(private readonly page: Page) {}
 
   get dialog(): Locator {
-    return this.page.getByRole('dialog', { name: 'Verify the trace of a controller' });
+    return this.page.getByRole('dialog', { name: 'Verify a controller log' });
   }
 
   async open(): Promise<void> {
-    await this.fromProjectMenu('Import controller trace…');
+    await this.fromProjectMenu('Import controller log…');
     await expect(this.dialog).toBeVisible();
   }
 
@@ -30,7 +30,7 @@ export class TraceImport {
   }
 
   role(column: string): Locator {
-    return this.dialog.getByLabel(`What ${column} is`, { exact: true });
+    return this.dialog.getByLabel(`Role of ${column}`, { exact: true });
   }
 
   variable(column: string): Locator {

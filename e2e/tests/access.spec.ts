@@ -78,7 +78,7 @@ test('a colleague who follows a link is asked for the key, and comes to where th
     await page.context().clearCookies();
     await server.kill();
     await server.startAgain();
-    await expect(page.getByRole('heading', { name: 'This server asks for its key' })).toBeVisible();
+    await expect(page.getByRole('heading', { name: 'This server requires its key' })).toBeVisible();
     await key.fill(server.address);
     await page.getByRole('button', { name: 'Open' }).click();
     await jo.runs();

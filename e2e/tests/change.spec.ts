@@ -28,7 +28,7 @@ test('an online change lists what begins anew, waits for a yes, and is rolled ba
     await change('shift : INT := 3;', 'uptime    : TIME; shift : TIME := T#5s;');
     await expect(dialog.getByRole('row').filter({ hasText: 'Main.shift' })).toContainText('INT');
     await expect(dialog).toContainText(/\d+ kept/);
-    await expect(dialog.getByRole('table', { name: 'line-1: Begins anew' })).toContainText('Main.shift');
+    await expect(dialog.getByRole('table', { name: 'line-1: Reinitialized' })).toContainText('Main.shift');
     await dialog.getByRole('button', { name: 'Cancel' }).click();
     await expect(dialog).toBeHidden();
     await ann.watch.shows('Main.shift', '44');
@@ -38,7 +38,7 @@ test('an online change lists what begins anew, waits for a yes, and is rolled ba
     const parts = await ann.watch.number('Main.parts.total');
     await main.build();
     await dialog.getByRole('button', { name: 'Change line-1' }).click();
-    await expect(main.outcome).toContainText(/Built for line-1: \d+ kept, 1 anew/);
+    await expect(main.outcome).toContainText(/Built for line-1: \d+ kept, 1 reinitialized/);
     await ann.watch.shows('Main.shift', 'T#5s');
     expect(await ann.watch.number('Main.parts.total')).toBeGreaterThanOrEqual(parts);
     await ann.runs();
@@ -48,7 +48,7 @@ test('an online change lists what begins anew, waits for a yes, and is rolled ba
     await main.region.getByRole('button', { name: 'Roll back' }).click();
     await ann.watch.shows('Main.shift', '3');
     await expect(main.region.getByRole('button', { name: 'Roll back' })).toBeHidden();
-    await expect(main.outcome).toContainText(/Runs version 2, the text is version 3/);
+    await expect(main.outcome).toContainText(/Runs version 2; the text is version 3/);
     await ann.runs();
   });
 
@@ -92,7 +92,7 @@ test('with two PLCs one chooses which is changed, and is told which was', async 
     await expect(dialog.getByRole('button', { name: 'Change', exact: true })).toBeDisabled();
     await box('What-If').check();
     await dialog.getByRole('button', { name: 'Change What-If only' }).click();
-    await expect(main.outcome).toContainText(/Built for What-If: \d+ kept, 1 anew/);
+    await expect(main.outcome).toContainText(/Built for What-If: \d+ kept, 1 reinitialized/);
   });
 
   await test.step('one in RUN is not changed, the other is', async () => {

@@ -30,7 +30,7 @@ test('a file that somebody deletes goes from the others, but not what they were 
   await test.step('also after a reload', async () => {
     await jo.page.reload();
     await gate.tab.click();
-    await expect(gate.note).toContainText('FB_Gate.st was deleted meanwhile.');
+    await expect(gate.note).toContainText('FB_Gate.st was deleted in the meantime.');
     await expect(gate.line('(* mine *)')).toBeVisible();
   });
 

@@ -10,12 +10,12 @@ test('inputs, memory and results are disturbed: everybody sees it, and it is tak
   await mika.runs();
   await jo.runs();
   await others.show();
-  await expect(others.pane).toContainText('Nothing disturbs this PLC');
+  await expect(others.pane).toContainText('No disturbances');
 
   await test.step('a mistake says what is missing, and what was typed stays', async () => {
     await disturb.show();
     await disturb.button.click();
-    await expect(disturb.refusal).toContainText('Which variable or address?');
+    await expect(disturb.refusal).toContainText('Enter a variable or an address.');
     await disturb.path.fill('Main.belt.positon');
     await disturb.button.click();
     await expect(disturb.refusal).toContainText('positon');
@@ -26,7 +26,7 @@ test('inputs, memory and results are disturbed: everybody sees it, and it is tak
     await expect(disturb.refusal).toContainText(/bit/i);
     await expect(disturb.path).toHaveValue('Main.belt.position');
     await disturb.field('Bit').fill('x');
-    await expect(disturb.refusal).toContainText('A bit is a number');
+    await expect(disturb.refusal).toContainText('Enter a bit');
   });
 
   await test.step('the program offers its variables', async () => {
@@ -50,14 +50,14 @@ test('inputs, memory and results are disturbed: everybody sees it, and it is tak
     await mika.watch.fromMenu('start', 'Disturb…');
     await expect(disturb.path).toHaveValue('start');
     await disturb.kind('Stuck input');
-    await mika.page.getByRole('checkbox', { name: 'until taken back' }).check();
+    await mika.page.getByRole('checkbox', { name: 'until removed' }).check();
     await disturb.button.click();
-    await expect(disturb.line('start')).toContainText('Under way');
+    await expect(disturb.line('start')).toContainText('Active');
     await expect(others.line('start')).toContainText('by Mika');
     await mika.watch.set('start', 'TRUE');
     await mika.watch.shows('start', 'FALSE');
     await others.takeBack('start');
-    await expect(disturb.pane).toContainText('Nothing disturbs this PLC');
+    await expect(disturb.pane).toContainText('No disturbances');
     await mika.watch.shows('start', 'TRUE');
     await mika.watch.shows('motor', 'TRUE');
   });
@@ -68,10 +68,10 @@ test('inputs, memory and results are disturbed: everybody sees it, and it is tak
     await editor.line('heartbeat := NOT heartbeat').first().click({ button: 'right' });
     await mika.page.getByRole('menuitem', { name: 'Corrupt this result…' }).click();
     await expect(disturb.field('Statement')).toHaveValue(/^Main\.st:\d+$/);
-    await disturb.when('By chance');
+    await disturb.when('At random');
     await disturb.field('Probability per scan').fill('120 %');
     await disturb.button.click();
-    await expect(disturb.refusal).toContainText('A probability');
+    await expect(disturb.refusal).toContainText('Enter a probability');
     await disturb.field('Probability per scan').fill('1/2');
     await disturb.button.click();
     await expect(disturb.line('Main.st')).toContainText('by Mika');
@@ -90,8 +90,8 @@ test('inputs, memory and results are disturbed: everybody sees it, and it is tak
     await disturb.button.click();
     await expect(disturb.line('D500')).toContainText('Waiting');
     await expect(disturb.list).toContainText('2 disturbances');
-    await disturb.list.getByRole('button', { name: 'Take all back' }).click();
-    await expect(disturb.pane).toContainText('Nothing disturbs this PLC');
+    await disturb.list.getByRole('button', { name: 'Remove all' }).click();
+    await expect(disturb.pane).toContainText('No disturbances');
   });
 
   await test.step('in the past nothing can be disturbed', async () => {

@@ -24,7 +24,7 @@ test('a fatal error stops the program, says why and how to go on, and is recover
     await expect(mika.banner).toContainText('80F4');
     await expect(mika.banner).toContainText(ERROR);
     await expect(mika.banner).toContainText('I/O table checksum');
-    await expect(mika.banner).toContainText('Next: clear it');
+    await expect(mika.banner).toContainText('Clear the error');
   });
 
   await test.step('the program stopped, the outputs are off', async () => {

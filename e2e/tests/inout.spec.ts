@@ -54,7 +54,7 @@ test('a change of an in-out goes to the variable that was passed, or to what ano
 
   await test.step('the other call is picked, and what is written goes there', async () => {
     await mika.watch.pickCall(level, /bufferLevel/);
-    await expect(mika.watch.binding(level)).toContainText('picked out of 2 calls');
+    await expect(mika.watch.binding(level)).toContainText('chosen from 2 calls');
     await mika.watch.set(level, '2000');
     await expect.poll(() => jo.watch.number('bufferLevel')).toBeGreaterThan(1900);
     await mika.watch.shows('Main.spare', '300');

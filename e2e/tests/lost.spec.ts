@@ -25,7 +25,7 @@ test('without a server the page says so, keeps what was typed, and comes back by
 
   await test.step('an entry is not lost, and says that it was not sent', async () => {
     await mika.watch.write('start', 'TRUE');
-    await expect(mika.watch.refusal).toContainText('Not sent yet.');
+    await expect(mika.watch.refusal).toContainText('Not sent.');
     await expect(mika.watch.entry('start')).toHaveValue('TRUE');
   });
 

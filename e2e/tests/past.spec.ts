@@ -10,7 +10,7 @@ test('who last wrote a variable: a person, then a statement, and the way to it',
 
   await test.step('a command says who entered it', async () => {
     await ann.watch.fromMenu('start', 'Who last wrote this');
-    await expect(writer).toContainText('Entered through the one door');
+    await expect(writer).toContainText('Written by a command');
     await expect(writer).toContainText('Ann');
     await expect(writer).toContainText('TRUE');
     await writer.getByRole('button', { name: 'Close' }).first().click();
@@ -26,7 +26,7 @@ test('who last wrote a variable: a person, then a statement, and the way to it',
 
   await test.step('before that it was written by the part before', async () => {
     const total = await ann.watch.number('Main.parts.total');
-    await writer.getByRole('button', { name: 'Before that' }).click();
+    await writer.getByRole('button', { name: 'Previous write' }).click();
     await expect(writer.getByRole('definition').last()).toHaveText(String(total - 1));
   });
 
@@ -59,8 +59,8 @@ test('what changed in a stretch that is selected by keyboard', async ({ openAs }
 
   const { changes } = ann.past;
   await expect(ann.past.changed('motor')).toContainText('TRUE');
-  await expect(changes.getByRole('region', { name: 'Entered in between' })).toContainText('start');
-  await expect(changes.getByRole('region', { name: 'Entered in between' })).toContainText('Ann');
+  await expect(changes.getByRole('region', { name: 'Commands in between' })).toContainText('start');
+  await expect(changes.getByRole('region', { name: 'Commands in between' })).toContainText('Ann');
   await changes.getByRole('searchbox').fill('parts.total');
   await expect(ann.past.changed('motor')).toHaveCount(0);
   await expect(ann.past.changed('Main.parts.total')).toBeVisible();
@@ -96,10 +96,10 @@ test('back, branch, an error there, and what that made of the run', async ({ ope
   await test.step('both runs part in the scan in front of which it was raised', async () => {
     await ann.past.compareWith('line-1');
     const { comparison } = ann.past;
-    await expect(comparison).toContainText('They part in scan');
+    await expect(comparison).toContainText('The runs diverge in scan');
     await expect(comparison).toContainText(`in scan ${grouped(from)}`);
-    await expect(comparison).toContainText('Something was entered in one of them only.');
-    const entered = comparison.getByRole('region', { name: 'Entered in one of them only' });
+    await expect(comparison).toContainText('A command was entered in one of them only.');
+    const entered = comparison.getByRole('region', { name: 'Commands in one run only' });
     await expect(entered).toContainText('what-if');
     await expect(entered).toContainText('Basic I/O Unit error');
     await expect(comparison.getByRole('row').filter({ hasText: 'basicIoError' }).first()).toContainText('TRUE');
@@ -135,12 +135,12 @@ test('the run once more, with the error one scan later', async ({ openAs }) => {
   });
 
   await test.step('what came of it is compared with the original', async () => {
-    const banner = ann.page.getByRole('region', { name: 'later is there:' });
+    const banner = ann.page.getByRole('region', { name: 'later is ready:' });
     await banner.getByRole('button', { name: 'Compare with the original' }).click();
     const bar = ann.page.getByRole('toolbar', { name: 'Compare runs' });
     await expect(bar.getByRole('combobox')).toContainText('later');
     await bar.getByRole('button', { name: 'Compare', exact: true }).click();
-    await expect(ann.past.comparison).toContainText('They part in scan');
+    await expect(ann.past.comparison).toContainText('The runs diverge in scan');
     await expect(ann.past.comparison).toContainText('They differ in');
     await banner.getByRole('button', { name: 'Open later' }).click();
     await expect(ann.top.picker).toContainText('later');
@@ -181,7 +181,7 @@ test('the address of a scan is opened by a colleague', async ({ openAs }) => {
 
   await test.step('what there is not is said in words', async () => {
     const dan = await openAs('Dan', '/i/4711/scan/3');
-    await expect(dan.page.getByRole('alert').filter({ hasText: 'There is no instance 4711' })).toBeVisible();
+    await expect(dan.page.getByRole('alert').filter({ hasText: 'This server has no instance 4711' })).toBeVisible();
     await dan.runs();
     const eve = await openAs('Eve', path.replace(/\d+$/, '999999999'));
     await expect(eve.page.getByRole('alert').filter({ hasText: 'cannot be shown' })).toBeVisible();

@@ -52,7 +52,7 @@ test('what was tested is filtered, printed, saved and read again', async ({ open
     const xml = await history.save('Save as XML');
     expect(xml.suggestedFilename()).toBe('line-1-version-1-record.xml');
     await history.importFile(await xml.path());
-    await expect(history.record).toContainText('An imported test record, to be read only');
+    await expect(history.record).toContainText('This imported test record is read-only');
     await expect(history.record).toContainText('Brought in by Mika');
     const imported = history.rows('Errors of the imported record').filter({ hasText: ERROR });
     await expect(imported).toContainText(['Cleared']);
@@ -93,7 +93,7 @@ test('every version of the program has a history of its own', async ({ openAs })
     await history.showVersion(/^Version 1/);
     await expect(mika.page.locator('[data-pane=history]')).toContainText('Version 1 does not run any more');
     await expect(mika.history(ERROR)).toContainText(['Cleared']);
-    await mika.page.getByRole('button', { name: 'Show the version that runs' }).click();
+    await mika.page.getByRole('button', { name: 'Show the running version' }).click();
     await expect(mika.history(ERROR)).toContainText(['Never']);
   });
 });

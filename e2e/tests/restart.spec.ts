@@ -56,7 +56,7 @@ test('in RUN a tool may only look, and the page says so', async ({ openAs }) => 
   await ann.runs();
   await ann.top.chooseMode('RUN');
   await expect(ann.watch.entry('start')).not.toBeEditable();
-  await expect(ann.watch.entry('start')).toHaveAccessibleDescription(/Mode RUN: tools may only look/);
+  await expect(ann.watch.entry('start')).toHaveAccessibleDescription(/In mode RUN tools may only read/);
   await ann.watch.row('start').click({ button: 'right' });
   await expect(ann.page.getByRole('menuitem', { name: /^Force to TRUE/ })).toBeDisabled();
   await ann.page.keyboard.press('Escape');

@@ -13,7 +13,7 @@ test('a group and two more are raised in one scan, with their details; the fatal
   const { simulator } = mika;
 
   await test.step('before anything was raised, the panel says how to begin', async () => {
-    await expect(mika.page.getByRole('region', { name: 'Nothing raised yet' })).toBeVisible();
+    await expect(mika.page.getByRole('region', { name: 'No error raised yet' })).toBeVisible();
     await expect(simulator.error(BATTERY)).toContainText('Never');
   });
 
@@ -28,7 +28,7 @@ test('a group and two more are raised in one scan, with their details; the fatal
   });
 
   await simulator.generateButton.click();
-  await expect(simulator.dialog).toContainText('Nothing is written before Generate');
+  await expect(simulator.dialog).toContainText('Nothing is written until you choose Generate');
 
   await test.step('List: a table of choices, with what they add and what will be written', async () => {
     const page = simulator.dialogPage(MEMORY);
@@ -120,7 +120,7 @@ test('the reaction stands in the tree, in words, and in the editor', async ({ op
     await simulator.generate(BASIC);
     await expect(simulator.error(BASIC)).toContainText('Reacted');
     await expect(simulator.reaction).toContainText('after 1 scan');
-    await expect(simulator.reaction.getByRole('table', { name: 'Changed by it' })).toContainText('lamp');
+    await expect(simulator.reaction.getByRole('table', { name: 'Variables changed by the error' })).toContainText('lamp');
     await expect(simulator.group('Units')).toContainText(/^Units1 of/);
   });
 
@@ -140,8 +140,8 @@ test('the reaction stands in the tree, in words, and in the editor', async ({ op
   await test.step('an error that nobody reads is a finding', async () => {
     await simulator.generate(BATTERY);
     await expect(simulator.error(BATTERY)).toContainText('Never read');
-    await expect(simulator.reaction).toContainText('Nobody read A402.04');
-    await expect(simulator.reaction).toContainText('Next: read A402.04');
+    await expect(simulator.reaction).toContainText('No statement read A402.04');
+    await expect(simulator.reaction).toContainText('Next: evaluate A402.04');
     await simulator.filterBy('Findings');
     await expect(simulator.error(BATTERY)).toBeVisible();
     await expect(simulator.error(BASIC)).toHaveCount(0);
@@ -173,7 +173,7 @@ test('faults with a shape: for some scans, again and again, when a condition hol
     await expect(simulator.armed).toContainText(/raised [2-9]\d* times/);
     await expect(simulator.armed).toContainText('by Mika');
     await expect(mika.statusBar).toContainText('1 fault armed');
-    await simulator.armed.getByRole('button', { name: /^Take back/ }).click();
+    await simulator.armed.getByRole('button', { name: /^Disarm/ }).click();
     await expect(simulator.armed).toHaveCount(0);
     await expect(simulator.error(BATTERY)).toContainText('Cleared');
   });
@@ -185,7 +185,7 @@ test('faults with a shape: for some scans, again and again, when a condition hol
     await expect(simulator.armed).toContainText(/raised \d+ times/);
     await simulator.select(BASIC);
     await expect(simulator.preview).toContainText('A402.12');
-    await simulator.armed.getByRole('button', { name: /^Take back/ }).click();
+    await simulator.armed.getByRole('button', { name: /^Disarm/ }).click();
     await expect(simulator.armed).toHaveCount(0);
   });
 
@@ -193,7 +193,7 @@ test('faults with a shape: for some scans, again and again, when a condition hol
     await simulator.select(BASIC);
     await simulator.shape('When', 'At a scan');
     await simulator.details.getByRole('textbox', { name: 'Scan' }).fill(String((await mika.top.scan()) + 200));
-    await expect(simulator.details).toContainText('This scan is over: choose a later one.');
+    await expect(simulator.details).toContainText('This scan is over. Choose a later one.');
     await expect(simulator.generateButton).toBeDisabled();
   });
 

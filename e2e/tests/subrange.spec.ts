@@ -85,9 +85,9 @@ test('a value outside of its subrange is limited, listed, marked, and leads to t
   for (const ide of [jo, mika]) {
     await test.step('everybody sees place, instance, value and how often', async () => {
       await ide.diagnostics.show();
-      const read = ide.diagnostics.entry('x was 1200, outside of 0..1000');
+      const read = ide.diagnostics.entry('x was 1200, outside the range 0..1000');
       await expect(read).toContainText('Main.st:22:');
-      await expect(ide.diagnostics.entry('open was 1005, outside of 0..1000')).toContainText('Main.v1');
+      await expect(ide.diagnostics.entry('open was 1005, outside the range 0..1000')).toContainText('Main.v1');
     });
   }
 

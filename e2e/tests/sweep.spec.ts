@@ -27,7 +27,7 @@ test('every error from two states: what nobody handles is found, looked at, acce
 
   await test.step('the dialog says how much work it will be', async () => {
     await sweeps.ask({ errors: 'Non-fatal only', states: [] });
-    await expect(sweeps.dialog).toContainText('No state is chosen.');
+    await expect(sweeps.dialog).toContainText('No state is selected.');
     await expect(sweeps.dialog.getByRole('button', { name: /^Run \d/ })).toBeDisabled();
     await sweeps.dialog.getByRole('checkbox', { name: 'Idle' }).check();
     await sweeps.dialog.getByRole('checkbox', { name: 'Running' }).check();
@@ -79,7 +79,7 @@ test('every error from two states: what nobody handles is found, looked at, acce
     await sweeps.details.getByRole('button', { name: 'Accept…' }).click();
     const dialog = ann.page.getByRole('dialog', { name: /^Accept: PLC Setup error/ });
     await dialog.getByRole('button', { name: 'Accept', exact: true }).click();
-    await expect(dialog.getByRole('alert')).toContainText('A reason is needed.');
+    await expect(dialog.getByRole('alert')).toContainText('Enter a reason.');
     await dialog.getByRole('textbox', { name: 'Reason' }).fill('Set up once, at the factory');
     await dialog.getByRole('button', { name: 'Accept', exact: true }).click();
     await expect(sweeps.details).toContainText('Accepted by Ann: Set up once, at the factory');

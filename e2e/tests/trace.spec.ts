@@ -13,7 +13,7 @@ test('signals are recorded, a trigger catches an error, and earlier scans are re
 
   await test.step('signals are added by typing, a wrong one says so', async () => {
     await trace.show();
-    await expect(trace.pane).toContainText('Nothing is recorded');
+    await expect(trace.pane).toContainText('No signals yet');
     await trace.add('Main.belt.position');
     await trace.add('motor');
     await trace.add('A402.12');
@@ -97,8 +97,8 @@ test('signals are recorded, a trigger catches an error, and earlier scans are re
   await test.step('the last 1,000 scans are recorded afterwards, of any signals', async () => {
     await trace.choose('Choose a trace', 'Record earlier scans...');
     const dialog = mika.page.getByRole('dialog');
-    await dialog.getByLabel('Signals, one in each line').fill('Main.uptime\nMain.belt.position\nlamp');
-    await dialog.getByLabel(/Last scans/).fill('1000');
+    await dialog.getByLabel('Signals, one per line').fill('Main.uptime\nMain.belt.position\nlamp');
+    await dialog.getByLabel(/Number of scans/).fill('1000');
     await dialog.getByRole('button', { name: 'Record' }).click();
     await expect(dialog).toBeHidden();
     await expect(trace.pane).toContainText(/recorded afterwards by Mika/, { timeout: 120_000 });

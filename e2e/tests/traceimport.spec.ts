@@ -22,7 +22,7 @@ test('the trace of a controller is mapped, verified and kept', async ({ openAs }
 
   await test.step('a broken file is refused with its row, and nothing of it is there', async () => {
     await trace.choose('broken.csv', 'scan,start\n0,1\n1,1,1,1\n');
-    await expect(trace.dialog).toContainText('broken.csv was not read. Nothing was imported.');
+    await expect(trace.dialog).toContainText('broken.csv could not be read. Nothing was imported.');
     await expect(trace.problem('row 3')).toBeVisible();
     await expect(trace.start).toBeDisabled();
   });
@@ -115,6 +115,6 @@ test('the trace of a controller is mapped, verified and kept', async ({ openAs }
       .getByRole('dialog', { name: 'Delete this verification?' })
       .getByRole('button', { name: 'Delete' })
       .click();
-    await expect(records.records).toContainText('Nothing was kept yet');
+    await expect(records.records).toContainText('No saved verifications yet');
   });
 });

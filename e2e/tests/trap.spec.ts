@@ -42,7 +42,7 @@ test('a program that goes wrong stops with file and line, and nothing else stops
 
   await test.step('a program without variables has nothing to offer, and says so', async () => {
     await mika.page.getByRole('button', { name: "Add the program's variables" }).click();
-    await expect(mika.page.getByText('The program that runs has no variables.')).toBeVisible();
+    await expect(mika.page.getByText('The running program has no variables.')).toBeVisible();
   });
 
   for (const { name, fault, said } of FAULTS) {
@@ -57,7 +57,7 @@ test('a program that goes wrong stops with file and line, and nothing else stops
       await mika.watch.write('Main.go', 'TRUE');
 
       await expect(mika.top.state).toContainText('Trapped');
-      await expect(mika.banner).toContainText('The program was stopped.');
+      await expect(mika.banner).toContainText('A run-time error stopped the program.');
       await expect(mika.banner).toContainText(said);
       await expect(mika.banner).toContainText(/ at Main\.st:9 in scan [\d\s]+\./);
       await expect(main.region.locator('.trapline')).toBeVisible();

@@ -118,7 +118,7 @@ test('a project needs its model; nothing that a page asks of itself is refused',
   await dialog.getByRole('textbox', { name: 'Name' }).fill('late');
   await dialog.getByRole('button', { name: 'Try now' }).click();
   await expect(dialog.getByRole('button', { name: 'Create' })).toBeDisabled();
-  await expect(dialog.getByRole('combobox')).toContainText('on their way');
+  await expect(dialog.getByRole('combobox')).toContainText('Loading the models');
   await page.keyboard.press('Enter');
   arrive();
   await expect(dialog.getByRole('button', { name: 'Create' })).toBeEnabled();

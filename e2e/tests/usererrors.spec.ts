@@ -13,7 +13,7 @@ test('errors of the own machine: defined in the browser, built, raised, recorded
 
   await test.step('the first one starts from an example', async () => {
     await own.open();
-    await expect(own.pane).toContainText('No errors of your own yet');
+    await expect(own.pane).toContainText('No user-defined errors yet');
     await own.pane.getByRole('button', { name: /Pump overheated/ }).click();
     await expect(own.error('Pump overheated')).toContainText('W10.00');
     await expect(own.field('Id')).toHaveValue('pump-overheated');
@@ -100,7 +100,7 @@ test('a file is imported whole or not at all, and of two savers the second decid
     await expect(dialog.getByRole('alert')).toContainText('line 5, column 54');
     await expect(dialog.getByRole('alert')).toContainText('the last word is W511');
     await dialog.getByRole('button', { name: 'Cancel' }).click();
-    await expect(own.pane).toContainText('No errors of your own yet');
+    await expect(own.pane).toContainText('No user-defined errors yet');
   });
 
   await test.step('a right one is there', async () => {

@@ -177,7 +177,7 @@ test('set data shows whether the input or the logic made a wrong result', async 
     await expect(verify.cell(scan, "output:barrier:A'")).toHaveText(a);
     await expect(verify.cell(scan, 'output:barrier:A')).toHaveText(a);
     await expect(verify.cell(scan, 'from')).toHaveText('Set');
-    await expect(verify.facts).toContainText('the input data explains the result');
+    await expect(verify.facts).toContainText('the input data explains the difference');
   });
 
   await test.step('on the recorded inputs all is as it was', async () => {

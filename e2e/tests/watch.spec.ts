@@ -145,7 +145,7 @@ test('groups, order, filter, CSV and dragging', async ({ openAs }, info) => {
     await expect.poll(() => watch.paths()).toEqual(['motor', 'Main.heartbeat']);
     await page.getByRole('textbox', { name: 'Filter by name, type or address' }).fill('');
     await page.getByRole('button', { name: 'Show: All rows' }).click();
-    await page.getByRole('menuitemradio', { name: 'Changed since now' }).click();
+    await page.getByRole('menuitemradio', { name: 'Changed since the filter was set' }).click();
     await expect.poll(() => watch.paths()).toContain('Main.heartbeat');
     expect(await watch.paths()).not.toContain('motor');
     await page.getByRole('button', { name: 'Close the filter' }).click();

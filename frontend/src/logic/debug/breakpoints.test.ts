@@ -53,7 +53,7 @@ describe("the words of a breakpoint", () => {
     expect(conditionsOf(at({ condition: "jam.Q", hits: "% 3", instance: "Main.belt[3]" }))).toBe(
       "if jam.Q · hits % 3 · in Main.belt[3]",
     );
-    expect(conditionsOf(at({ enabled: false }))).toBe("off");
+    expect(conditionsOf(at({ enabled: false }))).toBe("disabled");
   });
 
   it("say why it is nowhere, how often it was reached, and whose it is", () => {

@@ -79,7 +79,7 @@ describe("an entry", () => {
     const { trouble } = readEntry(edit, hex("1A0G"));
     expect(trouble && inWords(trouble)).toBe("G is not a hex digit. 000 to 3FF, for example 1FF.");
     const over = readEntry(detail({}), decimal("4")).trouble;
-    expect(over && inWords(over)).toBe("4 is outside of the range. 0 to 3, for example 1.");
+    expect(over && inWords(over)).toBe("4 is outside the range. 0 to 3, for example 1.");
     expect(readEntry(detail({}), decimal("")).trouble?.key).toBe("entry.missing");
     expect(readEntry(detail({}), decimal("-1")).trouble?.key).toBe("entry.decimal");
     expect(readEntry(edit, { text: "é", format: "text" }).trouble?.key).toBe("entry.text");

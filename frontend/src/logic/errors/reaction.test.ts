@@ -21,7 +21,7 @@ describe("a reaction", () => {
     expect(sentenceOf(reaction({ first_effect: 3 }), "A402.12")).toBe("after 3 scans.");
     expect(sentenceOf(reaction({ verdict: "never_read" }), "A402.12")).toContain("A402.12");
     expect(sentenceOf(reaction({ verdict: "no_effect", first_read: 2 }), "A402.12")).toContain("scan 2");
-    expect(nextStep("never_read", "A402.12")).toContain("read A402.12");
+    expect(nextStep("never_read", "A402.12")).toContain("evaluate A402.12");
     for (const verdict of ["no_effect", "stored_only", "not_reached"] as const) {
       expect(nextStep(verdict, "A402.12")).not.toBe("");
     }

@@ -27,7 +27,7 @@ const monitor: InstanceState = {
 
 describe("permits", () => {
   it("MONITOR takes everything", () => {
-    for (const deed of ["write", "force", "errors", "mode", "run", "restart", "anew", "change"] as const)
+    for (const deed of ["write", "force", "errors", "mode", "run", "restart", "newrun", "change"] as const)
       expect(forbidden(monitor, true, deed)).toBeNull();
   });
 
@@ -54,14 +54,14 @@ describe("permits", () => {
       for (const deed of ["write", "force", "errors", "mode", "run", "restart", "change", "travel"] as const)
         expect(forbidden(state, true, deed)).toBe(why);
       expect(forbidden({ ...state, past: { live_scan: 9, by: "Ann" } }, true, "travel")).toBe(why);
-      expect(forbidden(state, true, "anew")).toBeNull();
+      expect(forbidden(state, true, "newrun")).toBeNull();
       expect(forbidden(state, true, "build")).toBeNull();
     }
   });
 
-  it("a PLC whose model is missing cannot begin anew either", () => {
+  it("a PLC whose model is missing cannot begin a new run either", () => {
     const missing: InstanceState = { ...monitor, state: "failed", pid: null, startable: false };
-    for (const deed of ["write", "restart", "anew", "change", "travel"] as const)
+    for (const deed of ["write", "restart", "newrun", "change", "travel"] as const)
       expect(forbidden(missing, true, deed)).toBe("permit.model");
     expect(forbidden(missing, true, "build")).toBeNull();
   });

@@ -4,7 +4,7 @@ import type { TextKey } from "../../text";
 import type { InstanceState } from "../../wire/types";
 import { waitsForSpace } from "./plcstate";
 
-export type Deed = "write" | "force" | "errors" | "mode" | "run" | "restart" | "anew" | "change" | "build" | "travel";
+export type Deed = "write" | "force" | "errors" | "mode" | "run" | "restart" | "newrun" | "change" | "build" | "travel";
 
 /** Devices in RUN take nothing from a tool; errors come from the machine, so the error simulator goes on. */
 const NOT_IN_RUN: readonly Deed[] = ["write", "force", "change"];
@@ -17,7 +17,7 @@ export function forbidden(state: InstanceState | null, connected: boolean, deed:
   if (!state.startable) return "permit.model";
   const unreachable = unreachableBy(state);
   // A new run has a new process: it needs nothing of the old one.
-  if (unreachable !== null) return deed === "anew" ? null : unreachable;
+  if (unreachable !== null) return deed === "newrun" ? null : unreachable;
   if (state.past !== null) return deed === "travel" ? null : "permit.past";
   if (state.state === "off") return "permit.off";
   if (state.mode === "RUN" && NOT_IN_RUN.includes(deed)) return deed === "change" ? "permit.run.change" : "permit.run";

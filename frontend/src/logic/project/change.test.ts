@@ -20,8 +20,8 @@ const refusing = plc(1, "line-1", "mode RUN");
 
 describe("online change", () => {
   it("sorts what is not kept: only a changed type loses a value", () => {
-    expect(fates(one).anew.map(({ path }) => path)).toEqual(["Main.shift"]);
-    expect(changeNote(one)).toBe("58 kept, 1 anew, 1 new, 1 removed");
+    expect(fates(one).reinitialized.map(({ path }) => path)).toEqual(["Main.shift"]);
+    expect(changeNote(one)).toBe("58 kept, 1 reinitialized, 1 new, 1 removed");
     expect(changeNote({ ...one, lost: [], lost_count: 0 })).toBe("58 kept");
     expect(changeNote({ ...one, lost_count: 700 })).toContain("and 697 more");
   });
@@ -37,7 +37,7 @@ describe("online change", () => {
   });
 
   it("the result says what was changed where", () => {
-    const note = "58 kept, 1 anew, 1 new, 1 removed";
+    const note = "58 kept, 1 reinitialized, 1 new, 1 removed";
     expect(builtNote([], 1)).toBe("Built");
     expect(builtNote([one], 1)).toBe(`Built for line-1: ${note}`);
     expect(builtNote([one, two], 2)).toBe(`Built for line-1, What-If: ${note}`);

@@ -4,21 +4,21 @@ import { t } from "../../text";
 import type { LostVariable, OnlineChange } from "../../wire/types";
 import { grouped } from "../format/numbers";
 
-export const FATES = ["anew", "new", "removed"] as const;
+export const FATES = ["reinitialized", "new", "removed"] as const;
 export type Fate = (typeof FATES)[number];
 
-/** What is not kept, by what becomes of it: only what begins anew loses a value. */
+/** What is not kept, by what becomes of it: only what is reinitialized loses a value. */
 export function fates(change: OnlineChange): Record<Fate, LostVariable[]> {
-  const sorted: Record<Fate, LostVariable[]> = { anew: [], new: [], removed: [] };
+  const sorted: Record<Fate, LostVariable[]> = { reinitialized: [], new: [], removed: [] };
   for (const variable of change.lost) sorted[fateOf(variable)].push(variable);
   return sorted;
 }
 
 function fateOf({ reason }: LostVariable): Fate {
-  return reason === "new" || reason === "removed" ? reason : "anew";
+  return reason === "new" || reason === "removed" ? reason : "reinitialized";
 }
 
-/** `58 kept, 1 anew, 1 removed`. */
+/** `58 kept, 1 reinitialized, 1 removed`. */
 export function changeNote(change: OnlineChange): string {
   const sorted = fates(change);
   const parts = FATES.filter((fate) => sorted[fate].length > 0).map((fate) =>

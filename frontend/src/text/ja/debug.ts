@@ -16,7 +16,7 @@ export const debug: Record<keyof typeof english, string> = {
   "coverage.more": "カバレッジ: その他",
   "coverage.none": "未実行",
   "coverage.part": "一部実行済み",
-  "coverage.reset": "最初からやり直す",
+  "coverage.reset": "カバレッジをリセット",
   "coverage.since": "スキャン {since} から {scans} スキャン分",
   "debug.access.access": "読み書き時",
   "debug.access.change": "変化時",

@@ -188,7 +188,7 @@ export const sweep: Record<keyof typeof english, string> = {
   "sweep.underway.hint": "{by} の異常スイープ: {total} 回中 {done} 回",
   "sweep.waiting": "待機中",
   "sweep.while": "{error}（{state}）",
-  "sweep.widen": "このページを広げる",
+  "sweep.widen": "このページを最大化",
   "sweep.narrow": "他のパネルを戻す",
   "sweep.narrow.word": "他のパネル",
   "sweep.present": "すでに発生中",

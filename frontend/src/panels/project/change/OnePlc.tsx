@@ -11,10 +11,10 @@ interface Props {
   onToggle: () => void;
 }
 
-/** One PLC: whether it is to be changed, what is kept, and what begins anew, is new, or goes. */
+/** One PLC: whether it is to be changed, what is kept, and what is reinitialized, new, or removed. */
 export function OnePlc({ change, chosen, onToggle }: Props) {
   const sorted = fates(change);
-  const anew = sorted.anew.length;
+  const lost = sorted.reinitialized.length;
   const able = change.refusal === "";
   const more = change.lost_count - change.lost.length;
   return (
@@ -31,10 +31,10 @@ export function OnePlc({ change, chosen, onToggle }: Props) {
         <Icon name="plc" />
         <b className="cut">{change.name}</b>
         <span className="grow" />
-        {able && anew > 0 && (
+        {able && lost > 0 && (
           <span className="st warning">
             <Icon name="init" small />
-            {t(anew === 1 ? "change.lost.one" : "change.lost", { count: grouped(anew) })}
+            {t(lost === 1 ? "change.lost.one" : "change.lost", { count: grouped(lost) })}
           </span>
         )}
         {able && (

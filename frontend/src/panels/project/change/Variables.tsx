@@ -9,10 +9,10 @@ interface Props {
   variables: readonly LostVariable[];
 }
 
-/** The variables that share a fate; for those that begin anew it says why. Only the rows in sight exist in the page. */
+/** The variables that share a fate; for those that are reinitialized it says why. Only the rows in sight exist in the page. */
 export function Variables({ plc, fate, variables }: Props) {
   const grid = useGrid({ count: variables.length });
-  const reasons = fate === "anew";
+  const reasons = fate === "reinitialized";
   return (
     <div
       ref={grid.scroll}

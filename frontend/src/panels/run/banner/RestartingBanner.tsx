@@ -25,7 +25,7 @@ export function RestartingBanner({ state }: { state: InstanceState }) {
 /** It has no process that could take a restart: where anything can start it, it is switched on once more. */
 function FailedBanner({ state }: { state: InstanceState }) {
   const instance = useBench((bench) => bench.instance);
-  const hopeless = useForbidden("anew") !== null;
+  const hopeless = useForbidden("newrun") !== null;
   const [refused, setRefused] = useState("");
   return (
     <div className="banner fatal" role="alert">

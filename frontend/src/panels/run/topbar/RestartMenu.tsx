@@ -9,9 +9,9 @@ import { NewRun } from "./NewRun";
 
 const KINDS: readonly RestartKind[] = ["cold", "warm", "power"];
 
-/** The ways to begin anew, each with what it keeps; a new run; and the way back to the program before. */
+/** The ways to restart, each with what it keeps; a new run; and the way back to the program before. */
 export function RestartMenu() {
-  const forbidden = useForbidden("anew");
+  const forbidden = useForbidden("newrun");
   const noRestart = useForbidden("restart");
   const noChange = useForbidden("change");
   const previous = usePlc((plc) => plc.state?.previous_version ?? null);
