@@ -5,7 +5,7 @@ import { Dialog } from "./Dialog";
 import { Icon } from "./Icon";
 
 /** What became of the last try. */
-export interface Sent {
+interface Sent {
   refused: string | null;
   /** What was refused is another now without having been typed: the reason goes, as with every edit. */
   forget: () => void;

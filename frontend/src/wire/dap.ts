@@ -5,7 +5,7 @@ import { link } from "./socket";
 export type { DebugProtocol } from "@vscode/debugprotocol";
 
 /** What the adapter answered instead of doing it, in its words. */
-export class DapRefused extends Error {}
+class DapRefused extends Error {}
 
 interface Waiting {
   resolve: (body: unknown) => void;

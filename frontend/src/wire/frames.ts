@@ -1,6 +1,6 @@
 /** Binary value frames: what the watch tap of the PLC's process sends. The layout is the backend's `web/socket/frames.py`. */
 
-export const VALUES = 1;
+const VALUES = 1;
 const HEADER_BYTES = 24;
 
 export interface Frame {

@@ -123,9 +123,9 @@ export async function json<T>(method: string, path: string, body?: unknown, sign
 const filePath = (project: number, path: string) =>
   `/projects/${project}/files/${path.split("/").map(encodeURIComponent).join("/")}`;
 
-export type SaveResult = { saved: FileInfo } | { conflict: SaveConflict };
+type SaveResult = { saved: FileInfo } | { conflict: SaveConflict };
 
-export interface ListOnServer {
+interface ListOnServer {
   name: string;
   shared: boolean;
   groups: readonly string[];

@@ -11,7 +11,7 @@ export interface LinkStatus {
   nextTryAt: number | null;
 }
 
-export interface LinkListener {
+interface LinkListener {
   onStatus(status: LinkStatus): void;
   onMessage(message: ServerMessage): void;
   onFrame(frame: Frame): void;
@@ -24,7 +24,7 @@ const HELLO_TIMEOUT = 5000;
 /** The server says something each 5 s at least: after this silence it is frozen or out of reach, though nothing was closed. */
 const SILENCE_TIMEOUT = 12_000;
 
-export class Link {
+class Link {
   private socket: WebSocket | null = null;
   private instance: number | null = null;
   private retry: ReturnType<typeof setTimeout> | undefined;

@@ -3,7 +3,7 @@ import { NoConnection, Refused } from "./rest";
 import type { ImportedInstance, Refusal } from "./types";
 
 /** Share that is done, 0 to 1; null while the size is not known. */
-export type Progress = (share: number | null) => void;
+type Progress = (share: number | null) => void;
 
 /** The body of an answer, read piece by piece. */
 export async function readBody(response: Response, onProgress: Progress): Promise<Blob> {

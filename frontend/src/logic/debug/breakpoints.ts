@@ -5,7 +5,7 @@ import type { BreakpointInfo, Pou } from "../../wire/types";
 import { pouAt } from "../plc/sourceLines";
 
 /** A drawing of the gutter: filled holds, hollow is off, dashed is not in the program. */
-export type BreakpointShape = "bp" | "bp-cond" | "bp-log" | "bp-assign" | "bp-data" | "bp-off" | "bp-unbound";
+type BreakpointShape = "bp" | "bp-cond" | "bp-log" | "bp-assign" | "bp-data" | "bp-off" | "bp-unbound";
 
 /** What a person decides of a breakpoint. */
 export type Wanted = Pick<

@@ -3,7 +3,7 @@
 import { t } from "../../text";
 import type { Coverage, CoveredSite } from "../../wire/types";
 
-export interface CoveredLine {
+interface CoveredLine {
   line: number;
   look: "full" | "part" | "none";
   says: string;

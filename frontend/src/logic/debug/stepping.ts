@@ -8,7 +8,7 @@ const STANDS = ["halted", "paused", "past"];
 const ENDED = ["trapped", "fatal", "stopped"];
 
 /** What is shown stands at a statement or in a seam. */
-export const stands = (state: InstanceState | null) => state !== null && STANDS.includes(state.state);
+const stands = (state: InstanceState | null) => state !== null && STANDS.includes(state.state);
 
 export function permits(state: InstanceState | null, command: Command): boolean {
   if (state === null) return false;

@@ -20,14 +20,14 @@ export interface Trouble {
   values: Record<string, string>;
 }
 
-export type Reading = { value: string; trouble: null } | { value: null; trouble: Trouble };
+type Reading = { value: string; trouble: null } | { value: null; trouble: Trouble };
 
 /** Whether somebody has to be asked: a List with one choice is decided. */
 export function needsDetails(error: ErrorInfo): boolean {
   return error.details.some(isOpen);
 }
 
-export const isOpen = (detail: ErrorDetail): boolean => detail.control !== "List" || (detail.choices ?? []).length > 1;
+const isOpen = (detail: ErrorDetail): boolean => detail.control !== "List" || (detail.choices ?? []).length > 1;
 
 /** A text of at most `maximum` characters, which is sent as it is; other entries are numbers, however they are written. */
 export const isText = (detail: ErrorDetail): boolean => detail.base === 0;

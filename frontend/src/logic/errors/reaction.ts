@@ -4,7 +4,7 @@ import { t } from "../../text";
 import type { Reaction, Verdict } from "../../wire/types";
 
 /** One line of the program that had to do with an error. */
-export interface Place {
+interface Place {
   file: string;
   line: number;
   what: "read" | "handler";
@@ -32,7 +32,7 @@ export function readersOf({ readers }: Reaction): Place[] {
 }
 
 /** Stretches of lines that were reached with the error only. */
-export interface Stretch {
+interface Stretch {
   file: string;
   from: number;
   to: number;

@@ -36,7 +36,7 @@ type Pending = "running" | "waiting" | "missing";
 export type Slot = SweepCell | Pending;
 
 /** What all cells of a row have in common, so that it is said once. */
-export type Line = { what: "stopped" } | { what: "note"; note: string } | { what: Exclude<Pending, "running"> };
+type Line = { what: "stopped" } | { what: "note"; note: string } | { what: Exclude<Pending, "running"> };
 
 export interface ErrorRow {
   kind: "error";
@@ -46,7 +46,7 @@ export interface ErrorRow {
   line: Line | null;
 }
 
-export interface GroupRow {
+interface GroupRow {
   kind: "group";
   name: string;
 }
@@ -125,7 +125,7 @@ function lineOf(slots: readonly Slot[]): Line | null {
   return first.verdict === null ? { what: "note", note: first.note } : null;
 }
 
-export interface Counts {
+interface Counts {
   verdicts: Record<Verdict, number>;
   accepted: number;
   /** Could not be raised. */

@@ -1,6 +1,6 @@
 /** A deed that many reasons call for: done a moment after the first of them, and once for all that came until then. */
 
-export interface Spaced {
+interface Spaced {
   (): void;
   cancel: () => void;
 }

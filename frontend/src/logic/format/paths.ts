@@ -1,6 +1,6 @@
 /** Instance paths as they are read: the way to the variable is faint, the last name is bright. */
 
-export interface SplitPath {
+interface SplitPath {
   own: string;
   name: string;
 }

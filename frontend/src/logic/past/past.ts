@@ -36,7 +36,7 @@ export function compareWith(here: Instance, all: readonly Instance[]): Instance[
 
 const stemOf = (name: string) => name.replace(/-\d+$/, "");
 
-export type Verdict = "underway" | "failed" | "same" | "apart";
+type Verdict = "underway" | "failed" | "same" | "apart";
 
 export function verdictOf({ result, message }: Comparison): Verdict {
   if (message !== "") return "failed";

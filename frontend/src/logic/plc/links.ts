@@ -43,7 +43,7 @@ export function isOwnComputer(host: string): boolean {
   return /^(localhost|.+\.localhost|127(\.\d+){3}|\[::1\])$/i.test(host);
 }
 
-export type LinkWay = "there" | "go" | "ask" | "outside";
+type LinkWay = "there" | "go" | "ask" | "outside";
 
 /** How a scan that a link names is come to. Where others look at the PLC they are asked for first: everybody sees the past. */
 export function wayTo(

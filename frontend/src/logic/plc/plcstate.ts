@@ -5,20 +5,10 @@ import type { InstanceState, RunState } from "../../wire/types";
 import { grouped, interval } from "../format/numbers";
 import { haltDetail, haltShort } from "./halted";
 
-export type Tone = "running" | "halted" | "stopped" | "fatal" | "past" | "stale";
+type Tone = "running" | "halted" | "stopped" | "fatal" | "past" | "stale";
 
 /** Names of drawings in `ui/drawings.tsx`. */
-export type StateIcon =
-  | "running"
-  | "halted"
-  | "stopped"
-  | "fatal"
-  | "lost"
-  | "wait"
-  | "refresh"
-  | "error"
-  | "past"
-  | "off";
+type StateIcon = "running" | "halted" | "stopped" | "fatal" | "lost" | "wait" | "refresh" | "error" | "past" | "off";
 
 export interface ShownState {
   tone: Tone;

@@ -2,16 +2,16 @@
 import type { ErrorInfo, Mark } from "../../wire/types";
 import { type Axis, placeOf } from "./timeline";
 
-export type RunTone = "running" | "stopped" | "fatal";
+type RunTone = "running" | "stopped" | "fatal";
 
 /** From this scan on, up to the next stretch. */
-export interface Stretch {
+interface Stretch {
   from: number;
   tone: RunTone;
 }
 
 /** A stretch on the axis, in pixels. */
-export interface Piece {
+interface Piece {
   left: number;
   width: number;
   tone: RunTone;

@@ -26,7 +26,7 @@ export interface PouGroup {
 const ORDER = ["program", "function_block", "class", "interface", "function", "type", "global"] as const;
 
 /** What drives the inputs: the folder `plant/`, of a project or below a folder of it. */
-export const inPlant = (path: string) => /(^|\/)plant\//.test(path);
+const inPlant = (path: string) => /(^|\/)plant\//.test(path);
 
 /**
  * Groups in the order of the standard, then the plant by its files; files in which nothing is declared (new, or broken) come last,

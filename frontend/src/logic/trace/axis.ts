@@ -10,7 +10,7 @@ export interface Mark {
 }
 
 /** So many characters of a line stand beside the axis. */
-export const AXIS_CHARACTERS = 10;
+const AXIS_CHARACTERS = 10;
 
 const SECOND = 1e9;
 const MINUTE = 60 * SECOND;

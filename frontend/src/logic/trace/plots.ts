@@ -2,7 +2,7 @@
 import type { TraceInfo, TraceSignal, TraceWhen } from "../../wire/types";
 import type { Range } from "./samples";
 
-export const SERIES = 6;
+const SERIES = 6;
 const DASHES: readonly (readonly number[])[] = [[], [6, 3], [2, 2.5], [8, 3, 2, 3]];
 
 export interface Line {

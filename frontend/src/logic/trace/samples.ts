@@ -24,7 +24,7 @@ export interface Samples {
 
 const HEAD = 32;
 
-export const shapeOf = ({ kind, size, type, values }: TraceSignal): ValueShape => ({
+const shapeOf = ({ kind, size, type, values }: TraceSignal): ValueShape => ({
   kind: (kind || "bool") as ValueShape["kind"],
   size: size || 1,
   type,

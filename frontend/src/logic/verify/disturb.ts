@@ -26,7 +26,7 @@ export interface DisturbForm {
   endless: boolean;
 }
 
-export type DisturbField = "path" | "bit" | "site" | "scan" | "chance" | "times" | "seed" | "scans";
+type DisturbField = "path" | "bit" | "site" | "scan" | "chance" | "times" | "seed" | "scans";
 
 export const plainDisturbance: DisturbForm = {
   kind: "flip",

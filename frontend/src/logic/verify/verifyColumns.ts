@@ -109,7 +109,7 @@ function widthOf({ column, side }: Unit): number {
   return Math.min(260, Math.max(value, side === "output" ? Math.ceil(name / 2) : name));
 }
 
-export interface TableKind {
+interface TableKind {
   instances: boolean;
   steps: boolean;
 }

@@ -7,7 +7,7 @@ import { formatString, formatValue, lampOf } from "../format/values";
 
 export type ValueType = Pick<VerifyColumn, "type" | "kind" | "size"> & { values?: VerifyColumn["values"] };
 
-export interface ShownValue {
+interface ShownValue {
   text: string;
   /** True, false, or null for what is not a BOOL. */
   lamp: boolean | null;

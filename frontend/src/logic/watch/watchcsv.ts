@@ -6,7 +6,7 @@ import { FORMATS, type Format } from "../format/formats";
 
 const HEAD = ["path", "format", "group"];
 
-export interface ReadList {
+interface ReadList {
   entries: WatchEntry[];
   /** What could not be read, with its line. */
   bad: string[];

@@ -1,14 +1,14 @@
 /** The order of a watch list's entries by a column, and which of them a filter lets through. */
 import type { SortKey } from "../format/values";
 
-export const SORT_COLUMNS = ["target", "current", "change", "type", "address", "bound"] as const;
+const SORT_COLUMNS = ["target", "current", "change", "type", "address", "bound"] as const;
 export type SortColumn = (typeof SORT_COLUMNS)[number];
 
 /** Null is as listed. */
 export type Sort = { column: SortColumn; down: boolean } | null;
 
 export const ONLY = ["all", "changed", "forced", "errors"] as const;
-export type Only = (typeof ONLY)[number];
+type Only = (typeof ONLY)[number];
 
 export interface Filter {
   text: string;

@@ -205,7 +205,7 @@ export function drawAxis(
   for (const tick of xTicks) context.fillText(text(tick), xOf(tick, scale), top + 14);
 }
 
-export function line(context: CanvasRenderingContext2D, x1: number, y1: number, x2: number, y2: number): void {
+function line(context: CanvasRenderingContext2D, x1: number, y1: number, x2: number, y2: number): void {
   context.beginPath();
   context.moveTo(x1, y1);
   context.lineTo(x2, y2);

@@ -5,7 +5,7 @@ import { type Plot, padded } from "../../logic/trace/plots";
 import { bounds, type Drawn, perPixel, type Range, rowAt, type Samples } from "../../logic/trace/samples";
 import { type Colors, cut, LEFT, RIGHT } from "./draw";
 
-export interface PlotView {
+interface PlotView {
   samples: Samples;
   view: Range;
   xTicks: readonly number[];

@@ -8,7 +8,7 @@ import { useVerify } from "../verify/verify";
 import { ask } from "./debug";
 import { caretPlace } from "./debugKeys";
 
-export type StepCommand = "continue" | "pause" | "next" | "stepIn" | "stepOut" | "stepBack" | "reverseContinue";
+type StepCommand = "continue" | "pause" | "next" | "stepIn" | "stepOut" | "stepBack" | "reverseContinue";
 
 /** Whether a way back is searched for so long that people wonder: from then on it is said, and the buttons are off. */
 export const useStepping = create<{ searching: boolean }>(() => ({ searching: false }));

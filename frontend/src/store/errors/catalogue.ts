@@ -6,7 +6,7 @@ import type { ErrorGroup, ErrorInfo, ModelInfo } from "../../wire/types";
 import { usePrefs } from "../page/prefs";
 import { useBench } from "../plc/bench";
 
-export interface Catalogue {
+interface Catalogue {
   groups: readonly ErrorGroup[];
   errors: readonly ErrorInfo[];
   byId: ReadonlyMap<string, ErrorInfo>;

@@ -27,7 +27,7 @@ import { usePlc } from "../plc/plc";
 type Shown = { view: "list" } | { view: "sweep"; id: number } | { view: "compare"; before: number; after: number };
 
 /** The dialog that is open. */
-export type Question = { ask: "run" } | { ask: "keep"; scan: number | null };
+type Question = { ask: "run" } | { ask: "keep"; scan: number | null };
 
 interface Sweeps {
   project: number | null;

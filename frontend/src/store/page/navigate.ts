@@ -15,7 +15,7 @@ const PANELS = [
   "verify",
   "watch",
 ] as const;
-export type PanelName = (typeof PANELS)[number];
+type PanelName = (typeof PANELS)[number];
 export const isPanel = (name: string): name is PanelName => PANELS.some((known) => known === name);
 /** What stands among the files in the centre without being one: opened when asked for, closed like a file. */
 const PAGES = ["sweep", "usererrors", "record", "compare"] as const;

@@ -3,8 +3,8 @@ import { create } from "zustand";
 import { type Language, languages, setLanguage } from "../../text";
 import { keep, recall } from "./localStorage";
 
-export const themes = ["dark", "light", "contrast"] as const;
-export type Theme = (typeof themes)[number];
+const themes = ["dark", "light", "contrast"] as const;
+type Theme = (typeof themes)[number];
 
 interface Prefs {
   theme: Theme;

@@ -21,7 +21,7 @@ interface Differences {
   of: ReadonlyMap<number, Found>;
 }
 
-export const useDifferences = create<Differences>(() => ({ of: new Map() }));
+const useDifferences = create<Differences>(() => ({ of: new Map() }));
 const get = useDifferences.getState;
 const set = useDifferences.setState;
 

@@ -1,6 +1,6 @@
 /** Scan number and PLC time: they change with every frame, so they are written to the page without React. */
 
-export interface Clock {
+interface Clock {
   scan: number;
   timeNs: number;
 }

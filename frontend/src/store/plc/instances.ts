@@ -67,7 +67,7 @@ export function pollInstances(): () => void {
   };
 }
 
-export async function refreshInstances(): Promise<void> {
+async function refreshInstances(): Promise<void> {
   try {
     set({ all: await rest.instances() });
   } catch (error) {

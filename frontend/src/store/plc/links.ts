@@ -68,7 +68,7 @@ export function scanLink(scan: number | null, panel: string | null = null): stri
 }
 
 /** What links that are passed on begin with: the public address of the server, else that of this page. */
-export const linkOrigin = () => useBench.getState().app?.public_url || location.origin;
+const linkOrigin = () => useBench.getState().app?.public_url || location.origin;
 
 /** What a button that copies a link says before and after: for whom the link works. */
 export function linkWords(): { title: string; done: string } {

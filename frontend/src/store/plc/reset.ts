@@ -1,7 +1,7 @@
 /** Another instance is looked at, or another project: who holds something of the one before forgets it. */
 import type { Instance, Project } from "../../wire/types";
 
-export interface Chosen {
+interface Chosen {
   project: Project;
   /** Null for a project without an instance, or while none is looked at. */
   instance: Instance | null;

@@ -7,13 +7,13 @@ import { formatString, formatValue, hexWord, lampOf, type SortKey, sortKeyAt } f
 import { type Frame, textOf } from "../../wire/frames";
 import type { PlcSymbol } from "../../wire/types";
 
-export interface Reading {
+interface Reading {
   text: string;
   lamp: boolean | null;
   changed: boolean;
 }
 
-export type CellFormat = Format | "word";
+type CellFormat = Format | "word";
 type Cell = { show: (reading: Reading) => void; format: CellFormat };
 
 interface Entry {

@@ -30,7 +30,7 @@ interface Draft {
   version: number;
 }
 
-export type BuildState =
+type BuildState =
   | { phase: "idle" }
   | { phase: "running" }
   | { phase: "done"; ok: boolean; message: string; author: string | null; changes: readonly OnlineChange[] };
@@ -46,7 +46,7 @@ interface Documents {
   /** Subrange checks of the texts as they stand; the last good ones while there are errors. */
   checks: readonly EmbeddedCheck[];
   build: BuildState;
-  /** A build that waits for a yes: variables of running PLCs would begin anew. */
+  /** A build that waits for a yes: variables of running PLCs would be reinitialized. */
   asking: BuildResult | null;
   /** What the last swap of the program did to the running PLCs; null when it was rolled back, or there was none. */
   change: readonly OnlineChange[] | null;
@@ -93,7 +93,7 @@ function patch(path: string, change: Partial<Document>): void {
 }
 
 /** Shows another project: its files, and what the compiler says about them. */
-export async function loadProject(project: number): Promise<void> {
+async function loadProject(project: number): Promise<void> {
   set({ project, ...nothing });
   await refreshFiles();
   await check();

@@ -112,7 +112,7 @@ export function chooseVerification(id: number): void {
 }
 
 /** From other panels: shows the tab, too. */
-export function showVerification(id: number): void {
+function showVerification(id: number): void {
   showPanel("verify");
   chooseVerification(id);
 }
@@ -142,7 +142,7 @@ export function askVerification(wish: VerifyWish): void {
 export const stopAsking = () => set({ asking: null });
 
 /** A stretch of the program: the dialog opens with it. */
-export const verifyRange = (range: RangeWish) => askVerification({ range, stretch: null });
+const verifyRange = (range: RangeWish) => askVerification({ range, stretch: null });
 export const verifyPou = (pou: string) => verifyRange({ pou });
 
 /** Lines of an edited text, as the built one has them. */

@@ -4,13 +4,13 @@ import { create } from "zustand";
 import type { ForceInfo } from "../../wire/types";
 import { onInstanceChange } from "../plc/reset";
 
-export interface WrittenBy {
+interface WrittenBy {
   author: string;
   scan: number;
 }
 
 /** What a force did in the scan that ran last: it changes all the time, so it is kept apart. */
-export type ForceValues = Pick<ForceInfo, "before" | "after_program" | "after">;
+type ForceValues = Pick<ForceInfo, "before" | "after_program" | "after">;
 
 interface Forces {
   held: ReadonlyMap<string, ForceInfo>;

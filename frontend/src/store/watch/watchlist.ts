@@ -63,7 +63,7 @@ const set = useWatchList.setState;
 const keptKey = (project: number | null) => `watchview.${project}`;
 
 /** Shows the lists of a project; `first` is what its first one begins with. */
-export function loadWatchList(project: number | null, first: readonly string[]): void {
+function loadWatchList(project: number | null, first: readonly string[]): void {
   if (project !== get().project) {
     const kept = recall<Partial<Kept>>(keptKey(project), {});
     set({

@@ -15,6 +15,7 @@ import { Details } from "./Details";
 import { DetailsDialog } from "./DetailsDialog";
 import { ErrorTree } from "./ErrorTree";
 import "./errors.css";
+import "./reaction.css";
 import { FilterMenu } from "./FilterMenu";
 import { FirstSteps } from "./FirstSteps";
 import { refusedRow } from "./refusal";

@@ -119,7 +119,7 @@ function shownLine(path: string, line: number): number {
   return lineIn(built, text, line);
 }
 
-export function builtLine(path: string, line: number): number {
+function builtLine(path: string, line: number): number {
   const { built, text } = shownText(path);
   return lineIn(text, built, line);
 }

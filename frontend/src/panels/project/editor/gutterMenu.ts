@@ -70,4 +70,4 @@ function existing(known: BreakpointInfo, line: number, several: boolean): MenuIt
   ];
 }
 
-export const doesOf = ({ log, assign }: BreakpointInfo): Editing["does"] => (log ? "log" : assign ? "assign" : "halt");
+const doesOf = ({ log, assign }: BreakpointInfo): Editing["does"] => (log ? "log" : assign ? "assign" : "halt");

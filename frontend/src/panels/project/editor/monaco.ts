@@ -83,7 +83,7 @@ paint();
 usePrefs.subscribe(paint);
 
 /** Popups of all editors live in one element of the page, so that panels do not cut them off. */
-export const popups = document.createElement("div");
+const popups = document.createElement("div");
 popups.className = "monaco-editor editor-popups";
 document.body.append(popups);
 

@@ -4,7 +4,7 @@ import { shownText } from "../../../store/project/shownProgram";
 import type { Pou } from "../../../wire/types";
 import type { editor, IPosition } from "./monaco";
 
-export interface Name {
+interface Name {
   /** Up to the part that is meant: on `zone` of `zone.jams` it is `zone`. */
   text: string;
   from: number;
@@ -23,7 +23,7 @@ export function nameAt(model: editor.ITextModel, { lineNumber, column }: IPositi
   return null;
 }
 
-export const pathOfModel = (model: editor.ITextModel) => model.uri.path.slice(1);
+const pathOfModel = (model: editor.ITextModel) => model.uri.path.slice(1);
 
 /** A type declares what its variables will have: it has no values itself, whatever else bears the names in it. */
 export const hasValues = ({ kind }: Pou) => kind !== "type" && kind !== "interface";

@@ -1,12 +1,10 @@
 import { type DragEvent, useState } from "react";
-import { grouped } from "../../../logic/format/numbers";
 import { useDocuments } from "../../../store/project/documents";
-import { useRanApart } from "../../../store/project/shownProgram";
 import { t } from "../../../text";
-import { Icon } from "../../../ui/Icon";
 import { IconButton } from "../../../ui/IconButton";
 import { useMenu } from "../../../ui/Menu";
 import { Tree } from "../../../ui/Tree";
+import { PastNote } from "../PastNote";
 import { AddFiles } from "./AddFiles";
 import { DeleteFile } from "./DeleteFile";
 import { NewFile } from "./NewFile";
@@ -52,22 +50,11 @@ export function Explorer() {
           onClick={() => setCreating(true)}
         />
       </div>
-      <PastNote />
+      <PastNote of="files" />
       <Tree label={t("explorer.label")} rows={rows} />
       {menu}
       {creating && <NewFile onClose={() => setCreating(false)} />}
       {deleting !== null && <DeleteFile path={deleting} onClose={() => setDeleting(null)} />}
     </nav>
-  );
-}
-
-function PastNote() {
-  const ran = useRanApart();
-  if (ran === null) return null;
-  return (
-    <p className="trouble st past">
-      <Icon name="past" small />
-      <span>{t("past.files", { version: ran.version, scan: grouped(ran.scan) })}</span>
-    </p>
   );
 }

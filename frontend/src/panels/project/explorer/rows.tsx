@@ -50,7 +50,7 @@ interface Folding {
   toggle: (key: string) => void;
 }
 
-export type OpenMenu = (items: readonly MenuItem[], at: { x: number; y: number }) => void;
+type OpenMenu = (items: readonly MenuItem[], at: { x: number; y: number }) => void;
 
 /** The explorer's rows, top to bottom. */
 export function useExplorerRows(openMenu: OpenMenu, askDelete: (path: string) => void): TreeRow[] {

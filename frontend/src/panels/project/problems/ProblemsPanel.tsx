@@ -1,10 +1,9 @@
-import { grouped } from "../../../logic/format/numbers";
 import { openFile } from "../../../store/page/navigate";
 import { useDocuments } from "../../../store/project/documents";
-import { useRanApart } from "../../../store/project/shownProgram";
 import { t } from "../../../text";
 import { Icon, type IconName } from "../../../ui/Icon";
 import type { Problem } from "../../../wire/types";
+import { PastNote } from "../PastNote";
 
 const LOOK: Record<Problem["severity"], { icon: IconName; tone: string }> = {
   error: { icon: "error", tone: "fatal" },
@@ -17,16 +16,10 @@ export function ProblemsPanel() {
   const problems = useDocuments((documents) => documents.problems);
   const trouble = useDocuments((documents) => documents.trouble);
   const build = useDocuments((documents) => documents.build);
-  const ran = useRanApart();
   const refused = build.phase === "done" && !build.ok ? build.message : null;
   return (
     <div className="pane flexcol" data-pane="problems">
-      {ran && (
-        <p className="trouble st past">
-          <Icon name="past" small />
-          <span>{t("past.problems", { version: ran.version, scan: grouped(ran.scan) })}</span>
-        </p>
-      )}
+      <PastNote of="problems" />
       {trouble && <Line tone="fatal" text={trouble} />}
       {refused && <Line tone="fatal" text={`${t("build.refused")}: ${refused}`} />}
       {problems.length === 0 && !trouble && !refused ? (

@@ -12,9 +12,9 @@ import { Entries } from "./Entries";
 
 /** What changed between two scans: which variables, and what was entered in between. */
 export function ChangesDialog() {
-  const { stretch, found, refused } = useChanges();
-  if (!stretch) return null;
-  const { first, last } = stretch;
+  const { asked, found, refused } = useChanges();
+  if (!asked) return null;
+  const { first, last } = asked;
   const fits = found !== null && found.first === first && found.last === last;
   const go = (scan: number) => {
     closeChanges();

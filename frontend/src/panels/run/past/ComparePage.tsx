@@ -85,7 +85,7 @@ function Choose() {
   );
 }
 
-export function useRunName(id: number): string {
+function useRunName(id: number): string {
   return useBench((bench) => bench.app?.instances.find((known) => known.id === id)?.name) ?? t("compare.gone", { id });
 }
 

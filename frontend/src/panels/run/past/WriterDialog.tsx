@@ -22,11 +22,11 @@ const LOOK: Record<LastWriter["by"], { icon: IconName; tone: string }> = {
 
 /** Who last wrote a variable: the statement with its instance, or the command with its author; and the ways on from there. */
 export function WriterDialog() {
-  const { path, found, refused } = useWriter();
-  if (path === null) return null;
+  const { asked, found, refused } = useWriter();
+  if (asked === null) return null;
   return (
     <Dialog
-      title={t("writer.title", { path: found?.path ?? path })}
+      title={t("writer.title", { path: found?.path ?? asked.path })}
       width={600}
       onClose={closeWriter}
       footer={<Ways found={found} />}

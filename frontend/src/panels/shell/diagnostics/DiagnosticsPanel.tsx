@@ -66,7 +66,7 @@ function List({ violations }: { violations: readonly Violation[] }) {
 }
 
 /** What happened, in words of this page's language. */
-export function inWords(violation: Violation): string {
+function inWords(violation: Violation): string {
   if (violation.variable === "EN_CHECK") return t("diagnostics.encheck");
   const { variable, value, low, high } = violation;
   return t("diagnostics.outside", { variable, value, low, high });

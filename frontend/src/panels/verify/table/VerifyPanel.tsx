@@ -11,6 +11,7 @@ import { Head, type Whole } from "./Head";
 import { NewVerification } from "./NewVerification";
 import { Table } from "./Table";
 import "./verify.css";
+import "./detail.css";
 
 /** What the dock gives a panel. */
 interface Props {

@@ -1,0 +1,16 @@
+import { grouped } from "../../logic/format/numbers";
+import { useRanApart } from "../../store/project/shownProgram";
+import { t } from "../../text";
+import { Icon } from "../../ui/Icon";
+
+/** In the past, where another program ran than the one whose files are shown: says so. */
+export function PastNote({ of }: { of: "files" | "problems" }) {
+  const ran = useRanApart();
+  if (ran === null) return null;
+  return (
+    <p className="trouble st past">
+      <Icon name="past" small />
+      <span>{t(`past.${of}`, { version: ran.version, scan: grouped(ran.scan) })}</span>
+    </p>
+  );
+}
