@@ -1,14 +1,14 @@
-"""The command line as a process: what it prints, and its exit codes."""
+"""The command line: what it prints, and its exit codes. One call of each kind is made as a process, too."""
 
 import json
-import subprocess
 import sys
 from importlib.resources import files
 from pathlib import Path
 
 import pytest
 
-SCANBENCH = Path(sys.executable).parent / "scanbench"
+from tests.cli.calling import SCANBENCH, process, scanbench
+
 SAMPLE = str(files("scanbench").joinpath("samples/conveyor"))
 
 COUNT = """PROGRAM Main
@@ -22,10 +22,6 @@ END_PROGRAM
 """
 
 
-def scanbench(*args: str, cwd: Path | None = None) -> subprocess.CompletedProcess[str]:
-    return subprocess.run([str(SCANBENCH), *args], capture_output=True, text=True, cwd=cwd, timeout=120, check=False)
-
-
 @pytest.fixture
 def count(tmp_path: Path) -> str:
     path = tmp_path / "count.st"
@@ -36,9 +32,10 @@ def count(tmp_path: Path) -> str:
 def test_check_prints_file_line_column_code_and_message(tmp_path: Path) -> None:
     path = tmp_path / "bad.st"
     path.write_text("PROGRAM Main\nVAR x : INT; END_VAR\n  x := y;\nEND_PROGRAM\n", "utf-8")
-    result = scanbench("check", str(path))
-    assert result.returncode == 1
-    assert result.stdout.startswith(f"{path}:3:8: T001 ")
+    for call in (scanbench, process):
+        result = call("check", str(path))
+        assert result.returncode == 1
+        assert result.stdout.startswith(f"{path}:3:8: T001 ")
 
 
 def test_check_json(tmp_path: Path) -> None:
@@ -79,16 +76,19 @@ def test_check_of_nothing_is_wrong_usage(tmp_path: Path) -> None:
     assert scanbench("check", str(tmp_path / "none.st")).returncode == 2
     assert scanbench("check", str(tmp_path)).returncode == 2
     assert scanbench("check").returncode == 2
+    assert process("check").returncode == 2
 
 
 def test_the_sample_has_no_problems() -> None:
-    result = scanbench("check", SAMPLE)
-    assert (result.returncode, result.stdout) == (0, "")
+    for call in (scanbench, process):
+        result = call("check", SAMPLE)
+        assert (result.returncode, result.stdout) == (0, "")
 
 
 @pytest.mark.parametrize("engine", ["native", "reference", "both"])
 def test_the_sample_runs_alike_on_every_engine(engine: str) -> None:
-    result = scanbench(
+    call = process if engine == "native" else scanbench
+    result = call(
         "run", SAMPLE, "--scans", "400", "--engine", engine, "--json", "--hash", "--every", "100",
         "--set", "start=TRUE@5", "--raise", "basic-io-error:rack=1,slot=2@200", "--clear", "all@300", "--set", "reset=TRUE@350",
         "--print", "motor", "--print", "lamp", "--print", "A402.12", "--print", "A400", "--print", "Main.parts.total",
@@ -170,7 +170,8 @@ TRAPS = [
 def test_a_trap_names_file_and_line(tmp_path: Path, engine: str, kind: str, statement: str) -> None:
     path = tmp_path / "a.st"
     path.write_text(f"PROGRAM Main\nVAR x : INT; a : ARRAY[1..3] OF INT; END_VAR\n{statement}\nEND_PROGRAM", "utf-8")
-    result = scanbench("run", str(path), "--scans", "3", "--engine", engine, "--json")
+    call = process if (engine, kind) == ("native", "division") else scanbench
+    result = call("run", str(path), "--scans", "3", "--engine", engine, "--json")
     trap = json.loads(result.stdout)["trap"]
     assert result.returncode == 4
     assert (trap["kind"], trap["file"], trap["line"]) == (kind, str(path), 3)
@@ -210,7 +211,7 @@ def test_the_example_of_the_error_catalogue(count: str) -> None:
 
 
 def test_help_documents_every_command() -> None:
-    shown = scanbench("--help").stdout
+    shown = process("--help").stdout
     assert all(command in shown for command in ("serve", "check", "run", "bench"))
     assert "--raise" in scanbench("run", "--help").stdout
 
@@ -227,7 +228,7 @@ def test_refusals_stand_in_the_json(count: str) -> None:
 
 def test_without_models_it_says_where_it_looked(count: str, monkeypatch: pytest.MonkeyPatch, tmp_path: Path) -> None:
     monkeypatch.setenv("SCANBENCH_MODELS", str(tmp_path / "none"))
-    result = scanbench("check", count)
+    result = process("check", count)
     assert result.returncode == 2
     assert "Traceback" not in result.stderr
 
@@ -248,9 +249,9 @@ def test_violations_are_printed_with_their_places_and_not_by_the_hundred(tmp_pat
 
 
 @pytest.mark.parametrize(
-    "command", [[str(SCANBENCH)], [sys.executable, "-m", "scanbench"]], ids=["installed", "module"]
+    "command", [(str(SCANBENCH),), (sys.executable, "-m", "scanbench")], ids=["installed", "module"]
 )
-def test_the_command_can_be_called_in_both_ways(command: list[str]) -> None:
-    said = subprocess.run([*command, "check", "-h"], capture_output=True, text=True, timeout=120, check=False)
+def test_the_command_can_be_called_in_both_ways(command: tuple[str, ...]) -> None:
+    said = process("check", "-h", command=command)
     assert said.returncode == 0, said.stderr
     assert "check [OPTIONS]" in said.stdout

@@ -1,18 +1,16 @@
 """`scanbench errors`: what it lists, what a sweep says, and every way to get the call wrong."""
 
 import json
-from dataclasses import dataclass
 from importlib import import_module
 from importlib.resources import files
 from pathlib import Path
 from xml.etree import ElementTree
 
 import pytest
-from typer.testing import CliRunner
 
-from scanbench.cli.commands import app
 from scanbench.jobs import starting
 from scanbench.wire.host import Sources
+from tests.cli.calling import scanbench
 
 ERRORS = import_module("scanbench.cli.errors")  # of the package, `errors` is the command
 SAMPLE = str(files("scanbench").joinpath("samples/conveyor"))
@@ -26,20 +24,6 @@ END_VAR
 END_PROGRAM
 """
 FEW = ("--only", "battery-error", "--only", "inner-board-error", "--only", "basic-io-error", "--only", "memory-error")
-
-
-@dataclass
-class Said:
-    returncode: int
-    stdout: str
-    stderr: str
-
-
-def scanbench(*args: str) -> Said:
-    """In this process: starting one takes longer than a sweep."""
-    result = CliRunner().invoke(app, args)
-    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
-    return Said(result.exit_code, result.stdout, result.stderr)
 
 
 @pytest.fixture

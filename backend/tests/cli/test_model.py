@@ -3,8 +3,7 @@
 from pathlib import Path
 
 from scanbench.plcmodel.load import model_directory
-
-from .test_commands import scanbench
+from tests.cli.calling import scanbench
 
 BROKEN = Path(__file__).parents[1] / "plcmodel" / "broken"
 

@@ -1,17 +1,15 @@
 """`scanbench verify`: projects, run files and traces, what it says of a difference, and every way to get the call wrong."""
 
 import json
-from dataclasses import dataclass
 from importlib import import_module
 from importlib.resources import files
 from pathlib import Path
 
 import pytest
-from typer.testing import CliRunner
 
-from scanbench.cli.commands import app
 from scanbench.verify.contract import ScanVerified
 from scanbench.verify.verifier import Verifier
+from tests.cli.calling import scanbench
 from tests.verify.planted import Fault, planted
 
 VERIFY = import_module("scanbench.cli.verify")  # of the package, `verify` is the command
@@ -33,20 +31,6 @@ VAR n : INT; wanted AT D10 : INT; belt : ARRAY[1..2] OF Ramp; out AT D100 : INT;
 END_PROGRAM
 """
 SUM = Fault("main.st", 14, "add", "sub")
-
-
-@dataclass
-class Said:
-    returncode: int
-    stdout: str
-    stderr: str
-
-
-def scanbench(*args: str) -> Said:
-    """In this process: starting one takes longer than most of the runs."""
-    result = CliRunner().invoke(app, args)
-    assert result.exception is None or isinstance(result.exception, SystemExit), result.exception
-    return Said(result.exit_code, result.stdout, result.stderr)
 
 
 @pytest.fixture
