@@ -53,6 +53,7 @@ class Project(Wire):
 class NewProject(Wire):
     name: str = Field(min_length=1, max_length=100)
     model: str = "GENERIC-IEC"
+    watch: list[str] = Field(default_factory=list, max_length=1000, description="what a fresh watch list begins with")
 
 
 class FileInfo(Wire):

@@ -163,3 +163,11 @@ def test_files_of_vendors_are_program_files(server: Server) -> None:
     result = server.http.post(f"/api/projects/{project}/check", json={"files": {}}).json()
     assert [(each["file"], each["line"], each["code"]) for each in result["problems"]] == [("main.st", 3, "T001")]
     assert ("IO.TcGVL", "cnt") in [(each["file"], each["name"]) for each in result["pous"]]
+
+
+def test_a_new_project_says_what_a_watch_list_begins_with(server: Server) -> None:
+    made = server.http.post("/api/projects", json={"name": "watched", "model": "GENERIC-IEC", "watch": ["Main.n"]})
+    assert made.status_code == 201, made.text
+    assert made.json()["watch"] == ["Main.n"]
+    found = server.http.get("/api/projects").json()
+    assert [each["watch"] for each in found if each["name"] == "watched"] == [["Main.n"]]

@@ -3957,6 +3957,11 @@ export interface components {
             model: string;
             /** Name */
             name: string;
+            /**
+             * Watch
+             * @description what a fresh watch list begins with
+             */
+            watch?: string[];
         };
         /**
          * NewRerun

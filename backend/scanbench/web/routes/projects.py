@@ -21,7 +21,7 @@ async def on_projects(bench: Bench) -> list[wire.Project]:
 @router.post("", status_code=201)
 async def on_new_project(bench: Bench, new: wire.NewProject) -> wire.Project:
     """An empty project on a model."""
-    return translate.project(await bench.projects.create(new.name.strip(), new.model))
+    return translate.project(await bench.projects.create(new.name.strip(), new.model, new.watch))
 
 
 @router.delete("/{project}", status_code=204)
