@@ -157,7 +157,7 @@ export class Editor {
   async stored(server: Server): Promise<string> {
     await this.save();
     await expect(this.saveButton).toBeDisabled();
-    return (await server.get<{ text: string }>(`/projects/1/files/${this.file}`)).text;
+    return (await server.get<{ text: string }>(`/projects/${server.project}/files/${this.file}`)).text;
   }
 
   async build(): Promise<void> {

@@ -2,7 +2,6 @@ import { expect, test } from '../fixtures/test';
 import { Disturb } from '../pages/disturb';
 
 test('inputs, memory and results are disturbed: everybody sees it, and it is taken back', async ({ openAs }) => {
-  test.setTimeout(300_000);
   const mika = await openAs('Mika');
   const jo = await openAs('Jo');
   const disturb = new Disturb(mika.page);

@@ -5,7 +5,6 @@ test('signals are recorded, a trigger catches an error, and earlier scans are re
   openAs,
   server,
 }) => {
-  test.setTimeout(300_000);
   const mika = await openAs('Mika');
   const trace = new Trace(mika.page);
   await mika.runs();
@@ -45,7 +44,7 @@ test('signals are recorded, a trigger catches an error, and earlier scans are re
     await expect(trace.state).toHaveText('Armed');
     await expect(others.state).toHaveText('Armed');
     // all that is wanted in front of the trigger is there
-    const rows = async () => (await server.get<{ rows: number }[]>('/instances/1/traces'))[0]?.rows;
+    const rows = async () => (await server.get<{ rows: number }[]>(`/instances/${server.instance}/traces`))[0]?.rows;
     await expect.poll(rows).toBeGreaterThan(280);
     await mika.simulator.generate('Basic I/O Unit error');
     await expect(trace.state).toHaveText('Complete');

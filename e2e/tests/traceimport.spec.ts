@@ -12,7 +12,6 @@ function recorded({ head = 'scan,start,motor,partsTotal', wrong = true } = {}): 
 }
 
 test('the trace of a controller is mapped, verified and kept', async ({ openAs }) => {
-  test.setTimeout(300_000);
   const mika = await openAs('Mika');
   const trace = new TraceImport(mika.page);
   const verify = new Verify(mika.page);

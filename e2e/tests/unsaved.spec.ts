@@ -125,12 +125,13 @@ test('a project needs its model; nothing that a page asks of itself is refused',
   await dialog.getByRole('button', { name: 'Create' }).click();
   await expect(dialog).toBeHidden();
   await expect(mika.top.picker).toContainText('late');
+  const late = page.url();
   // By its address, while the tabs are still those of the other project.
   const { origin } = new URL(server.address);
-  await page.goto(`${origin}/i/1`);
+  await page.goto(`${origin}/i/${server.instance}`);
   await expect(belt.region).toBeVisible();
   await mika.runs();
-  await page.goto(`${origin}/i/2`);
+  await page.goto(late);
   await mika.runs();
   await expect(mika.editor('Main.st').region).toBeVisible();
   await expect(belt.region).toBeHidden();
