@@ -55,7 +55,7 @@ export class Disturb {
 
   async takeBack(text: string | RegExp): Promise<void> {
     await this.line(text)
-      .getByRole('button', { name: /^Remove/ })
+      .getByRole('button', { name: /^Take back/ })
       .click();
   }
 }

@@ -49,7 +49,7 @@ test('inputs, memory and results are disturbed: everybody sees it, and it is tak
     await mika.watch.fromMenu('start', 'Disturb…');
     await expect(disturb.path).toHaveValue('start');
     await disturb.kind('Stuck input');
-    await mika.page.getByRole('checkbox', { name: 'until removed' }).check();
+    await mika.page.getByRole('checkbox', { name: 'until taken back' }).check();
     await disturb.button.click();
     await expect(disturb.line('start')).toContainText('Active');
     await expect(others.line('start')).toContainText('by Mika');
@@ -89,7 +89,7 @@ test('inputs, memory and results are disturbed: everybody sees it, and it is tak
     await disturb.button.click();
     await expect(disturb.line('D500')).toContainText('Waiting');
     await expect(disturb.list).toContainText('2 disturbances');
-    await disturb.list.getByRole('button', { name: 'Remove all' }).click();
+    await disturb.list.getByRole('button', { name: 'Take all back' }).click();
     await expect(disturb.pane).toContainText('No disturbances');
   });
 

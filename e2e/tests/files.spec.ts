@@ -45,7 +45,7 @@ test('files of other tools are brought in, run, and what cannot be taken says wh
   await test.step('a name that is taken is refused', async () => {
     await jo.explorer.addFiles({ name: 'fb_ramp.tcpou', text: BLOCK });
     const dialog = jo.page.getByRole('dialog', { name: 'Not added' });
-    await expect(dialog).toContainText('fb_ramp.tcpou: There is a file of this name already.');
+    await expect(dialog).toContainText('fb_ramp.tcpou: A file of this name already exists.');
     await jo.page.keyboard.press('Escape');
     await expect(dialog).toBeHidden();
   });

@@ -53,7 +53,7 @@ test('what was tested is filtered, printed, saved and read again', async ({ open
     expect(xml.suggestedFilename()).toBe('line-1-version-1-record.xml');
     await history.importFile(await xml.path());
     await expect(history.record).toContainText('This imported test record is read-only');
-    await expect(history.record).toContainText('Brought in by Mika');
+    await expect(history.record).toContainText('Imported by Mika');
     const imported = history.rows('Errors of the imported record').filter({ hasText: ERROR });
     await expect(imported).toContainText(['Cleared']);
     await expect(imported).toContainText(['Mika']);
@@ -91,7 +91,7 @@ test('every version of the program has a history of its own', async ({ openAs })
 
   await test.step('the old one is shown as one that runs no more', async () => {
     await history.showVersion(/^Version 1/);
-    await expect(mika.page.locator('[data-pane=history]')).toContainText('Version 1 does not run any more');
+    await expect(mika.page.locator('[data-pane=history]')).toContainText('Version 1 no longer runs');
     await expect(mika.history(ERROR)).toContainText(['Cleared']);
     await mika.page.getByRole('button', { name: 'Show the running version' }).click();
     await expect(mika.history(ERROR)).toContainText(['Never']);

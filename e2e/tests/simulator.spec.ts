@@ -173,7 +173,7 @@ test('faults with a shape: for some scans, again and again, when a condition hol
     await expect(simulator.armed).toContainText(/raised [2-9]\d* times/);
     await expect(simulator.armed).toContainText('by Mika');
     await expect(mika.statusBar).toContainText('1 fault armed');
-    await simulator.armed.getByRole('button', { name: /^Disarm/ }).click();
+    await simulator.armed.getByRole('button', { name: /^Take back/ }).click();
     await expect(simulator.armed).toHaveCount(0);
     await expect(simulator.error(BATTERY)).toContainText('Cleared');
   });
@@ -185,7 +185,7 @@ test('faults with a shape: for some scans, again and again, when a condition hol
     await expect(simulator.armed).toContainText(/raised \d+ times/);
     await simulator.select(BASIC);
     await expect(simulator.preview).toContainText('A402.12');
-    await simulator.armed.getByRole('button', { name: /^Disarm/ }).click();
+    await simulator.armed.getByRole('button', { name: /^Take back/ }).click();
     await expect(simulator.armed).toHaveCount(0);
   });
 

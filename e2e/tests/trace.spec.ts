@@ -100,7 +100,7 @@ test('signals are recorded, a trigger catches an error, and earlier scans are re
     await dialog.getByLabel(/Number of scans/).fill('1000');
     await dialog.getByRole('button', { name: 'Record' }).click();
     await expect(dialog).toBeHidden();
-    await expect(trace.pane).toContainText(/recorded afterwards by Mika/, { timeout: 120_000 });
+    await expect(trace.pane).toContainText(/recorded from the journal by Mika/, { timeout: 120_000 });
     await expect(trace.row('Main.uptime')).toBeVisible();
     const [head, ...rows] = await trace.csv();
     expect(head?.slice(2)).toEqual(['Main.uptime [s]', 'Main.belt.position', 'lamp']);

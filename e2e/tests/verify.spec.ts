@@ -154,7 +154,7 @@ test('set data shows whether the input or the logic made a wrong result', async 
     await verify.press('First difference');
     scan = Number(await verify.table.locator('[aria-selected="true"]').getAttribute('data-scan'));
     expect(scan).toBeGreaterThanOrEqual(disturbed);
-    await expect(verify.facts).toContainText('The same inputs gave another result');
+    await expect(verify.facts).toContainText('The same inputs gave a different result');
     await expect(verify.cell(scan, 'output:barrier:A').locator('svg')).toBeVisible();
     await expect(verify.source.locator('.diffln')).toContainText('barrier := position < 50;');
   });
@@ -164,7 +164,7 @@ test('set data shows whether the input or the logic made a wrong result', async 
   expect(a).not.toBe(monitor);
 
   await test.step('what is no value is refused in its row, and stays as typed', async () => {
-    await verify.press('Try other inputs');
+    await verify.press('Try different inputs');
     const box = verify.table.getByRole('textbox');
     await expect(box).toBeFocused();
     await box.press('Escape');

@@ -26,7 +26,7 @@ describe("a reaction", () => {
       expect(nextStep(verdict, "A402.12")).not.toBe("");
     }
     expect(sentenceOf(reaction({ verdict: "stored_only", first_read: 2 }), "A402.12")).toContain("only stored");
-    expect(sentenceOf(reaction({ verdict: "not_reached" }), "A402.12")).toContain("did not run");
+    expect(sentenceOf(reaction({ verdict: "not_reached" }), "A402.12")).toContain("not executed");
     expect(nextStep("reacted", "A402.12")).toBe("");
   });
 

@@ -95,7 +95,7 @@ export const debug = {
   "debug.goto": "Show {place}",
   "debug.in": "Step into",
   "debug.inline": "Inline values",
-  "debug.inline.hint": "Live values at the end of the lines, for you alone",
+  "debug.inline.hint": "Live values at the end of each line, visible only to you",
   "debug.kind.bp": "Breakpoint",
   "debug.kind.bp-assign": "Execution point",
   "debug.kind.bp-cond": "Conditional breakpoint",

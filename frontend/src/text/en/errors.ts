@@ -38,9 +38,9 @@ export const errors = {
   "armed.next": "next in scan {scan}",
   "armed.notyet": "not raised yet",
   "armed.running": "Active",
-  "armed.takeback": "Disarm",
-  "armed.takeback.all": "Disarm all",
-  "armed.takeback.of": "Disarm: {errors}",
+  "armed.takeback": "Take back",
+  "armed.takeback.all": "Take all back",
+  "armed.takeback.of": "Take back: {errors}",
   "armed.waiting": "Waiting",
   "dialog.about": "{count} of {total} selected errors need details. Nothing is written until you choose Generate.",
   "dialog.about.none": "None of the selected errors needs details. Nothing is written until you choose Generate.",
@@ -146,7 +146,8 @@ export const errors = {
   "reaction.more": "{count} more",
   "reaction.next": "Next:",
   "reaction.next.never_read": "evaluate {flag} in the program, or accept the finding in a sweep with a reason.",
-  "reaction.next.not_reached": "use a longer window or another state, or accept the finding in a sweep with a reason.",
+  "reaction.next.not_reached":
+    "use a longer window or a different state, or accept the finding in a sweep with a reason.",
   "reaction.next.stored_only":
     "make the program act on the stored value, or accept the finding in a sweep with a reason.",
   "reaction.next.no_effect":
@@ -197,7 +198,7 @@ export const errors = {
   "shape.scans": "scans",
   "shape.seed": "Seed",
   "shape.times": "Times",
-  "shape.times.endless": "until disarmed",
+  "shape.times.endless": "until taken back",
   "shape.useline": "Use line {line} of {file}",
   "shape.when": "When",
   "shape.when.condition": "When a condition holds",

@@ -55,7 +55,7 @@ export const sweep = {
   "sweep.compare.before": "Before",
   "sweep.compare.change": "Change",
   "sweep.compare.error": "Error",
-  "sweep.compare.hint": "With another sweep: of another program version or another model",
+  "sweep.compare.hint": "With another sweep: of a different program version or a different model",
   "sweep.compare.menu": "Compare with {at}, version {version}",
   "sweep.compare.none": "There is no other sweep to compare with yet",
   "sweep.compare.of": "version {version}, {instance} ({model}), by {by}",
@@ -117,7 +117,7 @@ export const sweep = {
   "sweep.next.never_read":
     "Next: evaluate {flag} in a task that runs in every state, or accept the finding with a reason, which the test record then shows.",
   "sweep.next.not_reached":
-    "Next: sweep with a longer window or from another state, or accept the finding with a reason, which the test record then shows.",
+    "Next: sweep with a longer window or from a different state, or accept the finding with a reason, which the test record then shows.",
   "sweep.next.stored_only":
     "Next: make the program act on the stored value, or accept the finding with a reason, which the test record then shows.",
   "sweep.next.no_effect":
