@@ -67,7 +67,10 @@ test('the list of instances: what they cost, clone, off and on, export and impor
     await list.row('back').click({ button: 'right' });
     await ann.page.getByRole('menuitem', { name: 'Limits…' }).click();
     const limits = ann.page.getByRole('dialog', { name: 'Limits of back' });
-    await expect(limits.getByRole('textbox', { name: 'Run file in MiB' })).toHaveAttribute('placeholder', '64 (default)');
+    await expect(limits.getByRole('textbox', { name: 'Run file in MiB' })).toHaveAttribute(
+      'placeholder',
+      '64 (default)',
+    );
     await limits.getByRole('button', { name: 'Cancel' }).click();
     await ann.page.keyboard.press('Escape');
   });

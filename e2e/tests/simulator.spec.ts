@@ -120,7 +120,9 @@ test('the reaction stands in the tree, in words, and in the editor', async ({ op
     await simulator.generate(BASIC);
     await expect(simulator.error(BASIC)).toContainText('Reacted');
     await expect(simulator.reaction).toContainText('after 1 scan');
-    await expect(simulator.reaction.getByRole('table', { name: 'Variables changed by the error' })).toContainText('lamp');
+    await expect(simulator.reaction.getByRole('table', { name: 'Variables changed by the error' })).toContainText(
+      'lamp',
+    );
     await expect(simulator.group('Units')).toContainText(/^Units1 of/);
   });
 
