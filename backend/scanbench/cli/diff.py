@@ -77,8 +77,6 @@ def _data(found: Divergence) -> dict[str, object]:
     data["changes"] = [] if found.changes is None else [_change(each) for each in found.changes.changes]
     data["count"] = 0 if found.changes is None else found.changes.count
     data["note"] = "" if found.changes is None else found.changes.note
-    names = ("scan", "run", "author", "text")
-    data["entries"] = [dict(zip(names, each, strict=True)) for each in found.entries]
     data["marks"] = [{"first": first, "last": last} for first, last in found.marks]
     return data
 
@@ -118,7 +116,7 @@ def _text(found: Divergence) -> list[str]:
         lines += [changes.note] * bool(changes.note)
     if found.entries:
         lines += ["", "Entered in one of them only:"]
-        lines += [f"  {run}  scan {scan}  {author}: {text}" for scan, run, author, text in found.entries[:_SHOWN]]
+        lines += [f"  {each.run}  scan {each.scan}  {each.author}: {each.text}" for each in found.entries[:_SHOWN]]
         lines += [f"... and {len(found.entries) - _SHOWN:,} more"] * (len(found.entries) > _SHOWN)
     if found.marks:
         stretches = ", ".join(str(first) if first == last else f"{first} to {last}" for first, last in found.marks[:10])

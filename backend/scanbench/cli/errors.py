@@ -35,6 +35,7 @@ from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import extended
 from scanbench.program.program import Program
+from scanbench.public import iso
 from scanbench.recording.recording import Recording
 from scanbench.reports.sweep_page import sweep_page
 from scanbench.reports.sweep_report import (
@@ -49,7 +50,7 @@ from scanbench.reports.sweep_report import (
     sweep_text,
     table,
 )
-from scanbench.runtime.clock import iso, wall_time
+from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Refusal
 from scanbench.runtime.header import Header
 from scanbench.runtime.programs import NoProgram

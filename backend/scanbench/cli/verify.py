@@ -15,10 +15,11 @@ from scanbench.cli.outputs import must_be_writable, write_text
 from scanbench.cli.run_options import AUTHOR, Options
 from scanbench.cli.verify_subject import Given, Subject, opened
 from scanbench.cli.verify_text import verify_text
+from scanbench.public import iso
 from scanbench.reports.report import Collected, Report, ReportHead
 from scanbench.reports.report_html import to_html
 from scanbench.reports.report_json import to_json
-from scanbench.runtime.clock import iso, monotonic_ns, wall_time
+from scanbench.runtime.clock import monotonic_ns, wall_time
 from scanbench.verify.contract import DEFAULT_LIMIT, MAX_LIMIT, BadRange, Range
 from scanbench.verify.engines import Make, native, reference
 from scanbench.verify.ranges import parse_range

@@ -7,7 +7,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from scanbench.faults.reaction.error_memory import code_bits, kept_bits, log_bits
-from scanbench.history.contract import MAX_CHANGES, Change, Changes
+from scanbench.history.contract import MAX_CHANGES, BetweenEntry, Change, Changes
 from scanbench.history.reading import NoReading, Reading
 from scanbench.program.program import Program
 from scanbench.program.types import Elementary, Enumeration, StringType, Type
@@ -83,12 +83,12 @@ def entered(entry: Entry) -> str:
     return f"{type(entry.command).__name__}: {entry.plan.message}"
 
 
-def _between(reading: Reading, first: int, last: int) -> Iterator[tuple[int, str, str]]:
+def _between(reading: Reading, first: int, last: int) -> Iterator[BetweenEntry]:
     for each in reading.entries:
         if (each.scan > first or (each.scan == first and each.step)) and (
             each.scan < last or (each.scan == last and not each.step)
         ):
-            yield each.scan, each.command.author, entered(each)
+            yield BetweenEntry(each.scan, "", each.command.author, entered(each))
 
 
 class Comparer:

@@ -1,8 +1,9 @@
 """The contract of questions about the past of a run: who wrote this, what changed, where two runs part, what if."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal
 
+from scanbench.public import Hex, Public
 from scanbench.verify.contract import Place
 
 MAX_CHANGES = 5000
@@ -10,8 +11,10 @@ MAX_CHANGES = 5000
 
 
 @dataclass(frozen=True, slots=True)
-class Writer:
+class Writer(Public):
     """The last write of a variable before a moment."""
+
+    PUBLIC: ClassVar = "LastWriter"
 
     path: str
     """The variable that is meant, behind in-outs."""
@@ -27,45 +30,62 @@ class Writer:
     """Of a command."""
     text: str
     """For people: `Main.st:31, Main.belt[3]: speed := LIMIT(...)`, `Write by Ada: Main.level := 7`."""
-    value: bytes
+    value: Hex
     """What stands there behind the write."""
     shown: str
     """The value as text."""
 
 
 @dataclass(frozen=True, slots=True)
-class Change:
+class Change(Public):
     """A variable, or an address without one, that is another."""
+
+    PUBLIC: ClassVar = "VariableChange"
 
     path: str
     type: str
     kind: str
     size: int
     values: tuple[tuple[str, int], ...]
-    before: bytes
-    after: bytes
+    before: Hex
+    after: Hex
     before_shown: str
     after_shown: str
 
 
 @dataclass(frozen=True, slots=True)
-class Changes:
+class BetweenEntry(Public):
+    """A command that was entered."""
+
+    scan: int
+    run: Literal["", "A", "B"]
+    """Which of two runs has it; empty where there is one."""
+    author: str
+    text: str
+
+
+@dataclass(frozen=True, slots=True)
+class Changes(Public):
     """What changed between two moments."""
+
+    PUBLIC: ClassVar = "RunChanges"
 
     first: int
     last: int
     changes: tuple[Change, ...]
     count: int
     """So many there are, those that found no room included."""
-    entries: tuple[tuple[int, str, str], ...]
-    """What was entered in between: scan, author, text; of two runs none."""
+    entries: tuple[BetweenEntry, ...]
+    """What was entered in between; of two runs none."""
     note: str = ""
     """That the program changed in between, say: then variables are compared by their names."""
 
 
 @dataclass(frozen=True, slots=True)
-class Divergence:
+class Divergence(Public):
     """Where two runs part first."""
+
+    PUBLIC: ClassVar = "RunDivergence"
 
     compared: int
     """Scans, from the first one that both keep."""
@@ -83,8 +103,8 @@ class Divergence:
     """The statement that wrote the first variable which is another, where that is known."""
     changes: Changes | None
     """All variables that are another behind that scan."""
-    entries: tuple[tuple[int, str, str, str], ...]
-    """Commands that only one of them has, up to there and a few behind: scan, `A` or `B`, author, text."""
+    entries: tuple[BetweenEntry, ...]
+    """Commands that only one of them has, up to there and a few behind."""
     marks: tuple[tuple[int, int], ...] = ()
     """Stretches of scans in which they differ, for a timeline: at most 200, joined where there are more."""
 

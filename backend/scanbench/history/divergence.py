@@ -12,7 +12,7 @@ from operator import attrgetter
 from typing import Literal
 
 from scanbench.history.changes import Comparer, Moment, entered, moment_of, same_model
-from scanbench.history.contract import Change, Changes, Divergence
+from scanbench.history.contract import BetweenEntry, Change, Changes, Divergence
 from scanbench.history.first_write import first_write
 from scanbench.history.reading import NoReading, Reading
 from scanbench.recording.replay import replay
@@ -95,13 +95,13 @@ class _Side:
 class _Only:
     """An entry that only one of them has."""
 
-    side: str
+    side: Literal["A", "B"]
     entry: Entry
 
     @property
-    def told(self) -> tuple[int, str, str, str]:
+    def told(self) -> BetweenEntry:
         """For people."""
-        return self.entry.scan, self.side, self.entry.command.author, entered(self.entry)
+        return BetweenEntry(self.entry.scan, self.side, self.entry.command.author, entered(self.entry))
 
 
 class _Comparison:

@@ -22,10 +22,11 @@ from typing import Protocol
 import numpy as np
 
 from scanbench.program.program import Program
+from scanbench.public import iso
 from scanbench.recording.fingerprints import libm_fingerprint, model_fingerprint
 from scanbench.recording.format import Block, Damaged, Kind, RunFile, RunFileError
 from scanbench.recording.thinning import Checkpoint
-from scanbench.runtime.clock import iso, wall_time
+from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Command, Entry, Plan, Swapped
 from scanbench.runtime.header import Header
 from scanbench.runtime.journal import AnyFold

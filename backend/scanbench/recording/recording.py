@@ -16,6 +16,7 @@ from types import TracebackType
 from typing import Self
 
 from scanbench.program.program import Program
+from scanbench.public import iso
 from scanbench.recording.blocks import (
     About,
     Codec,
@@ -41,7 +42,7 @@ from scanbench.recording.smaller import (
 )
 from scanbench.recording.thinning import Checkpoint
 from scanbench.recording.worker import Worker
-from scanbench.runtime.clock import iso, wall_time
+from scanbench.runtime.clock import wall_time
 from scanbench.runtime.command import Entry
 from scanbench.runtime.header import Mode, fresh_image
 

@@ -6,8 +6,8 @@ from collections.abc import Iterable
 from datetime import datetime
 
 from scanbench.faults.reaction.reaction import Reaction
+from scanbench.public import iso
 from scanbench.reports.record import RecordError, TestRecord
-from scanbench.runtime.clock import iso
 
 COLUMNS = (
     "group", "id", "error", "code", "flag", "severity", "status", "generated", "generated scan", "recovered",

@@ -10,11 +10,6 @@ def wall_time() -> datetime:
     return datetime.now(UTC)
 
 
-def iso(moment: datetime) -> str:
-    """ISO 8601 in UTC with milliseconds."""
-    return moment.astimezone(UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
-
-
 def monotonic_ns() -> int:
     """CLOCK_MONOTONIC, the clock of `Pace.deadline_ns`."""
     return time.monotonic_ns()

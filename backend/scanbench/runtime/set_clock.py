@@ -4,7 +4,7 @@ from dataclasses import dataclass
 from datetime import UTC, datetime, timedelta
 
 from scanbench.program.layout import Layout
-from scanbench.runtime.clock import iso
+from scanbench.public import iso
 from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
 
 _1970 = datetime(1970, 1, 1, tzinfo=UTC)

@@ -10,7 +10,7 @@ from scanbench.jobs.client import ANSWER_S, DIED, SLOW, Job, answered
 from scanbench.runtime.clock import fresh_token
 from scanbench.session.session import Session
 from scanbench.store.records import NotFound
-from scanbench.wire.events import ComparisonChanged, Event, RerunChanged
+from scanbench.wire.events import Comparison, Event, Rerun
 from scanbench.wire.refused import Refused
 from scanbench.wire.verification import (
     NOW,
@@ -38,14 +38,14 @@ Open = Callable[[Session, str, Path, str], Awaitable[Session]]
 @dataclass
 class _Comparison:
     session: Session
-    changed: ComparisonChanged
+    changed: Comparison
     job: Job | None
 
 
 @dataclass
 class _Rerun:
     session: Session
-    changed: RerunChanged
+    changed: Rerun
     job: Job
     file: Path
     ended: bool = False
@@ -154,11 +154,11 @@ class Pasts:
 
     # ---- two runs -------------------------------------------------------------------------------------------------
 
-    def comparisons(self, session: Session) -> list[ComparisonChanged]:
+    def comparisons(self, session: Session) -> list[Comparison]:
         """Those of an instance's run with others, the newest first."""
         return [each.changed for each in reversed(self._comparisons.values()) if each.session is session]
 
-    def compare(self, a: Session, b: Session, author: str) -> ComparisonChanged:
+    def compare(self, a: Session, b: Session, author: str) -> Comparison:
         """Compares two runs, scan by scan."""
         if a is b:
             raise Refused("a run is the same as itself: choose another instance")
@@ -167,7 +167,7 @@ class Pasts:
         for id in mine[: max(0, len(mine) - COMPARISONS + 1)]:
             del self._comparisons[id]
         id = self._number()
-        changed = ComparisonChanged(id, a.id, b.id, author)
+        changed = Comparison(id, a.id, b.id, author)
         job = Job(self._cache, lambda message: self._on_compared(id, message), lambda _job: self._on_compare_end(id))
         self._comparisons[id] = _Comparison(a, changed, job)
         job.ask(CompareRuns(id, str(a.run_file), str(b.run_file), _until(a), _until(b)))
@@ -209,11 +209,11 @@ class Pasts:
 
     # ---- what if --------------------------------------------------------------------------------------------------
 
-    async def rerun(self, session: Session, change: RerunChange, name: str, author: str) -> RerunChanged:
+    async def rerun(self, session: Session, change: RerunChange, name: str, author: str) -> Rerun:
         """The run once more with one error another, as a new instance in the end."""
         self._refuse_more()
         id = self._number()
-        changed = RerunChanged(id, author, name)
+        changed = Rerun(id, author, name)
         file = self._runs / f"rerun-{fresh_token()}"
         job = Job(self._cache, lambda message: self._on_rerun(id, message), lambda _job: self._on_rerun_end(id))
         self._reruns[id] = _Rerun(session, changed, job, file)

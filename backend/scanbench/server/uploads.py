@@ -4,11 +4,13 @@ import asyncio
 import json
 from dataclasses import dataclass
 from pathlib import Path
+from typing import ClassVar
 
 from scanbench.engines.cache import BlobCache
 from scanbench.host.program_cache import key_of, recall
 from scanbench.jobs.starting import checked_program, model_of
 from scanbench.program.program import Program
+from scanbench.public import Public
 from scanbench.runtime.clock import fresh_token, monotonic_ns
 from scanbench.runtime.programs import NoProgram
 from scanbench.session.session import Session
@@ -44,15 +46,20 @@ class TraceFile:
 
 
 @dataclass(frozen=True, slots=True)
-class Checked:
+class Checked(Public):
     """Whether a file can be verified with a mapping."""
+
+    PUBLIC: ClassVar = "TraceMappingChecked"
 
     ok: bool
     """Whether it can; warnings do not stand in the way."""
     problems: tuple[TraceProblem, ...]
+    """The first 200."""
     first: int | None
+    """Scans `first` to `last`."""
     last: int | None
     missing: int
+    """Scans in between that the file does not have."""
 
 
 class TraceFiles:

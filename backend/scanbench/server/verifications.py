@@ -6,11 +6,12 @@ from pathlib import Path
 from typing import Literal
 
 from scanbench import __version__
+from scanbench.public import iso
 from scanbench.reports.report import Report, ReportHead
 from scanbench.reports.report_html import to_html
 from scanbench.reports.report_json import to_json
 from scanbench.reports.table_csv import to_csv
-from scanbench.runtime.clock import iso, monotonic_ns, wall_time
+from scanbench.runtime.clock import monotonic_ns, wall_time
 from scanbench.server.uploads import TraceFile
 from scanbench.server.verification import TraceSource, Verification
 from scanbench.server.verify_rows import Rows, RowsPage

@@ -3,7 +3,9 @@
 from bisect import bisect_left
 from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field, replace
+from typing import ClassVar
 
+from scanbench.public import Public
 from scanbench.verify.contract import Column, Row
 from scanbench.wire.codec import unpack
 from scanbench.wire.verification import KeptRows, PackedRow, ScansVerified
@@ -18,16 +20,19 @@ MOST_DIFFERING = 10_000
 
 
 @dataclass(frozen=True, slots=True)
-class RowsPage:
-    """Some rows with their indices, and what there is in all."""
+class RowsPage(Public):
+    """As many rows as were asked for, with all columns."""
+
+    PUBLIC: ClassVar = "VerifyRows"
 
     columns: tuple[Column, ...]
-    outputs: frozenset[str]
-    inputs: frozenset[str]
-    rows: tuple[tuple[int, Row], ...]
+    rows: tuple[Row, ...]
     first: int
+    """Index of the first row that is kept."""
     count: int
+    """Rows that there were; the last has index `count` - 1."""
     differing: tuple[int, ...]
+    """Indices of rows that differ, at most 10,000."""
 
 
 @dataclass
@@ -83,11 +88,12 @@ class Rows:
             indices: Iterable[int] = self.differing[at : at + count]
         else:
             indices = range(max(first, self.first), min(self.count, max(first, self.first) + count))
-        rows = tuple((index, row_of(self._row(index))) for index in indices)
+        rows = tuple(replace(row_of(self._row(index)), index=index) for index in indices)
         told = tuple(self.differing[-MOST_DIFFERING:])
-        return RowsPage(
-            tuple(self.columns), frozenset(self.outputs), frozenset(self.inputs), rows, self.first, self.count, told
-        )  # fmt: skip
+        columns = (
+            replace(each, output=each.name in self.outputs, input=each.name in self.inputs) for each in self.columns
+        )
+        return RowsPage(tuple(columns), rows, self.first, self.count, told)
 
     def all(self) -> Iterator[Row]:
         """Every row that is kept."""

@@ -515,7 +515,7 @@ class Session:
             self._publish(events.ArmedChanged(self._armed))
         if standing.disturbances != self._disturbances:
             self._disturbances = standing.disturbances
-            self._publish(events.DisturbancesChanged(self._disturbances))
+            self._publish(events.Disturbances(self._disturbances))
         if self.state.past_by:
             self._past_rows = self._history.as_of(standing.errors, wall_time(), self.state.version)
             self._tell_rows(self._past_rows)

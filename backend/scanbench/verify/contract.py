@@ -7,7 +7,9 @@ device came to, `A'` what the monitor came to.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, field
-from typing import Literal
+from typing import ClassVar, Literal
+
+from scanbench.public import Hex, Public
 
 Memory = Literal["recorded", "set"]
 """What the monitor runs on: the inputs of the control device, or a copy of them that somebody has edited."""
@@ -51,9 +53,11 @@ class Range:
 
 
 @dataclass(frozen=True, slots=True)
-class Column:
+class Column(Public):
     """A variable that the range reads or writes. Of a function block or method the name is that inside of it (`speed`,
     `zone.parts` behind an in-out), so rows of several instances share the column; else it is a path or an address."""
+
+    PUBLIC: ClassVar = "VerifyColumn"
 
     name: str
     type: str
@@ -63,11 +67,17 @@ class Column:
     """Bytes of a value."""
     values: tuple[tuple[str, int], ...] = ()
     """Names of an enumeration's numbers."""
+    output: bool = False
+    """Written in some row; said where rows are told, as `input`."""
+    input: bool = False
+    """Read before it was written, in some row."""
 
 
 @dataclass(frozen=True, slots=True)
-class Place:
+class Place(Public):
     """Where in the program something happened."""
+
+    PUBLIC: ClassVar = "VerifyPlace"
 
     task: str
     instance: str
@@ -80,37 +90,43 @@ class Place:
 
 
 @dataclass(frozen=True, slots=True)
-class Output:
+class Output(Public):
     """What was written: the last value in the pass. None: that side did not write it."""
 
-    control: bytes | None
-    monitor: bytes | None
+    PUBLIC: ClassVar = "VerifyOutput"
+
+    control: Hex | None
+    monitor: Hex | None
     """A' on the recorded inputs."""
-    set: bytes | None = None
+    set: Hex | None = None
     """A' on edited inputs, where somebody has edited any of this row and the monitor ran on them."""
 
 
 @dataclass(frozen=True, slots=True)
-class Input:
+class Input(Public):
     """What was read before the pass wrote it."""
 
-    recorded: bytes
-    expected: bytes | None = None
+    PUBLIC: ClassVar = "VerifyInput"
+
+    recorded: Hex
+    expected: Hex | None = None
     """What the monitor would have read by itself, when that is something else: a disturbed input."""
-    set: bytes | None = None
+    set: Hex | None = None
     """What somebody has edited it to."""
 
 
 @dataclass(frozen=True, slots=True)
-class Mismatch:
+class Mismatch(Public):
     """The first place where control and monitor part, or a byte that nobody should have changed."""
+
+    PUBLIC: ClassVar = "VerifyDifference"
 
     cause: Cause
     name: str
     """The column, or the path or address of the variable."""
-    control: bytes
+    control: Hex
     """A, `was` for people; empty where it did nothing."""
-    monitor: bytes
+    monitor: Hex
     """A'."""
     place: Place | None
     message: str
@@ -121,8 +137,10 @@ class Mismatch:
 
 
 @dataclass(frozen=True, slots=True)
-class Row:
+class Row(Public):
     """One line of the table."""
+
+    PUBLIC: ClassVar = "VerifyRow"
 
     kind: RowKind
     scan: int
@@ -146,6 +164,8 @@ class Row:
 
     compared: bool = True
     """Whether anything was: not where the program stood still, nor where a trace has no value, or is believed."""
+    index: int = 0
+    """Of all rows, from 0, said where they are told; those that were forgotten keep theirs."""
 
     @property
     def differs(self) -> bool:

@@ -19,6 +19,7 @@ from scanbench.web import messages as wire
 from scanbench.web import translate
 from scanbench.web.auth import Gate, Guard
 from scanbench.web.built_files import BuiltFiles
+from scanbench.web.component_names import by_title
 from scanbench.web.headers import NoStore
 from scanbench.web.pages import frontend_directory, not_built_page
 from scanbench.web.routes import binding as routes_binding
@@ -77,7 +78,7 @@ def create_app(config: Config) -> ASGIApp:
 
 def bare_app() -> FastAPI:
     """Routes without anything behind them: enough to describe the API."""
-    app = FastAPI(
+    app = _Api(
         title="Scanbench", version=__version__, docs_url=None, redoc_url=None, openapi_url="/api/openapi.json",
         responses={"4XX": {"model": wire.Refusal}},
     )  # fmt: skip
@@ -96,6 +97,18 @@ def bare_app() -> FastAPI:
     app.add_exception_handler(OSError, _on_os_error)
     _serve_page(app, frontend_directory())
     return app
+
+
+class _Api(FastAPI):
+    def openapi(self) -> dict[str, object]:
+        """The description of the API, components by the names that they give themselves."""
+        if self.openapi_schema is not None:
+            return self.openapi_schema
+        described = super().openapi()
+        schemas, described = by_title(described["components"].pop("schemas"), described)
+        described["components"]["schemas"] = schemas
+        self.openapi_schema = described
+        return described
 
 
 def _refusing(status: int):  # type: ignore[no-untyped-def]  # the handler's type is Starlette's own affair

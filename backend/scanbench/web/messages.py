@@ -8,6 +8,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.web.messages_base import Id, Scan, Version, Wire
 from scanbench.web.messages_debug import BreakpointInfo, Breakpoints, Coverage, Dap, DapOut, HaltInfo, SetCoverage
 from scanbench.web.messages_errors import (
@@ -21,10 +22,10 @@ from scanbench.web.messages_errors import (
     Recover,
     SweepProgress,
 )
-from scanbench.web.messages_past import Comparison, Rerun
 from scanbench.web.messages_trace import Flight, Traces
-from scanbench.web.messages_verify import DisturbanceInfo, Disturbances, VerificationInfo, Verifications
+from scanbench.web.messages_verify import VerificationInfo, Verifications
 from scanbench.web.messages_watch import WatchListChanged
+from scanbench.wire.events import Comparison, Disturbances, Rerun
 
 # ---- programs, files, problems -------------------------------------------------------------------------------
 

@@ -7,6 +7,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from scanbench.verify.contract import Mismatch
+from scanbench.verify.trace.table import TraceProblem
 from scanbench.web.messages_base import Scan, Wire
 
 VerifyState = Literal["starting", "verifying", "waiting", "stopped", "done", "failed"]
@@ -14,7 +16,6 @@ VerifyState = Literal["starting", "verifying", "waiting", "stopped", "done", "fa
 somebody. done: all the scans that were asked for. failed: `message` says why."""
 VerifyPace = Literal["free", "scan", "step"]
 VerifyMemory = Literal["recorded", "set"]
-Hex = str
 Limit = Annotated[int, Field(ge=1, le=1_000_000)]
 Text = Annotated[str, Field(max_length=200)]
 
@@ -48,78 +49,6 @@ class NewTraceVerification(Wire):
     limit: Limit = 4096
 
 
-class VerifyColumn(Wire):
-    name: str
-    type: str
-    kind: str
-    size: int
-    values: list[tuple[str, int]]
-    output: bool = Field(description="written in some row")
-    input: bool = Field(description="read before it was written, in some row")
-
-
-class VerifyPlace(Wire):
-    task: str
-    instance: str
-    pou: str
-    file: str
-    line: int
-    text: str
-
-
-class VerifyOutput(Wire):
-    control: Hex | None
-    monitor: Hex | None
-    set: Hex | None
-
-
-class VerifyInput(Wire):
-    recorded: Hex
-    expected: Hex | None
-    set: Hex | None
-
-
-class VerifyDifference(Wire):
-    cause: Literal["logic", "input", "order", "trap", "outside", "recorded"]
-    name: str
-    control: Hex
-    monitor: Hex
-    place: VerifyPlace | None
-    message: str
-    type: str
-    kind: str
-    size: int
-
-
-class VerifyRow(Wire):
-    index: int = Field(description="of all rows, from 0; those that were forgotten keep theirs")
-    kind: Literal["pass", "scan", "step", "none"]
-    scan: int
-    call: int
-    count: int
-    instance: str
-    place: VerifyPlace | None
-    outputs: dict[str, VerifyOutput]
-    inputs: dict[str, VerifyInput]
-    differences: list[VerifyDifference]
-    disturbances: list[str]
-    used: int
-    note: str
-    compared: bool = Field(
-        description="false: nothing was, as the program stood still, or the trace has no value here or is believed"
-    )
-
-
-class VerifyRows(Wire):
-    """Rows `first` and on, as many as were asked for, with all columns."""
-
-    columns: list[VerifyColumn]
-    rows: list[VerifyRow]
-    first: int = Field(description="index of the first row that is kept")
-    count: int = Field(description="rows that there were; the last has index `count` - 1")
-    differing: list[int] = Field(description="indices of rows that differ, at most 10,000")
-
-
 class VerificationInfo(Wire):
     """How a verification stands. Everybody at the PLC sees the same."""
 
@@ -145,7 +74,7 @@ class VerificationInfo(Wire):
     )
     stretches: list[tuple[int, int]] = Field(description="those scans, the last 100 stretches, both ends included")
     differing: int = Field(description="rows that differ")
-    first_difference: VerifyDifference | None
+    first_difference: Mismatch | None
     first_scan: int | None = Field(description="scan of the first difference")
     rows: int
     forgotten: int = Field(description="rows at the front that found no room any more")
@@ -178,16 +107,6 @@ class SetCell(Wire):
 
 class SetCells(Wire):
     cells: list[SetCell] = Field(min_length=1, max_length=10_000)
-
-
-class VerifyUse(Wire):
-    name: str
-    written: bool
-    control: str | None = Field(description="as text")
-    monitor: str | None
-    file: str
-    line: int
-    instance: str
 
 
 class KeepVerification(Wire):
@@ -227,26 +146,6 @@ class NewDisturbance(Wire):
     times: int = Field(default=0, ge=0, le=1_000_000, description="with a probability: at most so often; 0: for ever")
 
 
-class DisturbanceInfo(Wire):
-    id: int
-    text: str = Field(description="for people: `Memory D120, bit 0, once in scan 500`")
-    kind: Literal["flip", "late", "stuck", "result"]
-    by: str
-    state: Literal["waiting", "active", "missed"] = Field(
-        description="missed: its time is over and nothing was changed; it is listed until it is taken back"
-    )
-    fired: int = Field(description="how often until now")
-    next_scan: int | None
-    why: str = Field(description="missed: the scan, and why")
-
-
-class Disturbances(Wire):
-    """Those that are not over, and those that were missed, whenever they change."""
-
-    type: Literal["disturbances"] = "disturbances"
-    disturbances: list[DisturbanceInfo]
-
-
 # ---- traces of real controllers --------------------------------------------------------------------------------------
 
 Role = Literal["input", "output", "ignore"]
@@ -270,13 +169,6 @@ class TraceMapping(Wire):
     columns: list[TraceColumnMap] = Field(max_length=1000)
 
 
-class TraceProblem(Wire):
-    row: int | None = Field(description="line of a CSV file, index in a JSON file; null: the file as a whole")
-    column: str
-    message: str
-    warning: bool = Field(description="it does not stand in the way")
-
-
 class UploadedTrace(Wire):
     """A trace file that the server has read; nothing is kept of one that has problems."""
 
@@ -292,14 +184,6 @@ class UploadedTrace(Wire):
 class CheckTraceMapping(Wire):
     file: str = Field(min_length=1, max_length=80)
     mapping: TraceMapping
-
-
-class TraceMappingChecked(Wire):
-    ok: bool
-    problems: list[TraceProblem] = Field(description="the first 200")
-    first: int | None = Field(description="scans `first` to `last`")
-    last: int | None
-    missing: int = Field(description="scans in between that the file does not have")
 
 
 class SavedMapping(Wire):

@@ -12,8 +12,7 @@ from pydantic import TypeAdapter
 
 from scanbench.web import messages as wire
 from scanbench.web.app import bare_app
-
-_REFERENCE = "#/components/schemas/{model}"
+from scanbench.web.component_names import REFERENCE, by_title
 
 
 def document() -> dict[str, object]:
@@ -21,13 +20,17 @@ def document() -> dict[str, object]:
     api = bare_app().openapi()
     schemas = cast(dict[str, object], api["components"]["schemas"])
     unions = {
-        "ClientMessage": TypeAdapter[wire.ClientMessage](wire.ClientMessage).json_schema(ref_template=_REFERENCE),
-        "ServerMessage": TypeAdapter[wire.ServerMessage](wire.ServerMessage).json_schema(ref_template=_REFERENCE),
+        "ClientMessage": TypeAdapter[wire.ClientMessage](wire.ClientMessage).json_schema(ref_template=_TEMPLATE),
+        "ServerMessage": TypeAdapter[wire.ServerMessage](wire.ServerMessage).json_schema(ref_template=_TEMPLATE),
     }
     for name, schema in unions.items():
-        schemas.update(cast(dict[str, object], schema.pop("$defs")))
+        held, schema = by_title(cast(dict[str, object], schema.pop("$defs")), schema)
+        schemas.update(held)
         schemas[name] = schema
     return cast(dict[str, object], api)
+
+
+_TEMPLATE = REFERENCE + "{model}"
 
 
 def main(arguments: list[str]) -> int:

@@ -5,7 +5,7 @@ from scanbench.faults.history import ErrorRow
 from scanbench.plcmodel import model as plc
 from scanbench.problems import Problem
 from scanbench.program.program import CheckSite
-from scanbench.runtime.clock import iso
+from scanbench.public import iso
 from scanbench.runtime.forces import ForcedValue
 from scanbench.session.session import Session
 from scanbench.store.records import FileInfo, FileRow, ProjectRow
@@ -16,7 +16,6 @@ from scanbench.web import messages_errors as simulator
 from scanbench.web import (
     translate_debug,
     translate_errors,
-    translate_past,
     translate_sweeps,
     translate_trace,
     translate_verify,
@@ -229,11 +228,10 @@ def event(happened: events.Told) -> wire.ServerMessage:
             return _of_project(happened)
         case events.BreakpointsChanged() | events.CoverageChanged() | events.TracesChanged() | events.FlightChanged():
             return _of_tools(happened)
-        case (
-            events.VerificationsChanged() | events.DisturbancesChanged() | events.ComparisonChanged()
-            | events.RerunChanged()
-        ):  # fmt: skip
-            return _of_verification(happened)
+        case events.VerificationsChanged():
+            return translate_verify.told(happened)
+        case events.Comparison() | events.Rerun() | events.Disturbances():
+            return happened
         case events.StateChanged():
             return wire.State(state=state(happened.state))
         case events.ErrorsChanged():
@@ -291,20 +289,6 @@ def _of_tools(
             return translate_trace.traces(happened)
         case events.FlightChanged():
             return translate_trace.flight(happened)
-
-
-def _of_verification(
-    happened: events.VerificationsChanged | events.DisturbancesChanged | events.ComparisonChanged | events.RerunChanged,
-) -> wire.ServerMessage:
-    match happened:
-        case events.VerificationsChanged():
-            return translate_verify.told(happened)
-        case events.DisturbancesChanged():
-            return translate_verify.disturbances(happened)
-        case events.ComparisonChanged():
-            return translate_past.comparison(happened)
-        case events.RerunChanged():
-            return translate_past.rerun(happened)
 
 
 # ---- models ------------------------------------------------------------------------------------------------------

@@ -2,8 +2,8 @@
 
 from datetime import datetime
 
+from scanbench.public import iso
 from scanbench.reports import record as kept
-from scanbench.runtime.clock import iso
 from scanbench.server.test_records import HistoryVersion
 from scanbench.store import records as store
 from scanbench.web import messages_records as wire

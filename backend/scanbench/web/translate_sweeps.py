@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from typing import get_args
 
-from scanbench.runtime.clock import iso
+from scanbench.public import iso
 from scanbench.server.sweeps import Comparison, Whole
 from scanbench.store.records import AcceptedRow, CellRow, StateRow, SweepRow
 from scanbench.web import messages_errors as wire

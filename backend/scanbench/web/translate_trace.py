@@ -1,6 +1,6 @@
 """Traces and their records -> wire shapes, and back. Nothing is decided here."""
 
-from scanbench.runtime.clock import iso
+from scanbench.public import iso
 from scanbench.server.trace_records import TraceRecord
 from scanbench.taps import trace as tap
 from scanbench.web import messages_trace as wire

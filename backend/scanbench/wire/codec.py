@@ -24,7 +24,7 @@ from scanbench.faults.reaction.reaction import Difference, Line, Reaction, Reade
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.shapes import Shape, Wanted
 from scanbench.faults.shapes import Start as FaultStart
-from scanbench.history.contract import Change, Changes, Divergence, RerunChange, Writer
+from scanbench.history.contract import BetweenEntry, Change, Changes, Divergence, RerunChange, Writer
 from scanbench.problems import Span
 from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.clear_violations import ClearViolations
@@ -85,7 +85,7 @@ _CLASSES: dict[str, type] = {
         trace_protocol.ReadTrace, trace_protocol.TraceStatus, trace_protocol.TracesAre, trace_protocol.TraceRead,
         trace_protocol.RecordFlight, trace_protocol.FlightAt, trace_protocol.FlightDone,
         Calm, Corrupt, Disturb, Disturbance, DisturbanceInfo, Flip, Freed, Held, Hold, Unfired, Unhold,
-        Column, Input, Mismatch, Output, Place, Range, Row, Change, Changes, Divergence, RerunChange, Writer, DisturbanceInfo,
+        Column, Input, Mismatch, Output, Place, Range, Row, BetweenEntry, Change, Changes, Divergence, RerunChange, Writer, DisturbanceInfo,
         verify_protocol.BeginVerify, verify_protocol.BeginTrace, verify_protocol.VerifyScans, verify_protocol.VerifyStep,
         verify_protocol.SetInputs, verify_protocol.UsesOf, verify_protocol.VerifyBegun, verify_protocol.VerifyRefused,
         verify_protocol.PackedRow, verify_protocol.KeptRows, verify_protocol.ScansVerified, verify_protocol.UseRow, verify_protocol.UsesAre,

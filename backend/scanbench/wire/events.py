@@ -14,6 +14,7 @@ from scanbench.faults.history import ErrorRow
 from scanbench.history.contract import Divergence
 from scanbench.problems import Problem, Severity
 from scanbench.program.program import CheckSite
+from scanbench.public import Public
 from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.forces import ForcedValue
 from scanbench.runtime.trap import TrapInfo
@@ -341,15 +342,17 @@ class VerificationsChanged:
 
 
 @dataclass(frozen=True, slots=True)
-class DisturbancesChanged:
-    """What is to disturb the PLC, or does."""
+class Disturbances(Public):
+    """Those that are not over, and those that were missed, whenever they change."""
 
     disturbances: tuple[DisturbanceInfo, ...]
+    type: Literal["disturbances"] = "disturbances"
 
 
 @dataclass(frozen=True, slots=True)
-class ComparisonChanged:
-    """How far a comparison of the run of instance `a` with that of `b` is, and what came of it."""
+class Comparison(Public):
+    """How far a comparison of the run of instance `a` with that of `b` is, and what came of it. Kept until the server ends, the
+    last 20 of an instance."""
 
     id: int
     a: int
@@ -357,13 +360,15 @@ class ComparisonChanged:
     by: str
     done: int = 0
     of: int = 0
+    """Scans."""
     result: Divergence | None = None
     message: str = ""
     """Why nothing came of it."""
+    type: Literal["comparison"] = "comparison"
 
 
 @dataclass(frozen=True, slots=True)
-class RerunChanged:
+class Rerun(Public):
     """How far a replay with a change is, and the instance that came of it."""
 
     id: int
@@ -373,8 +378,10 @@ class RerunChanged:
     of: int = 0
     instance: int | None = None
     refused: tuple[str, ...] = ()
+    """Commands that were not taken this time, and why."""
     message: str = ""
     """Why nothing came of it."""
+    type: Literal["rerun"] = "rerun"
 
 
 @dataclass(frozen=True, slots=True)
@@ -404,9 +411,9 @@ Told = (
     | TracesChanged
     | FlightChanged
     | VerificationsChanged
-    | DisturbancesChanged
-    | ComparisonChanged
-    | RerunChanged
+    | Disturbances
+    | Comparison
+    | Rerun
     | Watching
 )
 

@@ -5,8 +5,10 @@ answered in order; rows come as they are made, and the parent keeps them. Anothe
 """
 
 from dataclasses import dataclass
+from typing import ClassVar
 
 from scanbench.history.contract import Changes, Divergence, RerunChange, Writer
+from scanbench.public import Public
 from scanbench.verify.contract import Column, Mismatch, Range
 from scanbench.wire.host import Sources
 
@@ -163,8 +165,10 @@ class KeptRows:
 
 
 @dataclass(frozen=True, slots=True)
-class UseRow:
-    """See `verified.Use`."""
+class UseRow(Public):
+    """One use of a variable; see `verify.contract.Use`."""
+
+    PUBLIC: ClassVar = "VerifyUse"
 
     name: str
     written: bool

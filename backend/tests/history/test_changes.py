@@ -60,8 +60,8 @@ def test_what_was_entered_in_between(tmp_path: Path) -> None:
     timeline.submit(Write("Cleo", "D100", "7"))
     path = timeline.recording.path
     found = _between(path, 3, 8, 8)
-    assert [(scan, by) for scan, by, _ in found.entries] == [(4, "Ada"), (4, "Bob"), (8, "Cleo")]
-    assert found.entries[0][2].startswith("Write: Main.quiet")
+    assert [(each.scan, each.author) for each in found.entries] == [(4, "Ada"), (4, "Bob"), (8, "Cleo")]
+    assert found.entries[0].text.startswith("Write: Main.quiet")
     assert _shown(found)["D100"] == ("16#0000", "16#0007")
     assert not any(each.path.startswith("A") for each in found.changes), "the clock is nobody's change"
     assert not _between(path, 4, 5, 8).entries, "they were entered in front of scan 4"
@@ -82,7 +82,7 @@ def test_another_program_in_between(tmp_path: Path) -> None:
     assert set(values) == {"Main.list[0]", "Main.list[9]", "Main.belt[1].seen"}
     assert "by their names" in found.note
     assert "Main.more" not in _shown(found)
-    assert found.entries[0][2].startswith("ProgramChange")
+    assert found.entries[0].text.startswith("ProgramChange")
 
 
 def test_two_runs(tmp_path: Path) -> None:

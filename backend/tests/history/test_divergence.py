@@ -8,7 +8,7 @@ import pytest
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.native.engine import NativeEngine
 from scanbench.history import divergence
-from scanbench.history.contract import Divergence
+from scanbench.history.contract import BetweenEntry, Divergence
 from scanbench.history.divergence import find_divergence
 from scanbench.history.reading import NoReading, Reading
 from scanbench.recording.timeline import Timeline
@@ -91,7 +91,7 @@ def test_a_command_in_one_of_them(engine: EngineFactory, tmp_path: Path) -> None
         "Main.sum": ("0", "6"),
     }
     assert found.changes.changes[0].path in found.text
-    assert found.entries == ((12, "B", "Ada", "Write: Main.level := 3"),)
+    assert found.entries == (BetweenEntry(12, "B", "Ada", "Write: Main.level := 3"),)
     assert "Ada entered only in B, in front of scan 12" in found.text
     assert found.marks == ((12, 29),)
 
@@ -106,7 +106,7 @@ def test_a_command_that_changes_nothing_is_no_difference(tmp_path: Path) -> None
     found = _compared(one, other)
     assert (found.scan, found.marks) == (None, ())
     assert "2 commands are only in one of them" in found.text
-    assert [each[1] for each in found.entries] == ["A", "A"]
+    assert [each.run for each in found.entries] == ["A", "A"]
 
 
 def test_stretches_in_which_they_differ(tmp_path: Path) -> None:

@@ -1,5 +1,7 @@
 """Rows of a verification in the parent: bounded, paged, replaced."""
 
+from dataclasses import replace
+
 import pytest
 
 from scanbench.server import verify_rows
@@ -26,10 +28,10 @@ def test_pages_and_those_that_differ() -> None:
     rows = Rows()
     rows.add(came(*(packed(scan, scan % 10 == 3) for scan in range(50))))
     page = rows.page(10, 5, differing=False)
-    assert [(index, row.scan) for index, row in page.rows] == [(index, index) for index in range(10, 15)]
-    assert (page.count, page.first, page.columns) == (50, 0, (A,))
+    assert [(row.index, row.scan) for row in page.rows] == [(index, index) for index in range(10, 15)]
+    assert (page.count, page.first, page.columns) == (50, 0, (replace(A, output=True),))
     assert page.differing == (3, 13, 23, 33, 43)
-    assert [index for index, _ in rows.page(4, 2, differing=True).rows] == [13, 23]
+    assert [row.index for row in rows.page(4, 2, differing=True).rows] == [13, 23]
     assert rows.page(50, 5, differing=False).rows == ()
 
 
@@ -48,13 +50,13 @@ def test_the_oldest_are_forgotten_and_indices_stay(monkeypatch: pytest.MonkeyPat
         rows.add(came(*(packed(each, each % 10 == 3) for each in range(scan, scan + 10))))
     assert (rows.first, rows.count, len(rows.kept)) == (80, 100, 20)
     assert rows.differing == [*range(3, 100, 10)]  # these outlive the equal ones
-    assert [row.scan for _, row in rows.page(0, 3, differing=True).rows] == [3, 13, 23]
+    assert [row.scan for row in rows.page(0, 3, differing=True).rows] == [3, 13, 23]
     assert [row.scan for row in rows.all()][:10] == [3, 13, 23, 33, 43, 53, 63, 73, 80, 81]
     again = Rows.of(rows.packed())
     assert (again.differing, again.first, again.count) == (rows.differing, 80, 100)
     rows.replace(came(packed(13, differs=True, value=9)))
-    assert [row.outputs["speed"].control for _, row in rows.page(13, 1, differing=True).rows] == [b"\x09\0"]
-    assert [row.scan for _, row in rows.page(0, 3, differing=False).rows] == [80, 81, 82]
+    assert [row.outputs["speed"].control for row in rows.page(13, 1, differing=True).rows] == [b"\x09\0"]
+    assert [row.scan for row in rows.page(0, 3, differing=False).rows] == [80, 81, 82]
     monkeypatch.setattr(verify_rows, "MOST_BYTES", 5 * len(packed(1).data))
     rows.add(came(packed(100)))
     assert rows.count == 101

@@ -12,6 +12,7 @@ import pytest
 
 from scanbench.server.workbench import Workbench
 from scanbench.store.records import StoreError
+from scanbench.public import Public
 from scanbench.web import messages, messages_errors, messages_records, messages_user_errors, openapi
 from scanbench.web.app import bare_app
 from scanbench.web.claim import InUse, claimed
@@ -73,6 +74,7 @@ def test_every_message_is_in_the_openapi_document(tmp_path: Path) -> None:
         if isinstance(each, type) and issubclass(each, Wire) and each is not Wire
     }
     assert shapes <= set(schemas)
+    assert {getattr(each, "PUBLIC", each.__name__) for each in Public.__subclasses__()} <= set(schemas)
     assert {"write", "run"} <= set(schemas["ClientMessage"]["discriminator"]["mapping"])
     assert {"hello", "written"} <= set(schemas["ServerMessage"]["discriminator"]["mapping"])
     assert openapi.main([]) == 2

@@ -11,6 +11,7 @@ from typing import ClassVar, Literal
 from scanbench.faults.arm import NUMBERED
 from scanbench.faults.disturb.definition import Disturbance, DisturbanceKind, describe, flaw, next_firing, what_of
 from scanbench.faults.disturb.fire import Corrupt, Firing, Flip, Hold, Unfired, Unhold, freed
+from scanbench.public import Public
 from scanbench.runtime.command import Category, Command, Entry, Numbered, Plan, Refusal, Restarted, Swapped, View
 from scanbench.runtime.command import Freed as FreedEffect
 from scanbench.runtime.journal import Fold
@@ -92,18 +93,21 @@ Disturbeds = Mapping[str, Disturbed]
 
 
 @dataclass(frozen=True, slots=True)
-class DisturbanceInfo:
-    """A disturbance that is not over, for people."""
+class DisturbanceInfo(Public):
+    """A disturbance that is not over, or was missed, for people."""
 
     id: int
     text: str
+    """`Memory D120, bit 0, once in scan 500`"""
     kind: DisturbanceKind
     by: str
     state: Literal["waiting", "active", "missed"]
+    """missed: its time is over and nothing was changed; it is listed until it is taken back."""
     fired: int
+    """How often until now."""
     next_scan: int | None
     why: str = ""
-    """It was missed because of this."""
+    """missed: the scan, and why."""
 
 
 def disturbances(state: Disturbeds) -> tuple[DisturbanceInfo, ...]:

@@ -3,6 +3,8 @@
 from collections.abc import Sequence
 from dataclasses import dataclass
 
+from scanbench.public import Public
+
 MAX_BYTES = 32 << 20
 MAX_ROWS = 500_000
 MAX_COLUMNS = 1000
@@ -12,7 +14,7 @@ MAX_PROBLEMS = 200
 
 
 @dataclass(frozen=True, slots=True)
-class TraceProblem:
+class TraceProblem(Public):
     """What is wrong with a file or with its mapping, and where."""
 
     row: int | None

@@ -4,12 +4,12 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Request
 
-from scanbench.history.contract import RerunChange
+from scanbench.history.contract import Changes, RerunChange, Writer
 from scanbench.web import messages_past as wire
-from scanbench.web import translate_past
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id, Scan
 from scanbench.web.reach import Bench
+from scanbench.wire.events import Comparison, Rerun
 
 router = APIRouter(prefix="/api", tags=["past"])
 
@@ -17,29 +17,29 @@ router = APIRouter(prefix="/api", tags=["past"])
 @router.get("/instances/{instance}/last-write")
 async def on_last_write(
     bench: Bench, instance: Id, path: Annotated[str, Query(min_length=1, max_length=2000)], scan: Scan | None = None
-) -> wire.LastWriter:
+) -> Writer:
     """Who last wrote a variable before `scan` began, or before what is shown now."""
-    return translate_past.writer(await bench.pasts.last_writer(bench.session(instance), path, scan))
+    return await bench.pasts.last_writer(bench.session(instance), path, scan)
 
 
 @router.get("/instances/{instance}/changes")
-async def on_changes(bench: Bench, instance: Id, first: Scan, last: Scan, other: Id | None = None) -> wire.RunChanges:
+async def on_changes(bench: Bench, instance: Id, first: Scan, last: Scan, other: Id | None = None) -> Changes:
     """What is another at the beginning of scan `last` than at that of `first`; with `other` in that instance at `last`."""
     second = None if other is None else bench.session(other)
-    return translate_past.changes(await bench.pasts.changes(bench.session(instance), first, last, second))
+    return await bench.pasts.changes(bench.session(instance), first, last, second)
 
 
 @router.get("/instances/{instance}/comparisons")
-async def on_comparisons(bench: Bench, instance: Id) -> list[wire.Comparison]:
+async def on_comparisons(bench: Bench, instance: Id) -> list[Comparison]:
     """The comparisons of this run with others, the newest first."""
-    return list(map(translate_past.comparison, bench.pasts.comparisons(bench.session(instance))))
+    return bench.pasts.comparisons(bench.session(instance))
 
 
 @router.post("/instances/{instance}/comparisons", status_code=201)
-async def on_compare(bench: Bench, request: Request, instance: Id, new: wire.NewComparison) -> wire.Comparison:
+async def on_compare(bench: Bench, request: Request, instance: Id, new: wire.NewComparison) -> Comparison:
     """Compares this run (A) with another one (B), scan by scan; how far it is comes by A's WebSocket."""
     a, b = bench.session(instance), bench.session(new.other)
-    return translate_past.comparison(bench.pasts.compare(a, b, user_of(request).name))
+    return bench.pasts.compare(a, b, user_of(request).name)
 
 
 @router.delete("/comparisons/{comparison}", status_code=204)
@@ -49,12 +49,10 @@ async def on_delete_comparison(bench: Bench, comparison: Id) -> None:
 
 
 @router.post("/instances/{instance}/reruns", status_code=201)
-async def on_rerun(bench: Bench, request: Request, instance: Id, new: wire.NewRerun) -> wire.Rerun:
+async def on_rerun(bench: Bench, request: Request, instance: Id, new: wire.NewRerun) -> Rerun:
     """The run once more with one error another, as a new instance; how far it is comes by this instance's WebSocket."""
     change = RerunChange(new.scan, new.error, new.by, new.instead, new.leave_out, new.behind)
-    return translate_past.rerun(
-        await bench.pasts.rerun(bench.session(instance), change, new.name.strip(), user_of(request).name)
-    )
+    return await bench.pasts.rerun(bench.session(instance), change, new.name.strip(), user_of(request).name)
 
 
 @router.delete("/reruns/{rerun}", status_code=204)

@@ -7,8 +7,10 @@ from urllib.parse import quote
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import Response
 
-from scanbench.faults.disturb.disturb import Calm
+from scanbench.faults.disturb.disturb import Calm, DisturbanceInfo
+from scanbench.server.uploads import Checked
 from scanbench.server.verifications import Exported
+from scanbench.server.verify_rows import RowsPage
 from scanbench.verify.trace.read import MAX_BYTES
 from scanbench.web import messages_verify as wire
 from scanbench.web import translate_verify
@@ -17,6 +19,7 @@ from scanbench.web.messages_base import Id, Scan
 from scanbench.web.messages_errors import CommandResult
 from scanbench.web.reach import Bench, file_body
 from scanbench.web.translate_errors import command_result
+from scanbench.wire.verification import UseRow
 
 router = APIRouter(prefix="/api", tags=["verification"])
 Count = Annotated[int, Query(ge=0, le=500)]
@@ -75,9 +78,9 @@ async def on_delete(bench: Bench, request: Request, verification: Id) -> None:
 @router.get("/verifications/{verification}/rows")
 async def on_rows(
     bench: Bench, verification: Id, first: Scan = 0, count: Count = 200, differing: bool = False
-) -> wire.VerifyRows:
+) -> RowsPage:
     """Rows from index `first` on; with `differing` only those that differ count."""
-    return translate_verify.rows(await bench.verifications.rows(verification, first, count, differing))
+    return await bench.verifications.rows(verification, first, count, differing)
 
 
 @router.post("/verifications/{verification}/cells")
@@ -88,9 +91,9 @@ async def on_cells(bench: Bench, request: Request, verification: Id, cells: wire
 
 
 @router.get("/verifications/{verification}/uses")
-async def on_uses(bench: Bench, verification: Id, scan: Scan, call: Scan = 1) -> list[wire.VerifyUse]:
+async def on_uses(bench: Bench, verification: Id, scan: Scan, call: Scan = 1) -> tuple[UseRow, ...]:
     """The used-variable record of one row, in the order of use."""
-    return list(map(translate_verify.use, await bench.verifications.uses(verification, scan, call)))
+    return await bench.verifications.uses(verification, scan, call)
 
 
 @router.get("/verifications/{verification}/export", response_class=Response)
@@ -132,9 +135,9 @@ async def on_delete_record(bench: Bench, record: Id) -> None:
 @router.get("/verification-records/{record}/rows")
 async def on_record_rows(
     bench: Bench, record: Id, first: Scan = 0, count: Count = 200, differing: bool = False
-) -> wire.VerifyRows:
+) -> RowsPage:
     """Its rows, as those of a verification."""
-    return translate_verify.rows(await bench.verifications.record_rows(record, first, count, differing))
+    return await bench.verifications.record_rows(record, first, count, differing)
 
 
 @router.get("/verification-records/{record}/export", response_class=Response)
@@ -147,9 +150,9 @@ async def on_export_record(bench: Bench, record: Id, format: Format = "csv") -> 
 
 
 @router.get("/instances/{instance}/disturbances")
-async def on_disturbances(bench: Bench, instance: Id) -> list[wire.DisturbanceInfo]:
+async def on_disturbances(bench: Bench, instance: Id) -> tuple[DisturbanceInfo, ...]:
     """Those that are not over, and those that never came about."""
-    return list(map(translate_verify.disturbance, await bench.session(instance).disturbances_now()))
+    return await bench.session(instance).disturbances_now()
 
 
 @router.post("/instances/{instance}/disturbances")
@@ -185,11 +188,11 @@ async def on_upload(
 
 
 @router.post("/instances/{instance}/trace-check")
-async def on_check_mapping(bench: Bench, instance: Id, check: wire.CheckTraceMapping) -> wire.TraceMappingChecked:
+async def on_check_mapping(bench: Bench, instance: Id, check: wire.CheckTraceMapping) -> Checked:
     """Whether a trace file can be verified with this mapping, and if not, where it cannot."""
     file = bench.trace_files.get(check.file)
     mapping = translate_verify.mapping(check.mapping)
-    return translate_verify.checked(await bench.trace_files.check(bench.session(instance), file, mapping))
+    return await bench.trace_files.check(bench.session(instance), file, mapping)
 
 
 @router.get("/projects/{project}/trace-mappings")

@@ -52,6 +52,7 @@ _Commanding = (
 _Wanted = _Commanding | wire.Run | wire.Travel | wire.NewRun | wire.RollBack | debugger.SetCoverage
 
 _INCOMING: TypeAdapter[wire.ClientMessage] = TypeAdapter(wire.ClientMessage)
+_OUTGOING: TypeAdapter[wire.ServerMessage] = TypeAdapter(wire.ServerMessage)
 
 
 class Client:
@@ -84,7 +85,7 @@ class Client:
         elif isinstance(event, events.Watching):
             self._on_watching(event)
         else:
-            self._texts.add(translate.event(event).model_dump_json())
+            self._texts.add(_text(translate.event(event)))
         self._wake.set()
 
     def on_frame(self, frame: bytes) -> None:
@@ -112,7 +113,7 @@ class Client:
             items = tuple(item for item in items if item.id in self._ids)
         self._ids.update(item.id for item in items if item.sent)
         if event.ref is not None or items:
-            self._texts.add(translate.event(events.Watching(event.ref, items)).model_dump_json())
+            self._texts.add(_text(translate.event(events.Watching(event.ref, items))))
 
     # ---- the socket -----------------------------------------------------------------------------------------------
 
@@ -133,9 +134,9 @@ class Client:
             breakpoints=list(map(translate_debug.breakpoint, self._session.debugging.verdicts)),
             coverage=translate_debug.coverage(covered) if (covered := self._session.debugging.coverage) else None,
             verifications=list(map(translate_verify.info, verifications)),
-            disturbances=list(map(translate_verify.disturbance, self._session.disturbances)),
+            disturbances=list(self._session.disturbances),
         )
-        self._texts.first(hello.model_dump_json())
+        self._texts.first(_text(hello))
         writer = asyncio.get_running_loop().create_task(self._write())
         try:
             while True:
@@ -160,14 +161,14 @@ class Client:
                 async with asyncio.timeout(ALIVE_AFTER_S):
                     await self._wake.wait()
             except TimeoutError:
-                await self._socket.send_text(wire.Alive().model_dump_json())
+                await self._socket.send_text(_text(wire.Alive()))
                 continue
             self._wake.clear()
             while self._texts:
                 await self._socket.send_text(self._texts.take())
             if self._state is not None:
                 state, self._state = self._state, None
-                await self._socket.send_text(translate.event(state).model_dump_json())
+                await self._socket.send_text(_text(translate.event(state)))
             while self._frames:
                 await self._socket.send_bytes(self._frames.popleft())
             if self._stale and not self._asked:
@@ -175,8 +176,7 @@ class Client:
                 self._session.want_snapshot(self._id)
 
     def _answer(self, ref: int, ok: bool, message: str, scan: int | None = None, near: tuple[str, ...] = ()) -> None:
-        done = wire.Done(ref=ref, ok=ok, message=message, scan=scan, near=list(near))
-        self._texts.add(done.model_dump_json())
+        self._texts.add(_text(wire.Done(ref=ref, ok=ok, message=message, scan=scan, near=list(near))))
         self._wake.set()
 
     # ---- from the browser -----------------------------------------------------------------------------------------
@@ -212,7 +212,7 @@ class Client:
         return self._dap
 
     def _say_dap(self, message: dict[str, object]) -> None:
-        self._texts.add(debugger.Dap.model_validate({"message": message}).model_dump_json())
+        self._texts.add(_text(debugger.Dap.model_validate({"message": message})))
         self._wake.set()
 
     def _end_dap(self) -> None:
@@ -261,6 +261,10 @@ class Client:
                 return Restart(author, message.kind)
             case wire.ClearDiagnostics():
                 return ClearViolations(author)
+
+
+def _text(message: wire.ServerMessage) -> str:
+    return _OUTGOING.dump_json(message).decode()
 
 
 def _ref_of(text: str) -> int:

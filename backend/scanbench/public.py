@@ -1,0 +1,68 @@
+"""Dataclasses that browsers and scripts see as they are: as JSON on the WebSocket and by REST, described in OpenAPI.
+
+`web` hands them to pydantic, which finds what it needs here by name; nothing of it is imported. `Hex` and `Moment` say how bytes
+and times are written.
+This module imports nothing of ours: every room may use it.
+"""
+
+from collections.abc import Callable
+from datetime import UTC, datetime
+from inspect import cleandoc
+from typing import Annotated, ClassVar, Generic, TypeVar
+
+T = TypeVar("T")
+
+
+def iso(moment: datetime) -> str:
+    """ISO 8601 in UTC with milliseconds."""
+    return moment.astimezone(UTC).isoformat(timespec="milliseconds").replace("+00:00", "Z")
+
+
+class _Text(Generic[T]):
+    """How a value is written in JSON."""
+
+    def __init__(self, write: Callable[[T], str]) -> None:
+        self._write = write
+
+    def __get_pydantic_core_schema__(
+        self, source: object, handler: Callable[[object], dict[str, object]]
+    ) -> dict[str, object]:
+        written = {
+            "type": "function-plain",
+            "function": self._write,
+            "return_schema": {"type": "str"},
+            "when_used": "json",
+        }
+        return {**handler(source), "serialization": written}
+
+    def __get_pydantic_json_schema__(self, _schema: object, _handler: object) -> dict[str, object]:
+        return {"type": "string"}
+
+
+Moment = Annotated[datetime, _Text(iso)]
+"""A time of day, in JSON as `iso` writes it."""
+Hex = Annotated[bytes, _Text(bytes.hex)]
+"""A value as it lies in the image; in JSON `5802` is INT 600."""
+
+
+def _describe(schema: dict[str, object], cls: type) -> None:
+    """Every field is there, also one that has a default here; what is always the same tells messages apart."""
+    schema["title"] = getattr(cls, "PUBLIC", cls.__name__)
+    schema["description"] = cleandoc(cls.__doc__ or "")
+    fields = schema["properties"]
+    assert isinstance(fields, dict)
+    named = {name: field for name, field in fields.items() if "const" not in field}
+    for field in named.values():
+        field.pop("default", None)
+    schema["required"] = list(named)
+
+
+class Public:
+    """Base of such a dataclass. Its docstring and those of its fields are the descriptions in OpenAPI."""
+
+    __slots__ = ()
+    __pydantic_config__: ClassVar[dict[str, object]] = {
+        "extra": "forbid",
+        "json_schema_extra": _describe,
+        "use_attribute_docstrings": True,
+    }
