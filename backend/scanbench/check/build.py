@@ -9,6 +9,7 @@ import sys
 from collections.abc import Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
+from typing import ClassVar, Literal, get_args
 
 from scanbench.check.assemble import Around, assemble, place_areas, place_globals
 from scanbench.check.body.bodies import body_of
@@ -37,6 +38,7 @@ from scanbench.problems import Problem, Severity, Span
 from scanbench.program.origin import in_library, is_system
 from scanbench.program.program import Assign, Base, CheckSite, Const, Expr, Place, Pou, Program
 from scanbench.program.types import BOOL, Kind, Member, Record, Reference, Type
+from scanbench.public import Public
 from scanbench.syntax import tree
 from scanbench.syntax.chunks import Chunked, read
 
@@ -46,14 +48,21 @@ sys.setrecursionlimit(max(sys.getrecursionlimit(), RECURSION_LIMIT))
 ENABLING = re.compile(r"\bENO?\b", re.IGNORECASE)
 
 
+PouInfoKind = Literal[
+    "program", "function_block", "function", "class", "interface", "method", "property", "type", "global"
+]  # fmt: skip
+_POU_KINDS: dict[str, PouInfoKind] = {kind: kind for kind in get_args(PouInfoKind)}
+
+
 @dataclass(frozen=True, slots=True)
-class PouInfo:
+class PouInfo(Public):
     """What a file declares, for the explorer."""
+
+    PUBLIC: ClassVar = "Pou"
 
     name: str
     """In full: with its namespace, and for a method with its class."""
-    kind: str
-    """program, function_block, function, class, interface, method, property, type or global."""
+    kind: PouInfoKind
     file: str
     line: int
 
@@ -125,7 +134,7 @@ def _infos(parsed: list[tree.File]) -> list[PouInfo]:
     for file in parsed:
         for pou in file.pous:
             name = qualified(pou.namespace, pou.name)
-            made.append(PouInfo(name, pou.kind, file.name, pou.span.line))
+            made.append(PouInfo(name, _POU_KINDS[pou.kind], file.name, pou.span.line))
             made += _methods(name, pou)
         made += [
             PouInfo(qualified(each.namespace, each.name), "type", file.name, each.span.line) for each in file.types
@@ -142,7 +151,7 @@ def _methods(owner: str, pou: tree.PouDeclaration) -> list[PouInfo]:
     """Methods and properties; the two halves of a property are one."""
     made: dict[str, PouInfo] = {}
     for each in pou.methods:
-        kind = "method" if each.kind == "method" else "property"
+        kind: PouInfoKind = "method" if each.kind == "method" else "property"
         made.setdefault(each.name.upper(), PouInfo(f"{owner}.{each.name}", kind, each.span.file, each.span.line))
     return list(made.values())
 

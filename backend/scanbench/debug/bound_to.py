@@ -1,13 +1,15 @@
 """What is said of the binding of an in-out."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal
+
+from scanbench.public import Public
 
 Convention = Literal["reference", "value"]
 
 
 @dataclass(frozen=True, slots=True)
-class BoundTo:
+class BoundTo(Public):
     """One call site of an in-out, and what it passes."""
 
     actual: str
@@ -28,8 +30,10 @@ class BoundTo:
 
 
 @dataclass(frozen=True, slots=True)
-class Bound:
+class Bound(Public):
     """What an in-out is bound to, and all that may be passed to it."""
+
+    PUBLIC: ClassVar = "Binding"
 
     ok: bool
     message: str

@@ -15,6 +15,7 @@ from scanbench.faults.inject import Generate, Recover
 from scanbench.faults.lines import find_line
 from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.faults.shapes import Wanted, describe_shape, flaw, lasts, step_count
+from scanbench.public import Public
 from scanbench.runtime.command import Category, Command, Entry, Numbered, Plan, Refusal, View
 from scanbench.runtime.journal import Fold
 
@@ -125,17 +126,21 @@ class Lane:
 
 
 @dataclass(frozen=True, slots=True)
-class ArmedInfo:
-    """An armed fault, for people."""
+class ArmedInfo(Public):
+    """A fault that was armed and is not over, for people."""
+
+    PUBLIC: ClassVar = "ArmedFault"
 
     id: int
     errors: tuple[str, ...]
     text: str
+    """Start and shape in a sentence."""
     by: str
     state: Literal["waiting", "running"]
     raised: int
     """How often until now."""
     next_scan: int | None
+    """Of its next step, when that is known."""
 
 
 def armed_faults(lanes: Mapping[str, Lane]) -> tuple[ArmedInfo, ...]:

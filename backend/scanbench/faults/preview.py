@@ -8,6 +8,7 @@ from scanbench.faults.details import Bits, choose, field_bits
 from scanbench.faults.inject import ACTIVE, Generate, present_choices
 from scanbench.faults.reference import ErrorRef, find_error
 from scanbench.plcmodel.model import Area, Location, Model
+from scanbench.public import Public
 from scanbench.runtime.command import Patch, Refusal, View
 
 What = Literal["detail", "code", "flag", "log", "time", "outputs", "other"]
@@ -17,10 +18,11 @@ _MOST_OTHERS = 40
 
 
 @dataclass(frozen=True, slots=True)
-class PreviewedWrite:
+class PreviewedWrite(Public):
     """A bit or a word, before and behind."""
 
     address: str
+    """In the vendor's notation."""
     before: str
     after: str
     what: What

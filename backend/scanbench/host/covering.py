@@ -6,7 +6,7 @@ from scanbench.debug.debugger import Debugger
 from scanbench.engines.observe import Seen
 from scanbench.recording.timeline import Timeline
 from scanbench.taps.coverage import CoverageTap
-from scanbench.wire.debugging import Coverage
+from scanbench.wire.debugging import Coverage, CoverageIs
 from scanbench.wire.host import Sources
 
 
@@ -42,13 +42,13 @@ class Covering:
             self._tap.change(sites, self._texts())
             self.more = True
 
-    def answer(self, ref: int | None) -> Coverage:
+    def answer(self, ref: int | None) -> CoverageIs:
         """What was reached so far."""
         self.more = False
         tap = self._tap
         if tap is None:
-            return Coverage(ref, False, self._timeline.live_scan, 0, ())
-        return Coverage(ref, self._on, tap.since_scan, tap.scans, tap.files)
+            return CoverageIs(ref, Coverage(False, self._timeline.live_scan, 0, ()))
+        return CoverageIs(ref, Coverage(self._on, tap.since_scan, tap.scans, tap.files))
 
     def _note(self, seen: Seen) -> None:
         if self._tap is None or self._timeline.past:

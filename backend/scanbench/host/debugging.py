@@ -210,7 +210,7 @@ class Debugging:
             scan = self._resource.header.scan
             self._link.post(protocol.Ack(request.ref, False, error.message, scan, tuple(error.near)))
             return
-        self._link.post(debug_protocol.Binding(request.ref, bound.ok, bound.message, bound.convention, bound.sites))
+        self._link.post(debug_protocol.BindingIs(request.ref, bound))
 
     # ---- at each tick ---------------------------------------------------------------------------------------------
 

@@ -1,13 +1,16 @@
 """Symbols for people: what is below a path, what completes a text."""
 
+from typing import get_args
+
 from scanbench.program.program import Program
 from scanbench.program.types import Elementary, Enumeration, Section, StringType, Subrange
 from scanbench.symbols.call_sites import formal_of
 from scanbench.symbols.instances import instances_of
 from scanbench.symbols.symbols import Symbol, UnknownPath, complete, members, resolve
-from scanbench.wire.host import Found, Lookup, SymbolInfo, WatchItem
+from scanbench.wire.host import EnumValue, Found, Lookup, SymbolInfo, SymbolKind, WatchItem
 
 COMPLETIONS = 50
+_KINDS: dict[str, SymbolKind] = {kind: kind for kind in get_args(SymbolKind)}
 
 
 def look_up(program: Program, question: Lookup) -> Found:
@@ -42,13 +45,13 @@ def symbol_info(symbol: Symbol, in_out: bool = False) -> SymbolInfo:
         path=symbol.path,
         name=symbol.name,
         type=symbol.type.name,
-        kind=symbol.type.kind.value,
+        kind=_KINDS[symbol.type.kind],
         size=symbol.type.size,
         address=symbol.address,
         writable=symbol.writable,
         section=str(symbol.section),
         expandable=not simple,
-        values=symbol.type.values if isinstance(symbol.type, Enumeration) else (),
+        values=tuple(EnumValue(*each) for each in symbol.type.values) if isinstance(symbol.type, Enumeration) else (),
         range=_range(symbol.type) if isinstance(symbol.type, Subrange) else "",
         in_out=in_out or symbol.section == Section.IN_OUT,
     )

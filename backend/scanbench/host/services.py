@@ -194,13 +194,11 @@ class Services:
     def _preview(self, asked: protocol.PreviewErrors) -> None:
         view = self._resource.view
         if self._timeline.past:
-            answer = protocol.PreviewedErrors(asked.ref, False, PAST, view.header.scan, ())
+            told = protocol.PreviewedErrors(False, PAST, view.header.scan, ())
         else:
             found = preview(view, asked.errors, asked.again)
-            answer = protocol.PreviewedErrors(
-                asked.ref, found.ok, found.message, view.header.scan, found.writes, found.more
-            )
-        self._link.post(answer)
+            told = protocol.PreviewedErrors(found.ok, found.message, view.header.scan, found.writes, found.more)
+        self._link.post(protocol.ErrorsPreviewed(asked.ref, told))
 
     def _tell_info(self) -> None:
         info = self._timeline.recording.info

@@ -13,10 +13,10 @@ from dataclasses import dataclass, replace
 from operator import attrgetter
 from pathlib import Path
 from types import TracebackType
-from typing import Self
+from typing import ClassVar, Self
 
 from scanbench.program.program import Program
-from scanbench.public import iso
+from scanbench.public import Public, iso
 from scanbench.recording.blocks import (
     About,
     Codec,
@@ -54,16 +54,23 @@ DELTAS = 63
 
 
 @dataclass(frozen=True, slots=True)
-class RecordingInfo:
+class RecordingInfo(Public):
     """What a run file holds and what it cost; 0 where nothing was thinned or dropped, texts empty where all is well."""
 
+    PUBLIC: ClassVar = "TimelineInfo"
+
     first_scan: int
+    """The earliest scan that can be gone back to."""
     bytes: int
     limit_bytes: int
     thinned_before: int
+    """Before this scan checkpoints were thinned: going there takes longer."""
     dropped_before: int
+    """Scans before this are gone for good."""
     damage: str
-    trouble: str
+    """What was found damaged when the file was opened, and what was recovered."""
+    recording: str
+    """Why nothing is recorded now (disk full, say)."""
 
 
 @dataclass(slots=True)

@@ -3,13 +3,14 @@
 from collections.abc import Iterable, Sequence
 from dataclasses import dataclass, field, replace
 from datetime import datetime
-from typing import Literal
+from typing import ClassVar, Literal
 
 from scanbench.faults.history import ErrorRow, Status
 from scanbench.faults.inject import Origin
 from scanbench.faults.reaction.reaction import FINDINGS, Reaction, Verdict
 from scanbench.plcmodel.catalogue import ErrorEntry, ErrorGroup, Severity, path_text
 from scanbench.plcmodel.model import Model
+from scanbench.public import Moment, Public
 from scanbench.reports.record_text import Language, RecordLine, details_in_words, in_names, worded
 
 SweepStatus = Literal["running", "done", "cancelled", "interrupted", "failed"]
@@ -33,13 +34,13 @@ class RecordHead:
 
 
 @dataclass(frozen=True, slots=True)
-class RecordAccepted:
+class RecordAccepted(Public):
     """Somebody accepted that the program does not react."""
 
     state: str
     reason: str
     by: str
-    at: datetime
+    at: Moment
 
 
 @dataclass(frozen=True, slots=True)
@@ -76,7 +77,7 @@ class RecordError:
 
 
 @dataclass(frozen=True, slots=True)
-class RecordCell:
+class RecordCell(Public):
     """One error, raised alone from one state."""
 
     error: str
@@ -89,10 +90,10 @@ class RecordCell:
 
 
 @dataclass(frozen=True, slots=True)
-class RecordSweep:
+class RecordSweep(Public):
     """A sweep of this version of the program."""
 
-    at: datetime
+    at: Moment
     by: str
     instance: str
     status: SweepStatus
@@ -123,8 +124,10 @@ class Missed:
 
 
 @dataclass(frozen=True, slots=True)
-class Summary:
+class Summary(Public):
     """The record in numbers."""
+
+    PUBLIC: ClassVar = "RecordSummary"
 
     errors: int
     tested: int

@@ -3,10 +3,10 @@
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
-from datetime import datetime
 from typing import Literal
 
 from scanbench.plcmodel.catalogue import ErrorEntry, Wording
+from scanbench.public import Moment, Public
 
 Language = Literal["en", "ja"]
 _REFERENCE = re.compile(r"(?<![\w-])([a-z][a-z0-9-]*)(?![\w-])(?: \(([^()]*=[^()]*)\))?")
@@ -26,10 +26,10 @@ _FEWEST_ROUNDS = 3
 
 
 @dataclass(frozen=True, slots=True)
-class RecordLine:
+class RecordLine(Public):
     """A line of the log about errors."""
 
-    at: datetime
+    at: Moment
     scan: int
     by: str
     text: str

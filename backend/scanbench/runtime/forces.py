@@ -12,6 +12,7 @@ from typing import ClassVar, TypeVar
 
 from scanbench.program.layout import Layout
 from scanbench.program.types import Elementary
+from scanbench.public import Public
 from scanbench.runtime.command import Category, Command, Entry, Patch, Plan, Refusal, Restarted, Swapped, View
 from scanbench.runtime.holds import held, holder
 from scanbench.runtime.journal import Fold
@@ -157,8 +158,10 @@ class Release(Command):
 
 
 @dataclass(frozen=True, slots=True)
-class ForcedValue:
+class ForcedValue(Public):
     """A force, and what it did in the scan that ran last: values as text."""
+
+    PUBLIC: ClassVar = "ForceInfo"
 
     path: str
     through: str

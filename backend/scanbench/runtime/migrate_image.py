@@ -7,6 +7,7 @@ the variable of the same path, or to nothing; in-out slots start unconnected, as
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from typing import ClassVar
 
 from scanbench.check.declare.classes import TYPE_NUMBER
 from scanbench.program.copies import BYTE_OFFSET
@@ -25,6 +26,7 @@ from scanbench.program.types import (
     Subrange,
     Type,
 )
+from scanbench.public import Public
 from scanbench.symbols.symbols import UnknownPath, resolve, starting_at
 
 _HEADER = (
@@ -36,8 +38,10 @@ NEW, REMOVED = "new", "removed"
 
 
 @dataclass(frozen=True, slots=True)
-class Lost:
+class Lost(Public):
     """A variable whose value does not go over."""
+
+    PUBLIC: ClassVar = "LostVariable"
 
     path: str
     reason: str

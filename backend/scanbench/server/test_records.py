@@ -9,6 +9,7 @@ from scanbench.faults.history import ErrorRow
 from scanbench.faults.reaction.reaction import Verdict
 from scanbench.plcmodel.model import Model
 from scanbench.plcmodel.user_errors import device_of, model_for
+from scanbench.public import Moment, Public
 from scanbench.reports.record import (
     RecordAccepted,
     RecordCell,
@@ -37,15 +38,16 @@ TOLD = 3
 
 
 @dataclass(frozen=True, slots=True)
-class HistoryVersion:
+class HistoryVersion(Public):
     """A version of the program that has an error history on a PLC."""
 
     version: int
     running: bool
     raised: int
     """Errors that were raised on it."""
-    build: BuildRow | None
-    """None: the project does not know it, as behind a run that was imported."""
+    at: Moment | None
+    """When it was built; None: the project does not know it, as behind a run that was imported."""
+    author: str
 
 
 class Records:
@@ -61,7 +63,8 @@ class Records:
         for version in reversed(session.history_versions):
             rows, _, build = await self._of_version(session, version)
             raised = sum(row.status != "never" for row in rows)
-            found.append(HistoryVersion(version, version == session.history_version, raised, build))
+            at, author = (None, "") if build is None else (build.at, build.author)
+            found.append(HistoryVersion(version, version == session.history_version, raised, at, author))
         return found
 
     async def rows(self, session: Session, version: int | None) -> list[ErrorRow]:

@@ -7,7 +7,7 @@ from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import events
 from scanbench.wire import host as protocol
-from scanbench.wire.debugging import BreakpointsAre, Coverage, DebugAnswer, DebugRequest
+from scanbench.wire.debugging import BreakpointsAre, Coverage, CoverageIs, DebugAnswer, DebugRequest
 from scanbench.wire.refused import Unavailable
 
 SHARED = ""
@@ -110,6 +110,6 @@ class Debugging:
                 self._publish(events.BreakpointsChanged(self.verdicts))
             case debug_protocol.LogpointSaid():
                 self._publish(events.LogpointSaid(message))
-            case Coverage():
-                self._coverage = message
-                self._publish(events.CoverageChanged(message))
+            case CoverageIs():
+                self._coverage = message.coverage
+                self._publish(message.coverage)

@@ -295,7 +295,7 @@ class Instance:
                 | protocol.Found()
                 | protocol.SourcesOf()
                 | protocol.Previewed()
-                | protocol.PreviewedErrors()
+                | protocol.ErrorsPreviewed()
             ):
                 self._answer(message.ref, message)
             case _ if isinstance(message, DebugAnswer) and message.ref is not None:
@@ -354,8 +354,8 @@ class Instance:
     async def preview_errors(self, errors: tuple[ErrorRef, ...], again: bool) -> protocol.PreviewedErrors:
         """What raising these would write."""
         answer = await self._ask(lambda ref: protocol.PreviewErrors(ref, errors, again))
-        assert isinstance(answer, protocol.PreviewedErrors)
-        return answer
+        assert isinstance(answer, protocol.ErrorsPreviewed)
+        return answer.found
 
     async def build(self, sources: protocol.Sources, author: str) -> protocol.Ack:
         """Swaps the program; a PLC that failed begins a new run with it."""

@@ -5,6 +5,7 @@ from collections.abc import Awaitable, Callable, Iterable, Mapping, Sequence
 from functools import partial
 from pathlib import Path
 
+from scanbench.debug.bound_to import Bound
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.disturb.disturb import DisturbanceInfo
@@ -342,16 +343,16 @@ class Session:
         answer = await self.debug(debug_protocol.WantCoverage)
         if isinstance(answer, protocol.Ack):
             raise Refused(answer.message, answer.near)
-        assert isinstance(answer, debug_protocol.Coverage)
-        return answer
+        assert isinstance(answer, debug_protocol.CoverageIs)
+        return answer.coverage
 
-    async def binding(self, path: str) -> debug_protocol.Binding:
+    async def binding(self, path: str) -> Bound:
         """What an in-out is bound to; `Refused` when there is none of this path."""
         answer = await self.debug(lambda ref: debug_protocol.WantBinding(ref, path))
         if isinstance(answer, protocol.Ack):
             raise Refused(answer.message, answer.near)
-        assert isinstance(answer, debug_protocol.Binding)
-        return answer
+        assert isinstance(answer, debug_protocol.BindingIs)
+        return answer.bound
 
     # ---- looking --------------------------------------------------------------------------------------------------
 

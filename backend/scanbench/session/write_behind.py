@@ -10,7 +10,7 @@ import logging
 from collections import deque
 from collections.abc import Callable, Mapping, Sequence
 from dataclasses import asdict
-from typing import TypeVar
+from typing import TypeVar, get_args
 
 from scanbench.debug.breakpoint import Breakpoint
 from scanbench.faults.history import ErrorRow, RowReaction
@@ -19,6 +19,7 @@ from scanbench.reports.reaction_json import from_json, to_json
 from scanbench.store.records import HistoryRow, Json, LogRow, NotFound, StoreError
 from scanbench.store.store import Store
 from scanbench.wire.events import LogEntry
+from scanbench.wire.host import MarkKind
 
 log = logging.getLogger("scanbench")
 LOG_KEPT = 20_000
@@ -31,6 +32,7 @@ _Lines = dict[int, deque[LogRow]]
 _Breakpoints = dict[int, Sequence[Breakpoint]]
 _Traces = dict[int, Mapping[int, Json]]
 _T = TypeVar("_T")
+_KINDS: dict[str, MarkKind] = {kind: kind for kind in get_args(MarkKind)}
 
 
 class WriteBehind:
@@ -236,7 +238,7 @@ def _reaction_of(kept: HistoryRow) -> RowReaction | None:
 
 def line_of(kept: LogRow) -> LogEntry:
     """A line as the store has it."""
-    return LogEntry(kept.at, kept.scan, kept.author, kept.text, kept.kind)
+    return LogEntry(kept.at, kept.scan, kept.author, kept.text, _KINDS.get(kept.kind, "system"))
 
 
 def breakpoint_of(kept: Mapping[str, object]) -> Breakpoint | None:

@@ -5,6 +5,8 @@ from dataclasses import dataclass
 from datetime import datetime
 from typing import Literal
 
+from scanbench.public import Moment, Public
+
 Status = Literal["generated", "cleared"]
 Origin = Literal["simulator", "plc", "program"]
 ReactionState = Literal["recording", "done", "failed"]
@@ -208,7 +210,7 @@ class AcceptedRow:
 
 
 @dataclass(frozen=True, slots=True)
-class RecordInfo:
+class RecordInfo(Public):
     """A test record that came from elsewhere, without its text."""
 
     id: int
@@ -216,7 +218,7 @@ class RecordInfo:
     title: str
     by: str
     """Who brought it in."""
-    at: datetime
+    at: Moment
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,13 +1,13 @@
 """Coverage: which statements of a program were reached, and which ways they went, since it was switched on."""
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
 from difflib import SequenceMatcher
 from itertools import groupby
 
 from scanbench.engines.observe import Seen
 from scanbench.problems import Span
 from scanbench.symbols.sites import Sites
-from scanbench.taps.covered import CoveredFile, CoveredSite
+from scanbench.taps.covered import CoveredFile, CoveredOutcome, CoveredSite
 
 Key = tuple[str, str]
 """A POU and the text of a statement up to the first one inside of it."""
@@ -49,16 +49,16 @@ class CoverageTap:
     @property
     def files(self) -> tuple[CoveredFile, ...]:
         """All statements there are, by file and place."""
-        ways: dict[int, list[tuple[str, bool]]] = {}
+        ways: dict[int, list[CoveredOutcome]] = {}
         for number, outcome in enumerate(self._sites.outcomes):
-            ways.setdefault(outcome.site, []).append((outcome.name, number in self._outcomes))
+            ways.setdefault(outcome.site, []).append(CoveredOutcome(outcome.name, number in self._outcomes))
         numbered = enumerate(self._sites.statements)
         return tuple(
             CoveredFile(file, tuple(self._covered(site, ways.get(site, ())) for site, _ in group))
             for file, group in groupby(numbered, key=lambda each: each[1].span.file)
         )
 
-    def _covered(self, number: int, ways: "list[tuple[str, bool]] | tuple[()]") -> CoveredSite:
+    def _covered(self, number: int, ways: Sequence[CoveredOutcome]) -> CoveredSite:
         site = self._sites.statements[number]
         span = site.span
         return CoveredSite(

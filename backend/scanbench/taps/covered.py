@@ -2,9 +2,21 @@
 
 from dataclasses import dataclass
 
+from scanbench.public import Public
+
 
 @dataclass(frozen=True, slots=True)
-class CoveredSite:
+class CoveredOutcome(Public):
+    """A way that a statement can go."""
+
+    name: str
+    """As `symbols.sites.Outcome`."""
+    taken: bool
+    """Whether it went that way."""
+
+
+@dataclass(frozen=True, slots=True)
+class CoveredSite(Public):
     """A statement, how it went so far, and the ways it can go."""
 
     line: int
@@ -13,11 +25,10 @@ class CoveredSite:
     end_column: int
     pou: str
     reached: bool
-    outcomes: tuple[tuple[str, bool], ...] = ()
-    """Name (`check.sites.Outcome`) and whether it went that way."""
+    outcomes: tuple[CoveredOutcome, ...] = ()
 
 
 @dataclass(frozen=True, slots=True)
-class CoveredFile:
+class CoveredFile(Public):
     file: str
     sites: tuple[CoveredSite, ...]

@@ -37,9 +37,9 @@ def _functions(sites: Sequence[CoveredSite]) -> Iterator[str]:
 def _branches(sites: Sequence[CoveredSite]) -> Iterator[str]:
     found = hit = 0
     for block, site in enumerate(sites):
-        for branch, (_, went) in enumerate(site.outcomes):
-            found, hit = found + 1, hit + went
-            yield f"BRDA:{site.line},{block},{branch},{int(went) if site.reached else '-'}"
+        for branch, way in enumerate(site.outcomes):
+            found, hit = found + 1, hit + way.taken
+            yield f"BRDA:{site.line},{block},{branch},{int(way.taken) if site.reached else '-'}"
     yield f"BRF:{found}"
     yield f"BRH:{hit}"
 

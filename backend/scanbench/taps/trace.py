@@ -15,6 +15,7 @@ from scanbench.check.typed.condition import BadCondition, Signal, compile_signal
 from scanbench.engines.sample import HEAD_WORDS, MAX_SIGNALS, Sampling
 from scanbench.program.program import Program
 from scanbench.program.types import BOOL, Elementary, Enumeration, Kind
+from scanbench.public import Public
 from scanbench.taps.trace_buffer import TraceBuffer, Words, row_bytes
 
 When = Literal["rises", "falls", "changes", "above", "below", "equals", "holds"]
@@ -58,7 +59,7 @@ class TraceDefinition:
 
 
 @dataclass(frozen=True, slots=True)
-class TraceSignal:
+class TraceSignal(Public):
     """A signal of a trace; `message` says why it has no values (any more)."""
 
     text: str

@@ -8,13 +8,15 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from scanbench.check.build import PouInfo
+from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.disturb.disturb import DisturbanceInfo
+from scanbench.runtime.forces import ForcedValue
+from scanbench.runtime.migrate_image import Lost
 from scanbench.web.messages_base import Id, Scan, Version, Wire
-from scanbench.web.messages_debug import BreakpointInfo, Breakpoints, Coverage, Dap, DapOut, HaltInfo, SetCoverage
+from scanbench.web.messages_debug import BreakpointInfo, Breakpoints, Dap, DapOut, HaltInfo, SetCoverage
 from scanbench.web.messages_errors import (
     Arm,
-    Armed,
-    ArmedFault,
     Disarm,
     ErrorGroup,
     ErrorHistoryRow,
@@ -22,10 +24,13 @@ from scanbench.web.messages_errors import (
     Recover,
     SweepProgress,
 )
-from scanbench.web.messages_trace import Flight, Traces
+from scanbench.web.messages_trace import Traces
 from scanbench.web.messages_verify import VerificationInfo, Verifications
 from scanbench.web.messages_watch import WatchListChanged
-from scanbench.wire.events import Comparison, Disturbances, Rerun
+from scanbench.wire import events
+from scanbench.wire.debugging import Coverage
+from scanbench.wire.events import Comparison, Disturbances, LogEntry, Rerun
+from scanbench.wire.host import SymbolInfo
 
 # ---- programs, files, problems -------------------------------------------------------------------------------
 
@@ -87,13 +92,6 @@ class CheckRequest(Wire):
     files: dict[str, str]
 
 
-class Pou(Wire):
-    name: str
-    kind: Literal["program", "function_block", "function", "class", "interface", "method", "property", "type", "global"]
-    file: str
-    line: int
-
-
 class EmbeddedCheck(Wire):
     """A subrange check that the compiler embedded at this place, or left out."""
 
@@ -110,7 +108,7 @@ class EmbeddedCheck(Wire):
 
 class CheckResult(Wire):
     problems: list[Problem]
-    pous: list[Pou]
+    pous: tuple[PouInfo, ...]
     checks: list[EmbeddedCheck] = Field(description="none while there are errors")
 
 
@@ -119,14 +117,7 @@ class ProgramText(Wire):
 
     version: int
     files: dict[str, str] = Field(description="path -> text")
-    pous: list[Pou]
-
-
-class LostVariable(Wire):
-    """A variable that an online change cannot keep: it begins with its initial value."""
-
-    path: str = Field(description="instance path, e.g. Main.station.count")
-    reason: str = Field(description="new, type changed from INT to DINT, ...")
+    pous: tuple[PouInfo, ...]
 
 
 class OnlineChange(Wire):
@@ -135,7 +126,7 @@ class OnlineChange(Wire):
     instance: int
     name: str
     kept: int
-    lost: list[LostVariable] = Field(description="at most 500; `lost_count` says how many there are")
+    lost: tuple[Lost, ...] = Field(description="at most 500; `lost_count` says how many there are")
     lost_count: int
     refusal: str = Field(description="why this PLC cannot be changed now (mode RUN, say); empty when it can")
 
@@ -152,7 +143,7 @@ class BuildResult(Wire):
     message: str
     problems: list[Problem]
     project: Project
-    pous: list[Pou]
+    pous: tuple[PouInfo, ...]
     changes: list[OnlineChange] = Field(description="for each running PLC of the project")
     needs_agreement: bool = Field(description="nothing was swapped yet: variables would be lost; build again, agreed")
 
@@ -299,67 +290,6 @@ class ChangeInstance(Wire):
     limits: InstanceLimits | None = None
 
 
-class Mark(Wire):
-    """A point of the timeline."""
-
-    scan: int
-    kind: Literal["write", "force", "error", "recover", "mode", "run", "build", "system", "halt", "disturbance"]
-    author: str
-    text: str
-
-
-class TimelineInfo(Wire):
-    """What the run file holds, and what it cost."""
-
-    first_scan: int = Field(description="the earliest scan that can be gone back to")
-    bytes: int
-    limit_bytes: int
-    thinned_before: int = Field(
-        description="before this scan checkpoints were thinned: going there takes longer; 0: none"
-    )
-    dropped_before: int = Field(description="scans before this are gone for good; 0: none")
-    damage: str = Field(description="what was found damaged when the file was opened, and what was recovered; or empty")
-    recording: str = Field(description="why nothing is recorded now (disk full, say); empty while all is well")
-
-
-class EnumValue(Wire):
-    name: str
-    value: int
-
-
-class Symbol(Wire):
-    """A variable, or an address, by its instance path."""
-
-    path: str
-    name: str
-    type: str = Field(description="as declared, e.g. INT, ARRAY[0..9] OF REAL, TON")
-    kind: Literal[
-        "bool",
-        "int",
-        "uint",
-        "bits",
-        "real",
-        "time",
-        "string",
-        "array",
-        "struct",
-        "block",
-        "union",
-        "interface",
-        "date",
-        "char",
-        "ref",
-    ]
-    size: int = Field(description="bytes of the value")
-    address: str | None = Field(description="vendor notation when it is located")
-    writable: bool
-    section: str = Field(description="VAR, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_GLOBAL, address or member")
-    expandable: bool
-    values: list[EnumValue] = Field(description="of an enumeration: the names of its numbers")
-    range: str = Field(description="of a subrange: what it is, e.g. INT (0..500); `type` may be a name; or empty")
-    in_out: bool = Field(description="it is an in-out; of a watched path also: it leads through one")
-
-
 class Violation(Wire):
     """A place and instance at which a value left its subrange."""
 
@@ -378,16 +308,6 @@ class Violation(Wire):
     times: int
     first_scan: int
     last_scan: int
-
-
-class LogLine(Wire):
-    """One line of the instance's journal, for people."""
-
-    at: str
-    scan: int
-    author: str
-    text: str
-    kind: Literal["write", "force", "error", "recover", "mode", "run", "build", "system", "halt", "disturbance"]
 
 
 class User(Wire):
@@ -529,19 +449,6 @@ ClientMessage = Annotated[
 # ---- WebSocket: server to browser -------------------------------------------------------------------------------
 
 
-class ForceInfo(Wire):
-    """A force that holds: who keeps which variable at what, and what it did in the scan that ran last."""
-
-    path: str
-    through: str = Field(description="the in-out that it was entered for; empty where it was entered for the variable")
-    value: str
-    author: str
-    scan: int = Field(description="in front of which it was entered")
-    before: str = Field(description="what the variable was when the program was about to begin")
-    after_program: str = Field(description="what the program made of it")
-    after: str
-
-
 class Diagnostics(Wire):
     """The runtime diagnostics, whenever they change: the list is bounded, and says what did not fit."""
 
@@ -549,15 +456,6 @@ class Diagnostics(Wire):
     violations: list[Violation]
     dropped: int
     count: int
-
-
-class Timeline(Wire):
-    """The run's marks, in order: all of them in `hello` and with `fresh`, else only the new ones."""
-
-    type: Literal["timeline"] = "timeline"
-    info: TimelineInfo
-    marks: list[Mark] = Field(description="at most the last 5,000")
-    fresh: bool
 
 
 class Hello(Wire):
@@ -568,15 +466,15 @@ class Hello(Wire):
     users: list[User]
     instance: Instance
     errors: list[ErrorHistoryRow]
-    log: list[LogLine]
-    forces: list[ForceInfo]
-    armed: list[ArmedFault]
+    log: list[LogEntry]
+    forces: tuple[ForcedValue, ...]
+    armed: tuple[ArmedInfo, ...]
     diagnostics: Diagnostics
-    timeline: Timeline
+    timeline: events.TimelineChanged
     breakpoints: list[BreakpointInfo]
     coverage: Coverage | None
     verifications: list[VerificationInfo]
-    disturbances: list[DisturbanceInfo]
+    disturbances: tuple[DisturbanceInfo, ...]
 
 
 class State(Wire):
@@ -589,7 +487,7 @@ class Watched(Wire):
 
     path: str
     id: int | None
-    symbol: Symbol | None
+    symbol: SymbolInfo | None
     refusal: Refusal | None
 
 
@@ -619,11 +517,6 @@ class Errors(Wire):
     rows: list[ErrorHistoryRow]
 
 
-class Log(Wire):
-    type: Literal["log"] = "log"
-    lines: list[LogLine]
-
-
 class Users(Wire):
     type: Literal["users"] = "users"
     users: list[User]
@@ -645,31 +538,6 @@ class Saved(Wire):
     file: FileInfo
 
 
-class Deleted(Wire):
-    """Somebody deleted a file of this project."""
-
-    type: Literal["deleted"] = "deleted"
-    path: str
-    author: str
-
-
-class Forces(Wire):
-    """All forces that hold, whenever they change."""
-
-    type: Literal["forces"] = "forces"
-    forces: list[ForceInfo]
-
-
-class Written(Wire):
-    """Somebody wrote a variable; shown in the tooltip of its row."""
-
-    type: Literal["written"] = "written"
-    path: str
-    author: str
-    scan: int
-    forced: bool
-
-
 class Alive(Wire):
     """Sent when there was nothing else to say for a while: a browser that hears nothing at all knows the server is gone."""
 
@@ -682,22 +550,22 @@ ServerMessage = Annotated[
     | Watching
     | Done
     | Errors
-    | Log
+    | events.Logged
     | Users
     | Built
     | Saved
-    | Deleted
-    | Forces
+    | events.FileDeleted
+    | events.ForcesChanged
     | Diagnostics
-    | Timeline
-    | Written
-    | Armed
+    | events.TimelineChanged
+    | events.ValueWritten
+    | events.ArmedChanged
     | SweepProgress
     | WatchListChanged
     | Dap
     | Breakpoints
     | Traces
-    | Flight
+    | events.FlightChanged
     | Coverage
     | Verifications
     | Disturbances

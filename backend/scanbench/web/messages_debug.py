@@ -77,59 +77,6 @@ class Breakpoints(Wire):
     breakpoints: list[BreakpointInfo]
 
 
-class BoundTo(Wire):
-    """One call site of an in-out."""
-
-    actual: str
-    address: str
-    file: str
-    line: int
-    column: int
-    call: str
-    scan: int | None
-    last: bool
-    message: str
-
-
-class Binding(Wire):
-    """What an in-out is bound to: `GET /api/instances/{id}/binding?path=`."""
-
-    ok: bool
-    message: str
-    convention: Literal["reference", "value"]
-    sites: list[BoundTo]
-
-
-class CoveredOutcome(Wire):
-    name: str
-    taken: bool
-
-
-class CoveredSite(Wire):
-    line: int
-    column: int
-    end_line: int
-    end_column: int
-    pou: str
-    reached: bool
-    outcomes: list[CoveredOutcome]
-
-
-class CoveredFile(Wire):
-    file: str
-    sites: list[CoveredSite]
-
-
-class Coverage(Wire):
-    """Sent while coverage is on, when something more was reached; `GET /api/instances/{id}/coverage`, `.../coverage.lcov`."""
-
-    type: Literal["coverage"] = "coverage"
-    on: bool
-    since_scan: int
-    scans: int
-    files: list[CoveredFile]
-
-
 class SetCoverage(Wire):
     type: Literal["set_coverage"] = "set_coverage"
     ref: int

@@ -72,47 +72,6 @@ class ErrorGroup(Wire):
 # ---- reactions -------------------------------------------------------------------------------------------------
 
 
-class Reader(Wire):
-    """A statement that read what the error writes."""
-
-    file: str
-    line: int
-    pou: str
-    what: Literal["flag", "code", "detail", "log"]
-    scan: int = Field(description="of the window, from 1")
-
-
-class Difference(Wire):
-    """A variable or address that had another value than in the same run without the error."""
-
-    path: str
-    without: str
-    value: str
-    output: bool
-    scan: int = Field(description="of the window, from 1")
-
-
-class HandlerLine(Wire):
-    """A statement that was reached only with the error."""
-
-    file: str
-    line: int
-
-
-class Reaction(Wire):
-    """What the program did about an error, beside the same run without it."""
-
-    verdict: Verdict
-    window: int = Field(description="scans that were compared")
-    first_read: int | None
-    first_effect: int | None
-    readers: list[Reader]
-    differences: list[Difference] = Field(description="at most 200, outputs first")
-    difference_count: int
-    lines: list[HandlerLine]
-    note: str
-
-
 class ReactionState(Wire):
     """In short, for the tables. `recording`: the window is not over; `failed`: `message` says why there is none."""
 
@@ -222,48 +181,11 @@ class Disarm(DisarmFaults):
     ref: int
 
 
-class ArmedFault(Wire):
-    """A fault that was armed and is not over."""
-
-    id: int
-    errors: list[str]
-    text: str = Field(description="start and shape in a sentence")
-    by: str
-    state: Literal["waiting", "running"]
-    raised: int = Field(description="how often until now")
-    next_scan: int | None = Field(description="of its next step, when that is known")
-
-
-class Armed(Wire):
-    """All faults that are armed, whenever they change."""
-
-    type: Literal["armed"] = "armed"
-    faults: list[ArmedFault]
-
-
 class PreviewErrors(Wire):
     """What raising these would write now. Nothing is changed."""
 
     errors: list[GenerateOne] = Field(min_length=1)
     again: bool = False
-
-
-class PreviewedWrite(Wire):
-    address: str = Field(description="in the vendor's notation")
-    before: str
-    after: str
-    what: Literal["detail", "code", "flag", "log", "time", "outputs", "other"] = Field(
-        description="time: when the latest error came; outputs: cleared by a fatal error, unless memory is held"
-    )
-    error: str = Field(description="which error writes it; empty for the code word, the log and the time")
-
-
-class PreviewedErrors(Wire):
-    ok: bool
-    message: str = Field(description="what would happen, or why it would be refused")
-    scan: int
-    writes: list[PreviewedWrite]
-    more: int = Field(description="words that change besides and are not named")
 
 
 class CommandResult(Wire):

@@ -4,18 +4,12 @@ from typing import Literal
 
 from pydantic import Field
 
+from scanbench.faults.reaction.reaction import Reaction
+from scanbench.reports.record import RecordAccepted, RecordSweep, Summary
+from scanbench.reports.record_text import RecordLine
+from scanbench.store.records import RecordInfo
 from scanbench.web.messages_base import Wire
-from scanbench.web.messages_errors import Accepted, ErrorHistoryRow, Reaction, Severity, SweepStatus, Verdict
-
-
-class HistoryVersion(Wire):
-    """A version of the program that has an error history on a PLC."""
-
-    version: int
-    running: bool
-    raised: int = Field(description="errors that were raised on it")
-    at: str | None = Field(description="when it was built; null where the project does not know it")
-    author: str
+from scanbench.web.messages_errors import ErrorHistoryRow, Severity, Verdict
 
 
 class HistoryOfVersion(Wire):
@@ -24,10 +18,6 @@ class HistoryOfVersion(Wire):
     version: int
     running: bool
     rows: list[ErrorHistoryRow]
-
-
-class RecordAccepted(Accepted):
-    state: str
 
 
 class RecordError(Wire):
@@ -53,42 +43,7 @@ class RecordError(Wire):
     scans: int | None = Field(description="until the first effect, from 1")
     reaction: Reaction | None = Field(description="on the PLC itself; of its differences the outputs")
     reaction_note: str
-    accepted: list[RecordAccepted]
-
-
-class RecordSummary(Wire):
-    errors: int
-    tested: int
-    generated: int = Field(description="still present")
-    verdicts: dict[Verdict, int]
-    unknown: int = Field(description="tested, without a verdict")
-    accepted: int = Field(description="findings, one for each error and state, that were accepted")
-    open: int = Field(description="findings that were not")
-
-
-class RecordCell(Wire):
-    error: str
-    state: str
-    verdict: Verdict | None
-    scans: int | None
-    note: str
-
-
-class RecordSweep(Wire):
-    at: str
-    by: str
-    instance: str
-    status: SweepStatus
-    window: int
-    states: list[str]
-    cells: list[RecordCell]
-
-
-class RecordLine(Wire):
-    at: str
-    scan: int
-    by: str
-    text: str
+    accepted: tuple[RecordAccepted, ...]
 
 
 class TestRecord(Wire):
@@ -102,20 +57,10 @@ class TestRecord(Wire):
     exported_at: str
     exported_by: str
     tool: str
-    summary: RecordSummary
+    summary: Summary
     errors: list[RecordError]
-    sweeps: list[RecordSweep]
-    log: list[RecordLine]
-
-
-class RecordInfo(Wire):
-    """A test record that was brought into a project."""
-
-    id: int
-    project: int
-    title: str
-    by: str = Field(description="who brought it in")
-    at: str
+    sweeps: tuple[RecordSweep, ...]
+    log: tuple[RecordLine, ...]
 
 
 class ImportedRecord(Wire):

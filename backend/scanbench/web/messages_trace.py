@@ -4,7 +4,8 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
-from scanbench.web.messages_base import Id, Scan, Wire
+from scanbench.taps.trace import TraceSignal
+from scanbench.web.messages_base import Scan, Wire
 
 TraceState = Literal["stopped", "recording", "armed", "triggered", "complete"]
 """`recording`: without a trigger, for ever. `armed`: it waits for its trigger. `triggered`: the rest is being recorded."""
@@ -34,15 +35,6 @@ class DefineTrace(TraceDefinition):
     start: bool = Field(default=True, description="recorded from now on; else only when it was already")
 
 
-class TraceSignal(Wire):
-    text: str
-    type: str = Field(description="empty where it was never found")
-    kind: str
-    size: int
-    values: list[tuple[str, int]] = Field(description="names of an enumeration's numbers")
-    message: str = Field(description="why it has no values now; empty when it has")
-
-
 class TraceInfo(Wire):
     """A trace of an instance, shared by everybody."""
 
@@ -50,7 +42,7 @@ class TraceInfo(Wire):
     definition: TraceDefinition
     by: str
     state: TraceState
-    signals: list[TraceSignal]
+    signals: tuple[TraceSignal, ...]
     generation: int = Field(description="other samples than those of another generation")
     triggered: int | None = Field(description="after which scan the trigger came, of what is shown")
     hits: int = Field(description="how often it came since it was started")
@@ -83,7 +75,7 @@ class TraceRecordInfo(Wire):
     origin: Literal["trace", "flight"]
     by: str
     at: str
-    signals: list[TraceSignal]
+    signals: tuple[TraceSignal, ...]
     every: int
     triggered: int | None
     first: int
@@ -100,15 +92,3 @@ class NewFlight(Wire):
     scans: int = Field(ge=1, le=10_000_000)
     last: Scan | None = Field(default=None, description="the last of them; null is the newest that is over")
     every: int = Field(default=1, ge=1, le=1_000_000)
-
-
-class Flight(Wire):
-    """How far the flight recorder is."""
-
-    type: Literal["flight"] = "flight"
-    id: Id
-    by: str
-    done: int
-    of: int = Field(description="scans")
-    record: int | None = Field(description="what came of it")
-    message: str = Field(description="why nothing came of it")

@@ -1,12 +1,10 @@
 """The session's dataclasses -> wire shapes. Nothing is decided here."""
 
-from scanbench.check.build import PouInfo
 from scanbench.faults.history import ErrorRow
 from scanbench.plcmodel import model as plc
 from scanbench.problems import Problem
 from scanbench.program.program import CheckSite
 from scanbench.public import iso
-from scanbench.runtime.forces import ForcedValue
 from scanbench.session.session import Session
 from scanbench.store.records import FileInfo, FileRow, ProjectRow
 from scanbench.symbols.violations import Violation, Violations
@@ -22,8 +20,8 @@ from scanbench.web import (
 )
 from scanbench.web.messages_watch import WatchListChanged
 from scanbench.wire import events
-from scanbench.wire.events import BuildOutcome, Change, CheckOutcome, LogEntry, PlcState, User
-from scanbench.wire.host import SymbolInfo, WatchItem
+from scanbench.wire.events import BuildOutcome, Change, CheckOutcome, PlcState, User
+from scanbench.wire.host import WatchItem
 
 
 def user(who: User) -> wire.User:
@@ -57,16 +55,11 @@ def problem(found: Problem) -> wire.Problem:
     )  # fmt: skip
 
 
-def pou(info: PouInfo) -> wire.Pou:
-    """A declaration for the explorer."""
-    return wire.Pou.model_validate({"name": info.name, "kind": info.kind, "file": info.file, "line": info.line})
-
-
 def check_result(found: CheckOutcome) -> wire.CheckResult:
     """Problems and declarations."""
     return wire.CheckResult(
         problems=list(map(problem, found.problems)),
-        pous=list(map(pou, found.pous)),
+        pous=found.pous,
         checks=list(map(embedded_check, found.checks)),
     )  # fmt: skip
 
@@ -87,7 +80,7 @@ def build_result(outcome: BuildOutcome) -> wire.BuildResult:
         message=outcome.message,
         problems=list(map(problem, outcome.found.problems)),
         project=project(outcome.project),
-        pous=list(map(pou, outcome.found.pous)),
+        pous=outcome.found.pous,
         changes=list(map(_change, outcome.changes)),
         needs_agreement=outcome.needs_agreement,
     )  # fmt: skip
@@ -97,8 +90,7 @@ def _change(change: Change) -> wire.OnlineChange:
     found = change.previewed
     return wire.OnlineChange(
         instance=change.instance, name=change.name, kept=found.kept,
-        lost=[wire.LostVariable(path=lost.path, reason=lost.reason) for lost in found.lost],
-        lost_count=found.lost_count, refusal=found.refusal,
+        lost=found.lost, lost_count=found.lost_count, refusal=found.refusal,
     )  # fmt: skip
 
 
@@ -136,26 +128,13 @@ def instance(session: Session, row: ProjectRow) -> wire.Instance:
     )  # fmt: skip
 
 
-def symbol(info: SymbolInfo) -> wire.Symbol:
-    """A variable or an address."""
-    return wire.Symbol.model_validate(
-        {
-            "path": info.path, "name": info.name, "type": info.type, "kind": info.kind, "size": info.size,
-            "address": info.address, "writable": info.writable, "section": info.section,
-            "expandable": info.expandable,
-            "values": [{"name": name, "value": value} for name, value in info.values],
-            "range": info.range, "in_out": info.in_out,
-        }
-    )  # fmt: skip
-
-
 def watched(item: WatchItem) -> wire.Watched:
     """One watched path."""
     refusal = None if item.symbol is not None else wire.Refusal(message=item.message, near=list(item.near))
     return wire.Watched(
         path=item.path,
         id=item.id if item.sent else None,
-        symbol=None if item.symbol is None else symbol(item.symbol),
+        symbol=item.symbol,
         refusal=refusal,
     )
 
@@ -171,41 +150,9 @@ def error_row(row: ErrorRow) -> simulator.ErrorHistoryRow:
     )  # fmt: skip
 
 
-def log_line(line: LogEntry) -> wire.LogLine:
-    """A line of the log."""
-    return wire.LogLine.model_validate(
-        {"at": iso(line.at), "scan": line.scan, "author": line.author, "text": line.text, "kind": line.kind}
-    )
-
-
-def force(held: ForcedValue) -> wire.ForceInfo:
-    """A force that holds."""
-    return wire.ForceInfo(
-        path=held.path, through=held.through, value=held.value, author=held.author, scan=held.scan, before=held.before,
-        after_program=held.after_program, after=held.after,
-    )  # fmt: skip
-
-
 def diagnostics(found: Violations) -> wire.Diagnostics:
     """The runtime diagnostics."""
     return wire.Diagnostics(violations=list(map(_violation, found.entries)), dropped=found.dropped, count=found.count)
-
-
-def timeline(changed: events.TimelineChanged) -> wire.Timeline:
-    """The run file and marks."""
-    info = changed.info
-    return wire.Timeline(
-        info=wire.TimelineInfo(
-            first_scan=info.first_scan, bytes=info.bytes, limit_bytes=info.limit_bytes,
-            thinned_before=info.thinned_before, dropped_before=info.dropped_before, damage=info.damage,
-            recording=info.trouble,
-        ),
-        marks=[
-            wire.Mark.model_validate({"scan": mark.scan, "kind": mark.kind, "author": mark.author, "text": mark.text})
-            for mark in changed.marks
-        ],
-        fresh=changed.fresh,
-    )  # fmt: skip
 
 
 def _violation(found: Violation) -> wire.Violation:
@@ -222,46 +169,31 @@ def event(happened: events.Told) -> wire.ServerMessage:
     """What a session tells, as a message."""
     match happened:
         case (
-            events.ProgramBuilt() | events.FileSaved() | events.FileDeleted() | events.SweepChanged()
-            | events.WatchListChanged()
+            events.ProgramBuilt() | events.FileSaved() | events.SweepChanged() | events.WatchListChanged()
         ):  # fmt: skip
             return _of_project(happened)
-        case events.BreakpointsChanged() | events.CoverageChanged() | events.TracesChanged() | events.FlightChanged():
-            return _of_tools(happened)
+        case events.BreakpointsChanged():
+            return debugger.Breakpoints(breakpoints=list(map(translate_debug.breakpoint, happened.verdicts)))
+        case events.TracesChanged():
+            return translate_trace.traces(happened)
         case events.VerificationsChanged():
             return translate_verify.told(happened)
-        case events.Comparison() | events.Rerun() | events.Disturbances():
-            return happened
         case events.StateChanged():
             return wire.State(state=state(happened.state))
         case events.ErrorsChanged():
             return wire.Errors(rows=list(map(error_row, happened.rows)))
-        case events.Logged():
-            return wire.Log(lines=list(map(log_line, happened.lines)))
         case events.UsersChanged():
             return wire.Users(users=list(map(user, happened.users)))
-        case events.ForcesChanged():
-            return wire.Forces(forces=list(map(force, happened.forces)))
         case events.DiagnosticsChanged():
             return diagnostics(happened.violations)
-        case events.TimelineChanged():
-            return timeline(happened)
-        case events.ArmedChanged():
-            return simulator.Armed(faults=list(map(translate_errors.armed, happened.faults)))
-        case events.ValueWritten():
-            return wire.Written(
-                path=happened.path, author=happened.author, scan=happened.scan, forced=happened.forced
-            )  # fmt: skip
         case events.Watching():
             return wire.Watching(ref=happened.ref, items=list(map(watched, happened.items)))
+        case _:
+            return happened
 
 
 def _of_project(
-    happened: events.ProgramBuilt
-    | events.FileSaved
-    | events.FileDeleted
-    | events.SweepChanged
-    | events.WatchListChanged,
+    happened: events.ProgramBuilt | events.FileSaved | events.SweepChanged | events.WatchListChanged,
 ) -> wire.ServerMessage:
     match happened:
         case events.ProgramBuilt():
@@ -269,26 +201,10 @@ def _of_project(
         case events.FileSaved():
             file = wire.FileInfo(path=happened.path, version=happened.version, author=happened.author)
             return wire.Saved(author=happened.author, file=file)
-        case events.FileDeleted():
-            return wire.Deleted(path=happened.path, author=happened.author)
         case events.SweepChanged():
             return translate_sweeps.progress(happened)
         case events.WatchListChanged():
             return WatchListChanged(id=happened.id, version=happened.version, author=happened.author)
-
-
-def _of_tools(
-    happened: events.BreakpointsChanged | events.CoverageChanged | events.TracesChanged | events.FlightChanged,
-) -> wire.ServerMessage:
-    match happened:
-        case events.BreakpointsChanged():
-            return debugger.Breakpoints(breakpoints=list(map(translate_debug.breakpoint, happened.verdicts)))
-        case events.CoverageChanged():
-            return translate_debug.coverage(happened.coverage)
-        case events.TracesChanged():
-            return translate_trace.traces(happened)
-        case events.FlightChanged():
-            return translate_trace.flight(happened)
 
 
 # ---- models ------------------------------------------------------------------------------------------------------

@@ -1,12 +1,8 @@
 """What the session says of debugging -> wire shapes."""
 
-from dataclasses import asdict
-
 from scanbench.debug.breakpoint import Verdict
 from scanbench.debug.halt import Halt
-from scanbench.taps.covered import CoveredSite
 from scanbench.web import messages_debug as wire
-from scanbench.wire import debugging as debug_protocol
 
 
 def halt(now: Halt | None) -> wire.HaltInfo | None:
@@ -31,27 +27,4 @@ def breakpoint(verdict: Verdict) -> wire.BreakpointInfo:
         hits=one.hits, log=one.log, assign=one.assign, instance=one.instance, task=one.task,
         verified=verdict.verified, message=verdict.message, at_line=verdict.line, at_column=verdict.column,
         reached=verdict.hits,
-    )  # fmt: skip
-
-
-def binding(found: debug_protocol.Binding) -> wire.Binding:
-    """What an in-out is bound to."""
-    return wire.Binding(
-        ok=found.ok, message=found.message, convention=found.convention,
-        sites=[wire.BoundTo.model_validate(asdict(site)) for site in found.sites],
-    )  # fmt: skip
-
-
-def coverage(found: debug_protocol.Coverage) -> wire.Coverage:
-    """What was reached."""
-    return wire.Coverage(
-        on=found.on, since_scan=found.since_scan, scans=found.scans,
-        files=[wire.CoveredFile(file=each.file, sites=list(map(_site, each.sites))) for each in found.files],
-    )  # fmt: skip
-
-
-def _site(site: CoveredSite) -> wire.CoveredSite:
-    return wire.CoveredSite(
-        line=site.line, column=site.column, end_line=site.end_line, end_column=site.end_column, pou=site.pou,
-        reached=site.reached, outcomes=[wire.CoveredOutcome(name=name, taken=taken) for name, taken in site.outcomes],
     )  # fmt: skip

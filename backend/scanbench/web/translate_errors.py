@@ -2,14 +2,12 @@
 
 from collections.abc import Iterable, Sequence
 
-from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.history import RowReaction, Swept
-from scanbench.faults.reaction import reaction as found
 from scanbench.faults.reference import ErrorRef
 from scanbench.faults.shapes import Shape, Start, Wanted
 from scanbench.plcmodel import model as plc
 from scanbench.web import messages_errors as wire
-from scanbench.wire.host import Ack, PreviewedErrors
+from scanbench.wire.host import Ack
 from scanbench.wire.refused import Refused
 
 
@@ -27,27 +25,6 @@ def wanted(arm: wire.ArmFaults) -> Wanted:
         Shape(shape.kind, shape.scans, shape.period, shape.times, shape.seed, shape.acknowledge),
         arm.gap,
     )
-
-
-def armed(fault: ArmedInfo) -> wire.ArmedFault:
-    """A fault that is armed."""
-    return wire.ArmedFault(
-        id=fault.id, errors=list(fault.errors), text=fault.text, by=fault.by, state=fault.state, raised=fault.raised,
-        next_scan=fault.next_scan,
-    )  # fmt: skip
-
-
-def previewed(found: PreviewedErrors) -> wire.PreviewedErrors:
-    """What raising errors would write."""
-    return wire.PreviewedErrors(
-        ok=found.ok, message=found.message, scan=found.scan, more=found.more,
-        writes=[
-            wire.PreviewedWrite(
-                address=each.address, before=each.before, after=each.after, what=each.what, error=each.error
-            )
-            for each in found.writes
-        ],
-    )  # fmt: skip
 
 
 def in_short(of: RowReaction | None) -> wire.ReactionState | None:
@@ -71,26 +48,6 @@ def groups(of: Iterable[plc.ErrorGroup]) -> list[wire.ErrorGroup]:
         )
         for group in of
     ]  # fmt: skip
-
-
-def reaction(seen: found.Reaction) -> wire.Reaction:
-    """How a program reacted."""
-    return wire.Reaction(
-        verdict=seen.verdict, window=seen.window, first_read=seen.first_read, first_effect=seen.first_effect,
-        readers=[
-            wire.Reader(file=each.file, line=each.line, pou=each.pou, what=each.what, scan=each.scan)
-            for each in seen.readers
-        ],
-        differences=[
-            wire.Difference(
-                path=each.path, without=each.without, value=each.value, output=each.output, scan=each.scan
-            )
-            for each in seen.differences
-        ],
-        difference_count=seen.difference_count,
-        lines=[wire.HandlerLine(file=each.file, line=each.line) for each in seen.lines],
-        note=seen.note,
-    )  # fmt: skip
 
 
 def _error(error: plc.ErrorEntry) -> wire.ErrorInfo:

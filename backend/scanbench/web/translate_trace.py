@@ -29,19 +29,12 @@ def definition(of: tap.TraceDefinition) -> wire.TraceDefinition:
     )  # fmt: skip
 
 
-def signal(of: tap.TraceSignal) -> wire.TraceSignal:
-    """A signal."""
-    return wire.TraceSignal(
-        text=of.text, type=of.type, kind=of.kind, size=of.size, values=list(of.values), message=of.message
-    )
-
-
 def info(of: TraceStatus) -> wire.TraceInfo:
     """How a trace stands."""
     return wire.TraceInfo.model_validate(
         {
             "id": of.id, "definition": definition(of.definition), "by": of.by, "state": of.state,
-            "signals": list(map(signal, of.signals)), "generation": of.generation, "triggered": of.triggered,
+            "signals": of.signals, "generation": of.generation, "triggered": of.triggered,
             "hits": of.hits, "rows": of.rows, "first": of.first, "end": of.end, "bytes": of.bytes,
             "interval_ns": of.interval_ns, "note": of.note,
         }
@@ -59,13 +52,8 @@ def record(of: TraceRecord) -> wire.TraceRecordInfo:
     return wire.TraceRecordInfo.model_validate(
         {
             "id": row.id, "project": row.project, "name": row.name, "instance": row.instance, "origin": of.origin,
-            "by": row.by, "at": iso(row.at), "signals": list(map(signal, of.signals)), "every": of.every,
+            "by": row.by, "at": iso(row.at), "signals": of.signals, "every": of.every,
             "triggered": of.triggered, "first": of.first, "end": of.end, "rows": of.rows,
             "interval_ns": of.interval_ns, "program_version": of.version,
         }
     )  # fmt: skip
-
-
-def flight(of: events.FlightChanged) -> wire.Flight:
-    """How far a flight is."""
-    return wire.Flight(id=of.id, by=of.by, done=of.done, of=of.of, record=of.record, message=of.message)

@@ -10,6 +10,7 @@ from dataclasses import fields
 import msgpack  # type: ignore[import-untyped]
 
 from scanbench.debug.assign import Assign
+from scanbench.debug.bound_to import Bound, BoundTo
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.halt import Halt
 from scanbench.debug.set_value import SetLocal
@@ -39,7 +40,7 @@ from scanbench.runtime.set_clock import SetClock
 from scanbench.runtime.trap import TRAPPED, TrapInfo, Trapped
 from scanbench.runtime.write import Write
 from scanbench.symbols.violations import Violation, Violations
-from scanbench.taps.covered import CoveredFile, CoveredSite
+from scanbench.taps.covered import CoveredFile, CoveredOutcome, CoveredSite
 from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
 from scanbench.verify.contract import Column, Input, Mismatch, Output, Place, Range, Row
 from scanbench.wire import debugging as debug_protocol
@@ -70,7 +71,7 @@ _CLASSES: dict[str, type] = {
         protocol.Submit, protocol.SymbolInfo, protocol.Travel, protocol.UnwatchIds, protocol.WantSnapshot,
         protocol.WatchItem, protocol.WatchPaths, protocol.Watching, protocol.WantSources, protocol.SourcesOf,
         Arm, ArmedInfo, Disarm, Missed, Numbered, PreviewedWrite, Shape, Wanted, protocol.PreviewErrors,
-        protocol.PreviewedErrors, Difference, Line, Reaction, Reader,
+        protocol.PreviewedErrors, protocol.ErrorsPreviewed, protocol.EnumValue, Difference, Line, Reaction, Reader,
         job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.Reacted,
         job_protocol.RunSweep, job_protocol.StartPoint, job_protocol.Trying, Raised,
         ForcedValue, protocol.ForcesAre, protocol.WantForces, Breakpoint, Verdict, Halt, Assign, SetLocal, debug_protocol.SetBreakpoints, debug_protocol.Step, debug_protocol.WantStack,
@@ -79,8 +80,8 @@ _CLASSES: dict[str, type] = {
         debug_protocol.BreakpointsAre, debug_protocol.LogpointSaid, debug_protocol.FrameInfo,
         debug_protocol.Stack, debug_protocol.WantTasks, debug_protocol.Tasks, debug_protocol.ScopeInfo, debug_protocol.Scopes, debug_protocol.VariableInfo,
         debug_protocol.Variables, debug_protocol.Evaluated, debug_protocol.PlaceInfo, debug_protocol.Places,
-        debug_protocol.BoundTo, debug_protocol.Binding, CoveredSite, CoveredFile,
-        debug_protocol.Coverage,
+        Bound, BoundTo, debug_protocol.BindingIs, CoveredOutcome, CoveredSite, CoveredFile,
+        debug_protocol.Coverage, debug_protocol.CoverageIs,
         TraceDefinition, TraceSignal, TraceTrigger, trace_protocol.DefineTrace, trace_protocol.DriveTrace,
         trace_protocol.ReadTrace, trace_protocol.TraceStatus, trace_protocol.TracesAre, trace_protocol.TraceRead,
         trace_protocol.RecordFlight, trace_protocol.FlightAt, trace_protocol.FlightDone,

@@ -6,9 +6,10 @@ Each request carries a `ref` and is answered by exactly one message with it; a r
 from dataclasses import dataclass
 from typing import Literal
 
-from scanbench.debug.bound_to import BoundTo
+from scanbench.debug.bound_to import Bound, BoundTo
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.shown import FrameInfo, ScopeInfo, VariableInfo
+from scanbench.public import Public
 from scanbench.taps.covered import CoveredFile
 
 # ---- parent to host ------------------------------------------------------------------------------------------------
@@ -123,7 +124,7 @@ class WantPlaces:
 
 @dataclass(frozen=True, slots=True)
 class WantBinding:
-    """What an in-out is bound to; answered with `Binding`."""
+    """What an in-out is bound to; answered with `BindingIs`."""
 
     ref: int
     path: str
@@ -141,7 +142,7 @@ class SetCoverage:
 
 @dataclass(frozen=True, slots=True)
 class WantCoverage:
-    """Answered with `Coverage`."""
+    """Answered with `CoverageIs`."""
 
     ref: int
 
@@ -224,32 +225,36 @@ class Places:
 
 
 @dataclass(frozen=True, slots=True)
-class Binding:
+class BindingIs:
     """Answer to `WantBinding`."""
 
     ref: int
-    ok: bool
-    message: str
-    """Why it is bound to nothing: `not called yet`, ..."""
-    convention: Literal["reference", "value"]
-    sites: tuple[BoundTo, ...]
+    bound: Bound
 
 
 @dataclass(frozen=True, slots=True)
-class Coverage:
-    """Answer to `WantCoverage`; with ref None while it is on, whenever something more was reached."""
+class Coverage(Public):
+    """Told while coverage is on, whenever something more was reached, and when it is switched."""
 
-    ref: int | None
     on: bool
     since_scan: int
     scans: int
     """How many scans were noted."""
     files: tuple[CoveredFile, ...]
+    type: Literal["coverage"] = "coverage"
+
+
+@dataclass(frozen=True, slots=True)
+class CoverageIs:
+    """Answer to `WantCoverage`; with ref None whenever it changes while it is on."""
+
+    ref: int | None
+    coverage: Coverage
 
 
 DebugRequest = (
     SetBreakpoints | Step | WantStack | WantTasks | WantScopes | WantVariables | Evaluate | SetExpression | WantPlaces | WantBinding
     | SetCoverage | WantCoverage
 )  # fmt: skip
-DebugAnswer = Stack | Tasks | Scopes | Variables | Evaluated | Places | Binding | Coverage | BreakpointsAre
+DebugAnswer = Stack | Tasks | Scopes | Variables | Evaluated | Places | BindingIs | CoverageIs | BreakpointsAre
 __all__ = ["BoundTo", "FrameInfo", "ScopeInfo", "VariableInfo"]

@@ -2,8 +2,7 @@
 
 from collections.abc import Mapping
 from dataclasses import dataclass
-from datetime import datetime
-from typing import Literal, Protocol
+from typing import ClassVar, Literal, Protocol
 
 from scanbench.check.build import PouInfo
 from scanbench.debug.breakpoint import Verdict
@@ -14,7 +13,7 @@ from scanbench.faults.history import ErrorRow
 from scanbench.history.contract import Divergence
 from scanbench.problems import Problem, Severity
 from scanbench.program.program import CheckSite
-from scanbench.public import Public
+from scanbench.public import Moment, Public
 from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.forces import ForcedValue
 from scanbench.runtime.trap import TrapInfo
@@ -22,7 +21,7 @@ from scanbench.store.records import AcceptedRow, CellRow, ProjectRow, SweepRow
 from scanbench.symbols.violations import Violations
 from scanbench.verify.contract import DEFAULT_LIMIT, Memory, Mismatch, Range
 from scanbench.wire import debugging as debug_protocol
-from scanbench.wire.host import Previewed, RunMark, WatchItem
+from scanbench.wire.host import MarkKind, Previewed, RunMark, WatchItem
 from scanbench.wire.traces import TraceStatus
 
 VerifyPace = Literal["free", "scan", "step"]
@@ -107,14 +106,16 @@ class PlcState:
 
 
 @dataclass(frozen=True, slots=True)
-class LogEntry:
+class LogEntry(Public):
     """One line of the log, for people."""
 
-    at: datetime
+    PUBLIC: ClassVar = "LogLine"
+
+    at: Moment
     scan: int
     author: str
     text: str
-    kind: str
+    kind: MarkKind
 
 
 @dataclass(frozen=True, slots=True)
@@ -132,10 +133,13 @@ class ErrorsChanged:
 
 
 @dataclass(frozen=True, slots=True)
-class Logged:
+class Logged(Public):
     """New lines of the log."""
 
+    PUBLIC: ClassVar = "Log"
+
     lines: tuple[LogEntry, ...]
+    type: Literal["log"] = "log"
 
 
 @dataclass(frozen=True, slots=True)
@@ -163,28 +167,37 @@ class FileSaved:
 
 
 @dataclass(frozen=True, slots=True)
-class FileDeleted:
+class FileDeleted(Public):
     """Somebody deleted a file of the project."""
+
+    PUBLIC: ClassVar = "Deleted"
 
     author: str
     path: str
+    type: Literal["deleted"] = "deleted"
 
 
 @dataclass(frozen=True, slots=True)
-class ValueWritten:
+class ValueWritten(Public):
     """Somebody wrote or forced a variable."""
+
+    PUBLIC: ClassVar = "Written"
 
     path: str
     author: str
     scan: int
     forced: bool
+    type: Literal["written"] = "written"
 
 
 @dataclass(frozen=True, slots=True)
-class ForcesChanged:
+class ForcesChanged(Public):
     """All forces that hold now, and what they did."""
 
+    PUBLIC: ClassVar = "Forces"
+
     forces: tuple[ForcedValue, ...]
+    type: Literal["forces"] = "forces"
 
 
 @dataclass(frozen=True, slots=True)
@@ -195,12 +208,15 @@ class DiagnosticsChanged:
 
 
 @dataclass(frozen=True, slots=True)
-class TimelineChanged:
+class TimelineChanged(Public):
     """The run file or its marks changed; `fresh`: these are all the marks there are."""
+
+    PUBLIC: ClassVar = "Timeline"
 
     info: RecordingInfo
     marks: tuple[RunMark, ...]
     fresh: bool
+    type: Literal["timeline"] = "timeline"
 
 
 @dataclass(frozen=True, slots=True)
@@ -212,10 +228,13 @@ class Watching:
 
 
 @dataclass(frozen=True, slots=True)
-class ArmedChanged:
+class ArmedChanged(Public):
     """All faults that are armed, whenever they change."""
 
+    PUBLIC: ClassVar = "Armed"
+
     faults: tuple[ArmedInfo, ...]
+    type: Literal["armed"] = "armed"
 
 
 @dataclass(frozen=True, slots=True)
@@ -254,13 +273,6 @@ class LogpointSaid:
 
 
 @dataclass(frozen=True, slots=True)
-class CoverageChanged:
-    """Something more was reached, or coverage was switched."""
-
-    coverage: debug_protocol.Coverage
-
-
-@dataclass(frozen=True, slots=True)
 class TracesChanged:
     """All traces of the PLC, whenever one changes or grows."""
 
@@ -268,8 +280,10 @@ class TracesChanged:
 
 
 @dataclass(frozen=True, slots=True)
-class FlightChanged:
+class FlightChanged(Public):
     """How far the record of earlier scans is that somebody asked for."""
+
+    PUBLIC: ClassVar = "Flight"
 
     id: int
     by: str
@@ -280,6 +294,7 @@ class FlightChanged:
     """The trace record that came of it."""
     message: str = ""
     """Why none came of it."""
+    type: Literal["flight"] = "flight"
 
 
 @dataclass(frozen=True, slots=True)
@@ -407,7 +422,7 @@ Told = (
     | SweepChanged
     | WatchListChanged
     | BreakpointsChanged
-    | CoverageChanged
+    | debug_protocol.Coverage
     | TracesChanged
     | FlightChanged
     | VerificationsChanged

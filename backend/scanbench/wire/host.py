@@ -6,6 +6,7 @@ its command; `Standing` and `RunMarks` say what holds after all entries so far, 
 """
 
 from dataclasses import dataclass
+from typing import ClassVar, Literal
 
 from scanbench.debug.halt import Halt
 from scanbench.faults.arm import ArmedInfo
@@ -13,12 +14,22 @@ from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.inject import Active
 from scanbench.faults.preview import PreviewedWrite
 from scanbench.faults.reference import ErrorRef
+from scanbench.public import Public
 from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.command import Command, Entry
 from scanbench.runtime.forces import ForcedValue
 from scanbench.runtime.migrate_image import Lost
 from scanbench.runtime.trap import TrapInfo
 from scanbench.symbols.violations import Violations
+
+SymbolKind = Literal[
+    "bool", "int", "uint", "bits", "real", "time", "string", "array", "struct", "block", "union", "interface", "date",
+    "char", "ref",
+]  # fmt: skip
+MarkKind = Literal[
+    "write", "force", "error", "recover", "mode", "run", "build", "system", "halt", "disturbance"
+]  # fmt: skip
+"""What a mark of the timeline, or a line of the log, is about: categories of commands, and halts of a debugger."""
 
 # ---- parent to host ------------------------------------------------------------------------------------------------
 
@@ -116,7 +127,7 @@ class Preview:
 
 @dataclass(frozen=True, slots=True)
 class PreviewErrors:
-    """What raising these would write now; answered with `PreviewedErrors`."""
+    """What raising these would write now; answered with `ErrorsPreviewed`."""
 
     ref: int
     errors: tuple[ErrorRef, ...]
@@ -296,11 +307,13 @@ class ForcesAre:
 
 
 @dataclass(frozen=True, slots=True)
-class RunMark:
+class RunMark(Public):
     """An entry of the run's journal, in short."""
 
+    PUBLIC: ClassVar = "Mark"
+
     scan: int
-    kind: str
+    kind: MarkKind
     author: str
     text: str
 
@@ -330,16 +343,24 @@ class Previewed:
 
 
 @dataclass(frozen=True, slots=True)
-class PreviewedErrors:
-    """Answer to `PreviewErrors`: what the plan says, or why it would be refused; `writes` in the order of the memory."""
+class PreviewedErrors(Public):
+    """What raising errors would do: what the plan says, or why it would be refused."""
 
-    ref: int
     ok: bool
     message: str
     scan: int
     writes: tuple[PreviewedWrite, ...]
+    """In the order of the memory."""
     more: int = 0
     """Words that change besides, and are not named."""
+
+
+@dataclass(frozen=True, slots=True)
+class ErrorsPreviewed:
+    """Answer to `PreviewErrors`."""
+
+    ref: int
+    found: PreviewedErrors
 
 
 @dataclass(frozen=True, slots=True)
@@ -378,20 +399,34 @@ class Ack:
 
 
 @dataclass(frozen=True, slots=True)
-class SymbolInfo:
-    """A variable or an address, as the wire's `Symbol`."""
+class EnumValue(Public):
+    """A number of an enumeration that has a name."""
+
+    name: str
+    value: int
+
+
+@dataclass(frozen=True, slots=True)
+class SymbolInfo(Public):
+    """A variable, or an address, by its instance path."""
+
+    PUBLIC: ClassVar = "Symbol"
 
     path: str
     name: str
     type: str
-    kind: str
+    """As declared, e.g. INT, ARRAY[0..9] OF REAL, TON."""
+    kind: SymbolKind
     size: int
+    """Bytes of the value."""
     address: str | None
+    """Vendor notation when it is located."""
     writable: bool
     section: str
+    """VAR, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_GLOBAL, address or member."""
     expandable: bool
-    values: tuple[tuple[str, int], ...] = ()
-    """Names of an enumeration's numbers."""
+    values: tuple[EnumValue, ...] = ()
+    """Of an enumeration: the names of its numbers."""
     range: str = ""
     """Of a subrange: the integer that it is and its bounds, INT (0..500); `type` may be a name."""
     in_out: bool = False

@@ -8,6 +8,7 @@ import pytest
 
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.runtime.write import Write
+from scanbench.taps.covered import CoveredOutcome
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import host as protocol
 from scanbench.wire.host import Driven
@@ -196,9 +197,18 @@ def test_coverage_says_what_was_reached(tmp_path: Path, cache: Path) -> None:
     )
     with Child(tmp_path / "a.run", source, cache) as child:
         child.ask(lambda ref: debug_protocol.SetCoverage(ref, True, False, "Ann"), protocol.Ack)
-        found = child.wait(debug_protocol.Coverage, lambda told: any(each.reached for each in told.files[0].sites))
-        assert [(each.line, each.reached) for each in found.files[0].sites] == [(3, True), (4, True), (5, False)]
-        assert found.files[0].sites[1].outcomes == (("THEN", False), ("ELSE", True))
+        found = child.wait(
+            debug_protocol.CoverageIs, lambda told: any(each.reached for each in told.coverage.files[0].sites)
+        )
+        assert [(each.line, each.reached) for each in found.coverage.files[0].sites] == [
+            (3, True),
+            (4, True),
+            (5, False),
+        ]
+        assert found.coverage.files[0].sites[1].outcomes == (
+            CoveredOutcome("THEN", False),
+            CoveredOutcome("ELSE", True),
+        )
 
 
 def test_a_plain_breakpoint_runs_on_fast_code_once_that_is_built(tmp_path: Path, cache: Path) -> None:

@@ -174,7 +174,7 @@ assert isinstance(refused, Refusal) and "disk is full" in refused.message, refus
 assert timeline.resource.state == before
 advance(timeline, 10)
 timeline.note()
-assert "cannot be written" in timeline.recording.info.trouble
+assert "cannot be written" in timeline.recording.info.recording
 assert timeline.live_scan == 20
 timeline.submit(Write("Ada", "Main.n", "200"))
 assert timeline.goto(15) is None
@@ -182,7 +182,7 @@ timeline.return_live()
 resource.setrlimit(resource.RLIMIT_FSIZE, (soft, hard))
 advance(timeline, 10)
 timeline.note()
-assert timeline.recording.info.trouble == ""
+assert timeline.recording.info.recording == ""
 assert isinstance(timeline.submit(Write("Ada", "Main.n", "300")), Entry)
 state = timeline.resource.state
 timeline.close()

@@ -10,9 +10,9 @@ from pathlib import Path
 import httpx
 import pytest
 
+from scanbench.public import Public
 from scanbench.server.workbench import Workbench
 from scanbench.store.records import StoreError
-from scanbench.public import Public
 from scanbench.web import messages, messages_errors, messages_records, messages_user_errors, openapi
 from scanbench.web.app import bare_app
 from scanbench.web.claim import InUse, claimed

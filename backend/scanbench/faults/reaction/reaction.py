@@ -1,7 +1,9 @@
 """How a program reacted to an error: a run with it beside the same run without it. Data only; `react.py` finds it out."""
 
 from dataclasses import dataclass
-from typing import Literal
+from typing import ClassVar, Literal
+
+from scanbench.public import Public
 
 Verdict = Literal["reacted", "stored_only", "no_effect", "not_reached", "never_read", "stopped"]
 """stored_only: what differs decides nothing. not_reached: a statement that would read it did not come to it. stopped: a fatal
@@ -15,7 +17,7 @@ WINDOW = 200
 
 
 @dataclass(frozen=True, slots=True)
-class Reader:
+class Reader(Public):
     """A statement that read what the error writes."""
 
     file: str
@@ -27,7 +29,7 @@ class Reader:
 
 
 @dataclass(frozen=True, slots=True)
-class Difference:
+class Difference(Public):
     """A variable or address that was another value than without the error, outside of error memory."""
 
     path: str
@@ -42,15 +44,17 @@ class Difference:
 
 
 @dataclass(frozen=True, slots=True)
-class Line:
+class Line(Public):
     """A statement that was reached with the error only: the handler."""
+
+    PUBLIC: ClassVar = "HandlerLine"
 
     file: str
     line: int
 
 
 @dataclass(frozen=True, slots=True)
-class Reaction:
+class Reaction(Public):
     """What became of one error, raised alone or in a run as it was."""
 
     verdict: Verdict

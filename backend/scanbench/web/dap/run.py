@@ -1,15 +1,17 @@
 """Going on, standing still, stepping; and what enters the PLC through the one door."""
 
+from pydantic_core import to_jsonable_python
+
+from scanbench.debug.bound_to import Bound
 from scanbench.faults.inject import Generate
 from scanbench.faults.reference import parse_reference
 from scanbench.runtime.command import Command, Refusal
 from scanbench.runtime.forces import Force, Release
-from scanbench.web import translate_debug
 from scanbench.web.dap import shapes
 from scanbench.web.dap.debuggee import Debuggee
 from scanbench.web.dap.shapes import Body
 from scanbench.wire import debugging as host
-from scanbench.wire.debugging import StepAction
+from scanbench.wire.debugging import Coverage, StepAction
 from scanbench.wire.host import Ack
 from scanbench.wire.refused import Refused
 
@@ -125,7 +127,7 @@ async def _entered(plc: Debuggee, command: Command) -> Body:
 
 async def on_in_out_binding(plc: Debuggee, args: shapes.Path) -> Body:
     """What an in-out is bound to."""
-    return translate_debug.binding(await plc.session.binding(args.path)).model_dump()
+    return _plain(await plc.session.binding(args.path))
 
 
 async def on_coverage(plc: Debuggee, args: shapes.Coverage) -> Body:
@@ -134,4 +136,10 @@ async def on_coverage(plc: Debuggee, args: shapes.Coverage) -> Body:
         now = plc.session.debugging.coverage
         on = args.on if args.on is not None else now is not None and now.on
         plc.done(await plc.session.cover(on, args.reset, plc.author))
-    return translate_debug.coverage(await plc.session.coverage()).model_dump()
+    return _plain(await plc.session.coverage())
+
+
+def _plain(told: Bound | Coverage) -> Body:
+    """As by REST."""
+    plain: Body = to_jsonable_python(told)
+    return plain

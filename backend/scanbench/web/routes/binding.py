@@ -4,8 +4,7 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query
 
-from scanbench.web import messages_debug as wire
-from scanbench.web import translate_debug
+from scanbench.debug.bound_to import Bound
 from scanbench.web.messages_base import Id
 from scanbench.web.reach import Bench
 
@@ -13,7 +12,7 @@ router = APIRouter(prefix="/api/instances/{instance}", tags=["values"])
 
 
 @router.get("/binding")
-async def on_binding(bench: Bench, instance: Id, path: Annotated[str, Query(max_length=2000)]) -> wire.Binding:
+async def on_binding(bench: Bench, instance: Id, path: Annotated[str, Query(max_length=2000)]) -> Bound:
     """What an in-out (`Main.fb1.level`) is bound to: the variable that the block's last execution was given, and what other
     calls pass."""
-    return translate_debug.binding(await bench.session(instance).binding(path))
+    return await bench.session(instance).binding(path)

@@ -4,18 +4,17 @@ from fastapi import APIRouter
 from fastapi.responses import PlainTextResponse
 
 from scanbench.taps.lcov import lcov
-from scanbench.web import messages_debug as wire
-from scanbench.web import translate_debug
 from scanbench.web.messages_base import Id
 from scanbench.web.reach import Bench
+from scanbench.wire.debugging import Coverage
 
 router = APIRouter(prefix="/api/instances/{instance}", tags=["debug"])
 
 
 @router.get("/coverage")
-async def on_coverage(bench: Bench, instance: Id) -> wire.Coverage:
+async def on_coverage(bench: Bench, instance: Id) -> Coverage:
     """Statements and branches that were reached since coverage was switched on."""
-    return translate_debug.coverage(await bench.session(instance).coverage())
+    return await bench.session(instance).coverage()
 
 
 @router.get("/coverage.lcov", response_class=PlainTextResponse)

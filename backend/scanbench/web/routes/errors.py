@@ -2,15 +2,17 @@
 
 from fastapi import APIRouter, Request
 
-from scanbench.faults.arm import Arm, Disarm
+from scanbench.faults.arm import Arm, ArmedInfo, Disarm
 from scanbench.faults.clear import ClearErrorLog, ClearErrors
 from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.reaction.reaction import Reaction
 from scanbench.web import messages as wire
 from scanbench.web import messages_errors, translate, translate_errors
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id
 from scanbench.web.reach import Bench
 from scanbench.web.translate_errors import command_result
+from scanbench.wire.host import PreviewedErrors
 from scanbench.wire.refused import Refused
 
 router = APIRouter(prefix="/api/instances/{instance}", tags=["errors"])
@@ -57,9 +59,9 @@ async def on_clear_log(bench: Bench, request: Request, instance: Id) -> messages
 
 
 @router.get("/errors/armed")
-async def on_armed(bench: Bench, instance: Id) -> list[messages_errors.ArmedFault]:
+async def on_armed(bench: Bench, instance: Id) -> tuple[ArmedInfo, ...]:
     """The faults that are armed and not over."""
-    return list(map(translate_errors.armed, bench.session(instance).armed))
+    return bench.session(instance).armed
 
 
 @router.post("/errors/arm")
@@ -81,18 +83,16 @@ async def on_disarm(
 
 
 @router.post("/errors/preview")
-async def on_preview(
-    bench: Bench, instance: Id, wanted: messages_errors.PreviewErrors
-) -> messages_errors.PreviewedErrors:
+async def on_preview(bench: Bench, instance: Id, wanted: messages_errors.PreviewErrors) -> PreviewedErrors:
     """What raising these would write now; nothing is changed."""
     refs = translate_errors.refs(wanted.errors)
-    return translate_errors.previewed(await bench.session(instance).preview_errors(refs, wanted.again))
+    return await bench.session(instance).preview_errors(refs, wanted.again)
 
 
 @router.get("/errors/{error}/reaction")
-async def on_reaction(bench: Bench, instance: Id, error: str) -> messages_errors.Reaction:
+async def on_reaction(bench: Bench, instance: Id, error: str) -> Reaction:
     """How the program reacted to an error the last time it was raised here."""
     found = bench.session(instance).reaction(error)
     if found is None:
         raise Refused(f"nobody has compared yet how the program reacts to {error}: raise it, and wait for the window")
-    return translate_errors.reaction(found)
+    return found

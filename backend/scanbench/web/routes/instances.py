@@ -17,6 +17,7 @@ from scanbench.web.messages_base import Id, Scan, Version
 from scanbench.web.messages_errors import ErrorHistoryRow
 from scanbench.web.reach import Bench, SocketBench
 from scanbench.web.socket.socket import Client
+from scanbench.wire.host import SymbolInfo
 from scanbench.wire.refused import Refused
 
 router = APIRouter(prefix="/api", tags=["instances"])
@@ -115,27 +116,27 @@ async def on_delete_instance(bench: Bench, instance: Id) -> None:
 
 
 @router.get("/instances/{instance}/symbols")
-async def on_symbols(bench: Bench, instance: Id, path: str = "", offer: bool = False) -> list[wire.Symbol]:
+async def on_symbols(bench: Bench, instance: Id, path: str = "", offer: bool = False) -> tuple[SymbolInfo, ...]:
     """The members below a path; programs and globals below ''. With `offer` a path that is no variable (it is being typed)
     has none, instead of being refused."""
     found = await bench.session(instance).look_up("members", path)
     if found.message and not offer:
         raise Refused(found.message, found.near)
-    return list(map(translate.symbol, found.symbols))
+    return found.symbols
 
 
 @router.get("/instances/{instance}/complete")
-async def on_complete(bench: Bench, instance: Id, text: str = "") -> list[wire.Symbol]:
+async def on_complete(bench: Bench, instance: Id, text: str = "") -> tuple[SymbolInfo, ...]:
     """At most 50 symbols whose path begins with the text."""
     found = await bench.session(instance).look_up("complete", text)
-    return list(map(translate.symbol, found.symbols))
+    return found.symbols
 
 
 @router.get("/instances/{instance}/instances-of")
-async def on_instances_of(bench: Bench, instance: Id, pou: str) -> list[wire.Symbol]:
+async def on_instances_of(bench: Bench, instance: Id, pou: str) -> tuple[SymbolInfo, ...]:
     """The instances of a POU in the running program, at most 1,000."""
     found = await bench.session(instance).look_up("instances", pou)
-    return list(map(translate.symbol, found.symbols))
+    return found.symbols
 
 
 @router.get("/instances/{instance}/program")
@@ -143,7 +144,7 @@ async def on_program(bench: Bench, instance: Id, version: Version) -> wire.Progr
     """The text of a program version that ran here: in the past the text is that of the scan."""
     sources = await bench.session(instance).sources_of(version)
     found = await bench.projects.declared(sources)
-    return wire.ProgramText(version=version, files=sources.files, pous=list(map(translate.pou, found.pous)))
+    return wire.ProgramText(version=version, files=sources.files, pous=found.pous)
 
 
 @router.get("/instances/{instance}/errors")

@@ -14,6 +14,8 @@ from scanbench.reports.record_csv import to_csv
 from scanbench.reports.record_html import to_html
 from scanbench.reports.record_text import Language
 from scanbench.reports.record_xml import to_xml
+from scanbench.server.test_records import HistoryVersion
+from scanbench.store.records import RecordInfo
 from scanbench.web import messages_records as wire
 from scanbench.web import translate, translate_records
 from scanbench.web.auth import user_of
@@ -27,9 +29,9 @@ _STYLE_ONLY = {"Content-Security-Policy": "default-src 'none'; style-src 'unsafe
 
 
 @router.get("/instances/{instance}/history/versions")
-async def on_versions(bench: Bench, instance: Id) -> list[wire.HistoryVersion]:
+async def on_versions(bench: Bench, instance: Id) -> list[HistoryVersion]:
     """The versions of the program that have an error history here, the newest first."""
-    return list(map(translate_records.version, await bench.records.versions(bench.session(instance))))
+    return await bench.records.versions(bench.session(instance))
 
 
 @router.get("/instances/{instance}/history")
@@ -54,16 +56,16 @@ async def on_record(
 
 
 @router.get("/projects/{project}/records")
-async def on_records(bench: Bench, project: Id) -> list[wire.RecordInfo]:
+async def on_records(bench: Bench, project: Id) -> list[RecordInfo]:
     """The test records that were brought in, the newest first."""
-    return list(map(translate_records.info, await bench.records.imported(project)))
+    return await bench.records.imported(project)
 
 
 @router.post("/projects/{project}/records", status_code=201)
-async def on_import(bench: Bench, request: Request, project: Id) -> wire.RecordInfo:
+async def on_import(bench: Bench, request: Request, project: Id) -> RecordInfo:
     """Keeps a test record from elsewhere; the body is its XML."""
     text = await xml_body(request)
-    return translate_records.info(await bench.records.bring_in(project, text, user_of(request).name))
+    return await bench.records.bring_in(project, text, user_of(request).name)
 
 
 @router.get("/projects/{project}/records/{record}", response_model=wire.ImportedRecord)
@@ -74,7 +76,7 @@ async def on_imported(
     info, found = await bench.records.one(project, record)
 
     def told() -> wire.ImportedRecord:
-        return wire.ImportedRecord(info=translate_records.info(info), record=translate_records.record(found))
+        return wire.ImportedRecord(info=info, record=translate_records.record(found))
 
     return await asyncio.to_thread(_written, format, found, lang, told)
 

@@ -2,8 +2,9 @@
 
 from fastapi import APIRouter, Request
 
+from scanbench.faults.reaction.reaction import Reaction
 from scanbench.web import messages as wire
-from scanbench.web import messages_errors, translate, translate_errors, translate_sweeps
+from scanbench.web import messages_errors, translate, translate_sweeps
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id
 from scanbench.web.reach import Bench
@@ -73,9 +74,9 @@ async def on_resume(bench: Bench, sweep: Id) -> messages_errors.SweepSummary:
 
 
 @router.post("/sweeps/{sweep}/reaction")
-async def on_cell(bench: Bench, sweep: Id, cell: messages_errors.CellRef) -> messages_errors.Reaction:
+async def on_cell(bench: Bench, sweep: Id, cell: messages_errors.CellRef) -> Reaction:
     """All that was found out about one cell."""
-    return translate_errors.reaction(await bench.sweeps.reaction(sweep, cell.error, cell.state))
+    return await bench.sweeps.reaction(sweep, cell.error, cell.state)
 
 
 @router.post("/sweeps/{sweep}/accept")

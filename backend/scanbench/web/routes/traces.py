@@ -15,6 +15,7 @@ from scanbench.web import translate_trace
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id, Scan
 from scanbench.web.reach import Bench
+from scanbench.wire.events import FlightChanged
 
 router = APIRouter(prefix="/api", tags=["traces"])
 BYTES = "application/octet-stream"
@@ -132,13 +133,12 @@ async def on_record_csv(bench: Bench, record: Id, first: Scan = 0, last: Scan | 
 
 
 @router.post("/instances/{instance}/flights", status_code=201)
-async def on_new_flight(bench: Bench, request: Request, instance: Id, new: wire.NewFlight) -> wire.Flight:
+async def on_new_flight(bench: Bench, request: Request, instance: Id, new: wire.NewFlight) -> FlightChanged:
     """Records scans that are over, by running them again beside the PLC; progress comes by the instance's WebSocket."""
     signals = tuple(text.strip() for text in new.signals)
-    begun = bench.trace_records.fly(
+    return bench.trace_records.fly(
         bench.session(instance), signals, new.scans, new.last, new.every, user_of(request).name
     )
-    return translate_trace.flight(begun)
 
 
 @router.delete("/flights/{flight}", status_code=204)

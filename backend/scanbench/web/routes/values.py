@@ -4,12 +4,11 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Request
 
-from scanbench.runtime.forces import Force, Release
+from scanbench.runtime.forces import Force, ForcedValue, Release
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
-from scanbench.web import messages as wire
-from scanbench.web import messages_values, translate
+from scanbench.web import messages_values
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id
 from scanbench.web.messages_errors import CommandResult
@@ -48,9 +47,9 @@ async def on_write(bench: Bench, request: Request, instance: Id, wanted: message
 
 
 @router.get("/forces")
-async def on_forces(bench: Bench, instance: Id) -> list[wire.ForceInfo]:
+async def on_forces(bench: Bench, instance: Id) -> tuple[ForcedValue, ...]:
     """The forces that hold."""
-    return list(map(translate.force, await bench.session(instance).forces_now()))
+    return await bench.session(instance).forces_now()
 
 
 @router.post("/force")

@@ -126,15 +126,15 @@ class Client:
             users=list(map(translate.user, self._session.users)),
             instance=instance,
             errors=list(map(translate.error_row, self._session.rows)),
-            log=list(map(translate.log_line, self._session.lines)),
-            forces=list(map(translate.force, self._session.forces)),
-            armed=list(map(translate_errors.armed, self._session.armed)),
+            log=self._session.lines,
+            forces=self._session.forces,
+            armed=self._session.armed,
             diagnostics=translate.diagnostics(self._session.violations),
-            timeline=translate.timeline(self._session.timeline),
+            timeline=self._session.timeline,
             breakpoints=list(map(translate_debug.breakpoint, self._session.debugging.verdicts)),
-            coverage=translate_debug.coverage(covered) if (covered := self._session.debugging.coverage) else None,
+            coverage=self._session.debugging.coverage,
             verifications=list(map(translate_verify.info, verifications)),
-            disturbances=list(self._session.disturbances),
+            disturbances=self._session.disturbances,
         )
         self._texts.first(_text(hello))
         writer = asyncio.get_running_loop().create_task(self._write())
