@@ -5,7 +5,7 @@ What it means is said in `verify/contract.py`; rows, columns and cells have the 
 
 from typing import Annotated, Literal
 
-from pydantic import Field
+from pydantic import Field, StringConstraints
 
 from scanbench.verify.contract import Mismatch
 from scanbench.verify.trace.table import TraceProblem
@@ -16,6 +16,7 @@ VerifyState = Literal["starting", "verifying", "waiting", "stopped", "done", "fa
 somebody. done: all the scans that were asked for. failed: `message` says why."""
 VerifyPace = Literal["free", "scan", "step"]
 VerifyMemory = Literal["recorded", "set"]
+Stripped = Annotated[str, StringConstraints(strip_whitespace=True)]
 Limit = Annotated[int, Field(ge=1, le=1_000_000)]
 Text = Annotated[str, Field(max_length=200)]
 
@@ -134,9 +135,11 @@ class NewDisturbance(Wire):
     result: what a statement writes has bits turned over."""
 
     kind: Literal["flip", "late", "stuck", "result"]
-    path: str = Field(default="", max_length=500, description="variable or address; empty with late, stuck: all inputs")
+    path: Stripped = Field(
+        default="", max_length=500, description="variable or address; empty with late, stuck: all inputs"
+    )
     bit: int | None = Field(default=None, ge=0, le=1023, description="flip, result: which bit; null: any, by the seed")
-    site: str = Field(default="", max_length=300, description="result: `Main.st:34`")
+    site: Stripped = Field(default="", max_length=300, description="result: `Main.st:34`")
     scan: Scan | None = Field(default=None, description="in which scan; null with probability 0: the next one")
     probability: float = Field(default=0, ge=0, le=1, description="of each scan, from `scan` on; 0: once")
     seed: int = Field(default=0, ge=0, lt=1 << 63)

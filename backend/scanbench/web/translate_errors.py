@@ -1,30 +1,12 @@
 """The error simulator's dataclasses -> wire shapes, and back. Nothing is decided here."""
 
-from collections.abc import Iterable, Sequence
+from collections.abc import Iterable
 
 from scanbench.faults.history import RowReaction, Swept
-from scanbench.faults.reference import ErrorRef
-from scanbench.faults.shapes import Shape, Start, Wanted
 from scanbench.plcmodel import model as plc
 from scanbench.web import messages_errors as wire
 from scanbench.wire.host import Ack
 from scanbench.wire.refused import Refused
-
-
-def refs(errors: Sequence[wire.GenerateOne]) -> tuple[ErrorRef, ...]:
-    """What is to be raised."""
-    return tuple(ErrorRef(one.id, tuple(one.details.items())) for one in errors)
-
-
-def wanted(arm: wire.ArmFaults) -> Wanted:
-    """Errors with a beginning and a shape."""
-    start, shape = arm.start, arm.shape
-    return Wanted(
-        refs(arm.errors),
-        Start(start.kind, start.scan, start.condition, start.file, start.line),
-        Shape(shape.kind, shape.scans, shape.period, shape.times, shape.seed, shape.acknowledge),
-        arm.gap,
-    )
 
 
 def in_short(of: RowReaction | None) -> wire.ReactionState | None:

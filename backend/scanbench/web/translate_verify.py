@@ -1,7 +1,5 @@
 """Verifications and disturbances -> wire shapes, and back. Nothing is decided here."""
 
-from scanbench.faults.disturb.definition import Disturbance
-from scanbench.faults.disturb.disturb import Disturb
 from scanbench.public import iso
 from scanbench.server.uploads import TraceFile, mapping_of
 from scanbench.server.verifications import Kept
@@ -55,16 +53,6 @@ def record(of: Kept) -> wire.VerificationRecord:
         id=row.id, project=row.project, name=row.name, instance=row.instance, by=row.by, at=iso(row.at),
         program_version=of.status.version, info=info(of.status),
     )  # fmt: skip
-
-
-def disturb(of: wire.NewDisturbance, author: str) -> Disturb:
-    """The command."""
-    return Disturb(
-        author,
-        Disturbance(
-            of.kind, of.path.strip(), of.bit, of.site.strip(), of.scan, of.probability, of.seed, of.scans, of.times
-        ),
-    )
 
 
 # ---- traces of real controllers --------------------------------------------------------------------------------------

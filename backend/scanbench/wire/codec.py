@@ -49,6 +49,7 @@ from scanbench.wire import host as protocol
 from scanbench.wire import jobs as job_protocol
 from scanbench.wire import traces as trace_protocol
 from scanbench.wire import verification as verify_protocol
+from scanbench.wire.typed import BadValue, check
 
 LENGTH = struct.Struct("<I")
 LARGEST = 1 << 30
@@ -115,7 +116,7 @@ def unpack(body: bytes, read: _Read | None = None) -> object:
     """The message in `body`, which comes without its length."""
     try:
         return msgpack.unpackb(body, ext_hook=read or _read, use_list=False, strict_map_key=False, timestamp=3)
-    except (ValueError, TypeError, KeyError) as error:
+    except (ValueError, TypeError, KeyError, BadValue) as error:
         raise BadMessage(f"{len(body)} bytes that are no message: {error}") from error
 
 
@@ -188,7 +189,9 @@ def _reader(deeper: _Read, bounded: bool) -> _Read:
             for value in values:
                 if isinstance(value, int) and not -_LARGEST_NUMBER <= value < _LARGEST_NUMBER:
                     raise ValueError(f"{value} is too large a number for anything in {name}")
-        return _CLASSES[name](*values)
+        cls = _CLASSES[name]
+        check(cls, values)
+        return cls(*values)
 
     return read
 

@@ -3,14 +3,13 @@
 from pydantic_core import to_jsonable_python
 
 from scanbench.debug.bound_to import Bound
-from scanbench.faults.inject import Generate
 from scanbench.faults.reference import parse_reference
 from scanbench.runtime.command import Command, Refusal
-from scanbench.runtime.forces import Force, Release
 from scanbench.web.dap import shapes
 from scanbench.web.dap.debuggee import Debuggee
 from scanbench.web.dap.shapes import Body
 from scanbench.wire import debugging as host
+from scanbench.wire.commands import read_command
 from scanbench.wire.debugging import Coverage, StepAction
 from scanbench.wire.host import Ack
 from scanbench.wire.refused import Refused
@@ -101,12 +100,12 @@ async def move(plc: Debuggee, action: StepAction) -> None:
 
 async def on_force(plc: Debuggee, args: shapes.Force) -> Body:
     """Keeps a variable at a value."""
-    return await _entered(plc, Force(plc.author, args.path, args.value))
+    return await _entered(plc, read_command("force", {"path": args.path, "value": args.value}, plc.author))
 
 
 async def on_release(plc: Debuggee, args: shapes.Release) -> Body:
     """Ends a force, or all."""
-    return await _entered(plc, Release(plc.author, args.path))
+    return await _entered(plc, read_command("release", {"path": args.path}, plc.author))
 
 
 async def on_raise(plc: Debuggee, args: shapes.Raise) -> Body:
@@ -114,7 +113,7 @@ async def on_raise(plc: Debuggee, args: shapes.Raise) -> Body:
     error = parse_reference(plc.session.model, args.error)
     if isinstance(error, Refusal):
         raise Refused(error.message, error.near)
-    return await _entered(plc, Generate(plc.author, (error,)))
+    return await _entered(plc, read_command("generate", {"errors": [error]}, plc.author))
 
 
 async def _entered(plc: Debuggee, command: Command) -> Body:

@@ -2,18 +2,17 @@
 
 from fastapi import APIRouter, Request
 
-from scanbench.faults.arm import Arm, ArmedInfo, Disarm
-from scanbench.faults.clear import ClearErrorLog, ClearErrors
-from scanbench.faults.inject import Generate, Recover
+from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.reaction.reaction import Reaction
+from scanbench.faults.reference import ErrorRef
 from scanbench.web import messages as wire
-from scanbench.web import messages_errors, translate, translate_errors
-from scanbench.web.auth import user_of
+from scanbench.web import messages_errors, translate
 from scanbench.web.messages_base import Id
 from scanbench.web.reach import Bench
-from scanbench.web.translate_errors import command_result
+from scanbench.web.routes.entering import entered
 from scanbench.wire.host import PreviewedErrors
 from scanbench.wire.refused import Refused
+from scanbench.wire.typed import make
 
 router = APIRouter(prefix="/api/instances/{instance}", tags=["errors"])
 
@@ -29,10 +28,7 @@ async def on_generate(
     bench: Bench, request: Request, instance: Id, wanted: messages_errors.GenerateErrors
 ) -> messages_errors.CommandResult:
     """Raises errors, all in one seam, or none of them."""
-    refs = translate_errors.refs(wanted.errors)
-    return command_result(
-        await bench.session(instance).submit(Generate(user_of(request).name, refs, again=wanted.again))
-    )
+    return await entered(bench, request, instance, "generate", wanted)
 
 
 @router.post("/errors/recover")
@@ -40,8 +36,7 @@ async def on_recover(
     bench: Bench, request: Request, instance: Id, wanted: messages_errors.RecoverErrors
 ) -> messages_errors.CommandResult:
     """Recovers these errors, or all that are generated."""
-    ids = None if wanted.ids is None else tuple(wanted.ids)
-    return command_result(await bench.session(instance).submit(Recover(user_of(request).name, ids)))
+    return await entered(bench, request, instance, "recover", wanted)
 
 
 @router.post("/errors/clear")
@@ -49,13 +44,13 @@ async def on_clear(
     bench: Bench, request: Request, instance: Id, wanted: messages_errors.ClearErrors
 ) -> messages_errors.CommandResult:
     """Clears errors as a tool does it on the device (FINS 2101)."""
-    return command_result(await bench.session(instance).submit(ClearErrors(user_of(request).name, wanted.what)))
+    return await entered(bench, request, instance, "clear_errors", wanted)
 
 
 @router.post("/errors/log/clear")
 async def on_clear_log(bench: Bench, request: Request, instance: Id) -> messages_errors.CommandResult:
     """Empties the PLC's own error log, as a tool does it on the device (FINS 2103)."""
-    return command_result(await bench.session(instance).submit(ClearErrorLog(user_of(request).name)))
+    return await entered(bench, request, instance, "clear_error_log", {})
 
 
 @router.get("/errors/armed")
@@ -69,8 +64,7 @@ async def on_arm(
     bench: Bench, request: Request, instance: Id, wanted: messages_errors.ArmFaults
 ) -> messages_errors.CommandResult:
     """Errors that begin later, or come and go; the message begins with `armed N`, N is what `disarm` takes."""
-    command = Arm(user_of(request).name, translate_errors.wanted(wanted))
-    return command_result(await bench.session(instance).submit(command))
+    return await entered(bench, request, instance, "arm", wanted)
 
 
 @router.post("/errors/disarm")
@@ -78,14 +72,13 @@ async def on_disarm(
     bench: Bench, request: Request, instance: Id, wanted: messages_errors.DisarmFaults
 ) -> messages_errors.CommandResult:
     """Takes these faults back, or all; what they raised is recovered."""
-    ids = None if wanted.ids is None else tuple(wanted.ids)
-    return command_result(await bench.session(instance).submit(Disarm(user_of(request).name, ids)))
+    return await entered(bench, request, instance, "disarm", wanted)
 
 
 @router.post("/errors/preview")
 async def on_preview(bench: Bench, instance: Id, wanted: messages_errors.PreviewErrors) -> PreviewedErrors:
     """What raising these would write now; nothing is changed."""
-    refs = translate_errors.refs(wanted.errors)
+    refs = tuple(make(ErrorRef, one.model_dump()) for one in wanted.errors)
     return await bench.session(instance).preview_errors(refs, wanted.again)
 
 

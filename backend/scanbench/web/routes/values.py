@@ -4,15 +4,13 @@ from typing import Annotated
 
 from fastapi import APIRouter, Query, Request
 
-from scanbench.runtime.forces import Force, ForcedValue, Release
-from scanbench.runtime.modes import SetMode
-from scanbench.runtime.restart import Restart
-from scanbench.runtime.write import Write
+from scanbench.runtime.forces import ForcedValue
 from scanbench.web import messages_values
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id
 from scanbench.web.messages_errors import CommandResult
 from scanbench.web.reach import Bench
+from scanbench.web.routes.entering import entered
 from scanbench.web.translate_errors import command_result
 from scanbench.wire.debugging import Evaluate, Evaluated
 from scanbench.wire.host import Ack
@@ -42,8 +40,7 @@ async def on_read(
 @router.post("/write")
 async def on_write(bench: Bench, request: Request, instance: Id, wanted: messages_values.WriteValue) -> CommandResult:
     """Writes a variable or an address, with the rights of a tool: error memory is read-only here."""
-    command = Write(user_of(request).name, wanted.path, wanted.value, site=wanted.site)
-    return command_result(await bench.session(instance).submit(command))
+    return await entered(bench, request, instance, "write", wanted)
 
 
 @router.get("/forces")
@@ -55,8 +52,7 @@ async def on_forces(bench: Bench, instance: Id) -> tuple[ForcedValue, ...]:
 @router.post("/force")
 async def on_force(bench: Bench, request: Request, instance: Id, wanted: messages_values.WriteValue) -> CommandResult:
     """Holds a variable or an address at a value until it is released."""
-    command = Force(user_of(request).name, wanted.path, wanted.value, site=wanted.site)
-    return command_result(await bench.session(instance).submit(command))
+    return await entered(bench, request, instance, "force", wanted)
 
 
 @router.post("/release")
@@ -64,7 +60,7 @@ async def on_release(
     bench: Bench, request: Request, instance: Id, wanted: messages_values.ReleaseForces
 ) -> CommandResult:
     """Ends a force, or all."""
-    return command_result(await bench.session(instance).submit(Release(user_of(request).name, wanted.path)))
+    return await entered(bench, request, instance, "release", wanted)
 
 
 @router.post("/run")
@@ -77,10 +73,10 @@ async def on_run(bench: Bench, request: Request, instance: Id, wanted: messages_
 @router.post("/mode")
 async def on_mode(bench: Bench, request: Request, instance: Id, wanted: messages_values.ChangeMode) -> CommandResult:
     """Changes the mode. MONITOR and RUN are refused while a fatal error is present."""
-    return command_result(await bench.session(instance).submit(SetMode(user_of(request).name, wanted.mode)))
+    return await entered(bench, request, instance, "mode", wanted)
 
 
 @router.post("/restart")
 async def on_restart(bench: Bench, request: Request, instance: Id, wanted: messages_values.BeginAnew) -> CommandResult:
     """The program begins anew, in every mode; afterwards it runs."""
-    return command_result(await bench.session(instance).submit(Restart(user_of(request).name, wanted.kind)))
+    return await entered(bench, request, instance, "restart", wanted)

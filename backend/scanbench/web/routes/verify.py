@@ -7,7 +7,7 @@ from urllib.parse import quote
 from fastapi import APIRouter, Query, Request
 from fastapi.responses import Response
 
-from scanbench.faults.disturb.disturb import Calm, DisturbanceInfo
+from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.server.uploads import Checked
 from scanbench.server.verifications import Exported
 from scanbench.server.verify_rows import RowsPage
@@ -18,7 +18,7 @@ from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id, Scan
 from scanbench.web.messages_errors import CommandResult
 from scanbench.web.reach import Bench, file_body
-from scanbench.web.translate_errors import command_result
+from scanbench.web.routes.entering import entered
 from scanbench.wire.verification import UseRow
 
 router = APIRouter(prefix="/api", tags=["verification"])
@@ -158,20 +158,19 @@ async def on_disturbances(bench: Bench, instance: Id) -> tuple[DisturbanceInfo, 
 @router.post("/instances/{instance}/disturbances")
 async def on_disturb(bench: Bench, request: Request, instance: Id, new: wire.NewDisturbance) -> CommandResult:
     """Disturbs the PLC, now or when its time comes; the journal keeps it."""
-    command = translate_verify.disturb(new, user_of(request).name)
-    return command_result(await bench.session(instance).submit(command))
+    return await entered(bench, request, instance, "disturb", new)
 
 
 @router.delete("/instances/{instance}/disturbances")
 async def on_calm_all(bench: Bench, request: Request, instance: Id) -> CommandResult:
     """Takes all of them back."""
-    return command_result(await bench.session(instance).submit(Calm(user_of(request).name, None)))
+    return await entered(bench, request, instance, "calm", {"ids": None})
 
 
 @router.delete("/instances/{instance}/disturbances/{disturbance}")
 async def on_calm(bench: Bench, request: Request, instance: Id, disturbance: Id) -> CommandResult:
     """Takes one back."""
-    return command_result(await bench.session(instance).submit(Calm(user_of(request).name, (disturbance,))))
+    return await entered(bench, request, instance, "calm", {"ids": [disturbance]})
 
 
 # ---- traces of real controllers --------------------------------------------------------------------------------------

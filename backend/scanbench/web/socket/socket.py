@@ -13,23 +13,16 @@ from contextlib import suppress
 from fastapi import WebSocket, WebSocketDisconnect
 from pydantic import TypeAdapter, ValidationError
 
-from scanbench.faults.arm import Arm, Disarm
-from scanbench.faults.inject import Generate, Recover
-from scanbench.runtime.clear_violations import ClearViolations
-from scanbench.runtime.command import Command
-from scanbench.runtime.forces import Force, Release
-from scanbench.runtime.modes import SetMode
-from scanbench.runtime.restart import Restart
-from scanbench.runtime.write import Write
 from scanbench.session.session import Session
 from scanbench.web import messages as wire
 from scanbench.web import messages_debug as debugger
 from scanbench.web import messages_errors as simulator
-from scanbench.web import translate, translate_debug, translate_errors, translate_verify
+from scanbench.web import translate, translate_debug, translate_verify
 from scanbench.web.dap.attaching import ForBrowser
 from scanbench.web.dap.conversation import Conversation
 from scanbench.web.socket.waiting import Waiting
 from scanbench.wire import events
+from scanbench.wire.commands import read_command
 from scanbench.wire.events import Event, User
 from scanbench.wire.host import Ack
 
@@ -236,31 +229,8 @@ class Client:
             case debugger.SetCoverage():
                 return await session.cover(message.on, message.reset, author)
             case _:
-                return await session.submit(self._command(message))
-
-    def _command(self, message: _Commanding) -> Command:
-        author = self.user.name
-        match message:
-            case wire.Write():
-                return Write(author, message.path, message.value, site=message.site)
-            case wire.Force():
-                return Force(author, message.path, message.value, site=message.site)
-            case wire.Release():
-                return Release(author, message.path)
-            case simulator.Generate():
-                return Generate(author, translate_errors.refs(message.errors), again=message.again)
-            case simulator.Recover():
-                return Recover(author, None if message.ids is None else tuple(message.ids))
-            case simulator.Arm():
-                return Arm(author, translate_errors.wanted(message))
-            case simulator.Disarm():
-                return Disarm(author, None if message.ids is None else tuple(message.ids))
-            case wire.SetMode():
-                return SetMode(author, message.mode)
-            case wire.Restart():
-                return Restart(author, message.kind)
-            case wire.ClearDiagnostics():
-                return ClearViolations(author)
+                given = message.model_dump(exclude={"type", "ref"})
+                return await session.submit(read_command(message.type, given, author))
 
 
 def _text(message: wire.ServerMessage) -> str:
