@@ -46,11 +46,14 @@ Hex = Annotated[bytes, _Text(bytes.hex)]
 
 
 def _describe(schema: dict[str, object], cls: type) -> None:
-    """Every field is there, also one that has a default here; what is always the same tells messages apart."""
+    """Every field is there, also one that has a default here; what is always the same tells messages apart. Clients may leave
+    out what has a default where they are the ones who give it."""
     schema["title"] = getattr(cls, "PUBLIC", cls.__name__)
     schema["description"] = cleandoc(cls.__doc__ or "")
     fields = schema["properties"]
     assert isinstance(fields, dict)
+    if getattr(cls, "GIVEN", False):
+        return
     named = {name: field for name, field in fields.items() if "const" not in field}
     for field in named.values():
         field.pop("default", None)
@@ -61,6 +64,8 @@ class Public:
     """Base of such a dataclass. Its docstring and those of its fields are the descriptions in OpenAPI."""
 
     __slots__ = ()
+    GIVEN: ClassVar = False
+    """Whether clients give it, too."""
     __pydantic_config__: ClassVar[dict[str, object]] = {
         "extra": "forbid",
         "json_schema_extra": _describe,

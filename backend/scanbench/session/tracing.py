@@ -6,12 +6,13 @@ from dataclasses import asdict, dataclass, replace
 from typing import cast
 
 from scanbench.store.records import Json, NotFound
-from scanbench.taps.trace import TraceDefinition, TraceTrigger
+from scanbench.taps.trace import TraceDefinition
 from scanbench.taps.trace_buffer import Samples
 from scanbench.wire import events
 from scanbench.wire import host as protocol
 from scanbench.wire.refused import Refused, Unavailable
 from scanbench.wire.traces import DefineTrace, DriveTrace, ReadTrace, TraceRead, TracesAre, TraceStatus
+from scanbench.wire.typed import make
 
 Ask = Callable[[Callable[[int], object]], Awaitable[object]]
 
@@ -149,13 +150,5 @@ def _json(wanted: _Wanted) -> Json:
 
 
 def _read(content: Json) -> _Wanted:
-    about = cast(dict[str, object], content["definition"])
-    trigger = cast("dict[str, object] | None", about["trigger"])
-    made = TraceDefinition(
-        str(about["name"]), tuple(cast(list[str], about["signals"])), cast(int, about["every"]), cast(int, about["scans"]),
-        None if trigger is None else TraceTrigger(
-            str(trigger["text"]), str(trigger["when"]), str(trigger["value"]), cast(int, trigger["before"])
-        ),
-        bool(about["repeat"]),
-    )  # fmt: skip
-    return _Wanted(made, str(content["by"]), bool(content["on"]))
+    definition = make(TraceDefinition, cast("Mapping[str, object]", content["definition"]))
+    return _Wanted(definition, str(content["by"]), bool(content["on"]))

@@ -6,9 +6,10 @@ scan, also where the signals are recorded more seldom.
 
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Annotated, ClassVar, Literal
 
 import numpy as np
+from annotated_types import Ge, Le, MaxLen, MinLen
 from numpy.typing import NDArray
 
 from scanbench.check.typed.condition import BadCondition, Signal, compile_signal, parsed
@@ -25,29 +26,39 @@ MAX_TRACES = 8
 MAX_SCANS = 10_000_000
 MAX_BYTES = 256 << 20
 """Of all traces of a PLC."""
+SignalText = Annotated[str, MinLen(1), MaxLen(2000)]
 _COMPARED = {"above": ">", "below": "<", "equals": "="}
 
 
 @dataclass(frozen=True, slots=True)
-class TraceTrigger:
+class TraceTrigger(Public):
     """What a trace waits for: an edge of `text` (of `text >= value`, where there is one), or that it is above, below, equal to
     the value, or that it `holds`, from when the trace is armed on."""
 
-    text: str
-    when: str = "rises"
-    value: str = ""
-    before: int = 50
+    GIVEN: ClassVar = True
+
+    text: SignalText
+    """A variable, an address, or an expression."""
+    when: When = "rises"
+    value: Annotated[str, MaxLen(200)] = ""
+    """To compare with; empty for an edge of a BOOL."""
+    before: Annotated[int, Ge(0), Le(100)] = 50
     """Percent of the buffer that is in front of the trigger."""
 
 
 @dataclass(frozen=True, slots=True)
-class TraceDefinition:
+class TraceDefinition(Public):
     """What is to be recorded: `scans` is how far the buffer reaches back."""
 
-    name: str
-    signals: tuple[str, ...]
-    every: int = 1
-    scans: int = 30_000
+    GIVEN: ClassVar = True
+
+    name: Annotated[str, MinLen(1), MaxLen(100)]
+    signals: Annotated[tuple[SignalText, ...], MinLen(1), MaxLen(MAX_SIGNALS)]
+    """Variables, addresses, expressions."""
+    every: Annotated[int, Ge(1), Le(1_000_000)] = 1
+    """So many scans from sample to sample."""
+    scans: Annotated[int, Ge(2), Le(MAX_SCANS)] = 30_000
+    """How far the buffer reaches back."""
     trigger: TraceTrigger | None = None
     repeat: bool = False
     """With a trigger: armed again when it is complete; what is shown is the last complete record."""
@@ -64,6 +75,7 @@ class TraceSignal(Public):
 
     text: str
     type: str = ""
+    """Empty where it was never found."""
     kind: str = ""
     size: int = 0
     values: tuple[tuple[str, int], ...] = ()

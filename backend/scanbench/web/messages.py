@@ -24,7 +24,6 @@ from scanbench.web.messages_errors import (
     Recover,
     SweepProgress,
 )
-from scanbench.web.messages_trace import Traces
 from scanbench.web.messages_verify import VerificationInfo, Verifications
 from scanbench.web.messages_watch import WatchListChanged
 from scanbench.wire import events
@@ -564,7 +563,7 @@ ServerMessage = Annotated[
     | WatchListChanged
     | Dap
     | Breakpoints
-    | Traces
+    | events.TracesChanged
     | events.FlightChanged
     | Coverage
     | Verifications

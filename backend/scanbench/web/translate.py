@@ -15,7 +15,6 @@ from scanbench.web import (
     translate_debug,
     translate_errors,
     translate_sweeps,
-    translate_trace,
     translate_verify,
 )
 from scanbench.web.messages_watch import WatchListChanged
@@ -174,8 +173,6 @@ def event(happened: events.Told) -> wire.ServerMessage:
             return _of_project(happened)
         case events.BreakpointsChanged():
             return debugger.Breakpoints(breakpoints=list(map(translate_debug.breakpoint, happened.verdicts)))
-        case events.TracesChanged():
-            return translate_trace.traces(happened)
         case events.VerificationsChanged():
             return translate_verify.told(happened)
         case events.StateChanged():

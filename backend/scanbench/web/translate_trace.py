@@ -1,11 +1,11 @@
 """Traces and their records -> wire shapes, and back. Nothing is decided here."""
 
+from dataclasses import replace
+
 from scanbench.public import iso
 from scanbench.server.trace_records import TraceRecord
 from scanbench.taps import trace as tap
 from scanbench.web import messages_trace as wire
-from scanbench.wire import events
-from scanbench.wire.traces import TraceStatus
 
 
 def wanted(of: wire.TraceDefinition) -> tap.TraceDefinition:
@@ -13,37 +13,8 @@ def wanted(of: wire.TraceDefinition) -> tap.TraceDefinition:
     trigger = of.trigger
     return tap.TraceDefinition(
         of.name.strip(), tuple(text.strip() for text in of.signals), of.every, of.scans,
-        None if trigger is None else tap.TraceTrigger(trigger.text.strip(), trigger.when, trigger.value.strip(), trigger.before),
-        of.repeat,
+        None if trigger is None else replace(trigger, text=trigger.text.strip(), value=trigger.value.strip()), of.repeat,
     )  # fmt: skip
-
-
-def definition(of: tap.TraceDefinition) -> wire.TraceDefinition:
-    """What is recorded."""
-    trigger = of.trigger
-    return wire.TraceDefinition(
-        name=of.name, signals=list(of.signals), every=of.every, scans=of.scans, repeat=of.repeat,
-        trigger=None if trigger is None else wire.TraceTrigger.model_validate(
-            {"text": trigger.text, "when": trigger.when, "value": trigger.value, "before": trigger.before}
-        ),
-    )  # fmt: skip
-
-
-def info(of: TraceStatus) -> wire.TraceInfo:
-    """How a trace stands."""
-    return wire.TraceInfo.model_validate(
-        {
-            "id": of.id, "definition": definition(of.definition), "by": of.by, "state": of.state,
-            "signals": of.signals, "generation": of.generation, "triggered": of.triggered,
-            "hits": of.hits, "rows": of.rows, "first": of.first, "end": of.end, "bytes": of.bytes,
-            "interval_ns": of.interval_ns, "note": of.note,
-        }
-    )  # fmt: skip
-
-
-def traces(happened: events.TracesChanged) -> wire.Traces:
-    """All traces."""
-    return wire.Traces(traces=list(map(info, happened.traces)))
 
 
 def record(of: TraceRecord) -> wire.TraceRecordInfo:

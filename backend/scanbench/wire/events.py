@@ -273,10 +273,13 @@ class LogpointSaid:
 
 
 @dataclass(frozen=True, slots=True)
-class TracesChanged:
+class TracesChanged(Public):
     """All traces of the PLC, whenever one changes or grows."""
 
+    PUBLIC: ClassVar = "Traces"
+
     traces: tuple[TraceStatus, ...]
+    type: Literal["traces"] = "traces"
 
 
 @dataclass(frozen=True, slots=True)

@@ -1,8 +1,10 @@
 """What the parent and the host of a PLC say to each other about traces. See `host.py`."""
 
 from dataclasses import dataclass
+from typing import ClassVar
 
-from scanbench.taps.trace import TraceDefinition, TraceSignal
+from scanbench.public import Public
+from scanbench.taps.trace import State, TraceDefinition, TraceSignal
 
 # ---- parent to host ------------------------------------------------------------------------------------------------
 
@@ -48,17 +50,22 @@ class ReadTrace:
 
 
 @dataclass(frozen=True, slots=True)
-class TraceStatus:
-    """How a trace stands."""
+class TraceStatus(Public):
+    """A trace of a PLC, which everybody shares, and how it stands."""
+
+    PUBLIC: ClassVar = "TraceInfo"
 
     id: int
     definition: TraceDefinition
     by: str
-    state: str
+    state: State
     signals: tuple[TraceSignal, ...]
     generation: int
+    """Other samples than those of another generation."""
     triggered: int | None
+    """After which scan the trigger came, of what is shown."""
     hits: int
+    """How often it came since it was started."""
     rows: int
     first: int
     end: int

@@ -16,44 +16,45 @@ from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id, Scan
 from scanbench.web.reach import Bench
 from scanbench.wire.events import FlightChanged
+from scanbench.wire.traces import TraceStatus
 
 router = APIRouter(prefix="/api", tags=["traces"])
 BYTES = "application/octet-stream"
 
 
 @router.get("/instances/{instance}/traces")
-async def on_traces(bench: Bench, instance: Id) -> list[wire.TraceInfo]:
+async def on_traces(bench: Bench, instance: Id) -> tuple[TraceStatus, ...]:
     """The traces of an instance."""
-    return list(map(translate_trace.info, bench.session(instance).tracing.traces))
+    return bench.session(instance).tracing.traces
 
 
 @router.post("/instances/{instance}/traces", status_code=201)
-async def on_new_trace(bench: Bench, request: Request, instance: Id, new: wire.DefineTrace) -> wire.TraceInfo:
+async def on_new_trace(bench: Bench, request: Request, instance: Id, new: wire.DefineTrace) -> TraceStatus:
     """A new trace."""
     tracing, author = bench.session(instance).tracing, user_of(request).name
-    return translate_trace.info(await tracing.define(None, translate_trace.wanted(new), author, new.start))
+    return await tracing.define(None, translate_trace.wanted(new), author, new.start)
 
 
 @router.put("/instances/{instance}/traces/{trace}")
 async def on_define_trace(
     bench: Bench, request: Request, instance: Id, trace: Id, changed: wire.DefineTrace
-) -> wire.TraceInfo:
+) -> TraceStatus:
     """Another definition for a trace; what was recorded is forgotten. Without `start`, other signals leave what was recorded
     of those that stay, and another name leaves everything."""
     tracing, author = bench.session(instance).tracing, user_of(request).name
-    return translate_trace.info(await tracing.define(trace, translate_trace.wanted(changed), author, changed.start))
+    return await tracing.define(trace, translate_trace.wanted(changed), author, changed.start)
 
 
 @router.post("/instances/{instance}/traces/{trace}/start")
-async def on_start_trace(bench: Bench, request: Request, instance: Id, trace: Id) -> wire.TraceInfo:
+async def on_start_trace(bench: Bench, request: Request, instance: Id, trace: Id) -> TraceStatus:
     """Records anew; arms a trace with a trigger again."""
-    return translate_trace.info(await bench.session(instance).tracing.drive(trace, "start", user_of(request).name))
+    return await bench.session(instance).tracing.drive(trace, "start", user_of(request).name)
 
 
 @router.post("/instances/{instance}/traces/{trace}/stop")
-async def on_stop_trace(bench: Bench, request: Request, instance: Id, trace: Id) -> wire.TraceInfo:
+async def on_stop_trace(bench: Bench, request: Request, instance: Id, trace: Id) -> TraceStatus:
     """Records no more; what was recorded stays."""
-    return translate_trace.info(await bench.session(instance).tracing.drive(trace, "stop", user_of(request).name))
+    return await bench.session(instance).tracing.drive(trace, "stop", user_of(request).name)
 
 
 @router.delete("/instances/{instance}/traces/{trace}", status_code=204)
