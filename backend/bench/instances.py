@@ -28,7 +28,7 @@ from scanbench.server.samples import samples
 from scanbench.session.instance import Instance, Remembered
 from scanbench.store.records import Limits
 from scanbench.wire import host as protocol
-from scanbench.wire.events import PlcState
+from scanbench.wire.host import PlcState
 
 SAMPLE = "Conveyor"
 SETTLE_S = 3.0

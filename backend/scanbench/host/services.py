@@ -49,7 +49,7 @@ class Services:
         self._quick_since = 0
         self._watched: dict[int, str] = {}
         self._plan = WatchPlan({}, len(self._resource.memory))
-        self._last_state: protocol.HostState | None = None
+        self._last_state: protocol.PlcState | None = None
         self._state_at = self._counted_at = self._info_at = 0
         self._diagnosed: Violations | None = None
         self._standing: protocol.Standing | None = None
@@ -75,7 +75,7 @@ class Services:
         return TICK_NS if self._attended else IDLE_TICK_NS
 
     @property
-    def state(self) -> protocol.HostState:
+    def state(self) -> protocol.PlcState:
         """The state now."""
         note = self._pacer.reached or self._note or self._tier_note(monotonic_ns())
         return host_state(self._timeline, self._pacer, self.past_by, note, self._debugger)
@@ -212,7 +212,7 @@ class Services:
             self._diagnosed = violations
             self._link.post(protocol.Diagnosed(violations))
 
-    def _differs(self, state: protocol.HostState) -> bool:
+    def _differs(self, state: protocol.PlcState) -> bool:
         """Whether more than counters changed: people wait for that, and in a pause for every scan."""
         last = self._last_state
         if last is None or self._pacer.paused or self._timeline.past or state.halt is not None:

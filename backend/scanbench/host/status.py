@@ -11,7 +11,7 @@ from scanbench.runtime.forces import FORCED
 from scanbench.runtime.header import Halt, Mode
 from scanbench.runtime.journal import Fold
 from scanbench.runtime.resource import Resource
-from scanbench.wire.host import HostState
+from scanbench.wire.host import PlcState
 
 
 def _swapped(versions: tuple[int, ...], entry: Entry) -> tuple[int, ...]:
@@ -29,7 +29,7 @@ def previous_version(timeline: Timeline) -> int | None:
     return versions[-2] if len(versions) > 1 else None
 
 
-def host_state(timeline: Timeline, pacer: Pacer, past_by: str, note: str, debugger: Debugger) -> HostState:
+def host_state(timeline: Timeline, pacer: Pacer, past_by: str, note: str, debugger: Debugger) -> PlcState:
     """What the top bar shows. `note` stands where nothing more pressing is to be said."""
     resource = timeline.resource
     header = resource.header
@@ -44,7 +44,7 @@ def host_state(timeline: Timeline, pacer: Pacer, past_by: str, note: str, debugg
         state, message = "halted", _halted(halt)
     if timeline.past:
         state, message = "past", f"scan {header.scan} of {timeline.live_scan}, shown by {past_by}"
-    return HostState(
+    return PlcState(
         state=state,
         mode=header.mode.name,
         message=message,

@@ -24,7 +24,7 @@ from scanbench.store.records import Limits
 from scanbench.wire import host as protocol
 from scanbench.wire.codec import LENGTH, BadMessage, body_length, pack, unpack
 from scanbench.wire.debugging import DebugAnswer, DebugRequest
-from scanbench.wire.events import PlcState
+from scanbench.wire.host import PlcState
 from scanbench.wire.refused import Unavailable
 from scanbench.wire.traces import TraceRead
 
@@ -270,7 +270,7 @@ class Instance:
         match message:
             case protocol.Pong():
                 pass
-            case protocol.HostState():
+            case protocol.PlcState():
                 self._see(message)
             case protocol.Entered():
                 self._memory.scan = max(self._memory.scan, message.entries[-1].scan)
@@ -303,17 +303,15 @@ class Instance:
             case _:
                 self._on_message(message)
 
-    def _see(self, state: protocol.HostState) -> None:
+    def _see(self, state: protocol.PlcState) -> None:
         self._paused = state.paused
         self._memory.scan = state.live_scan
         pid = self._process.pid if self._process is not None else None
-        self._set_state(
-            state=state.state, mode=state.mode, message=state.message, scan=state.scan, time_ns=state.time_ns,
-            interval_ns=state.interval_ns, cycle_us=state.cycle_us, speed=state.speed, pid=pid, trap=state.trap,
-            forces=state.forces, version=state.version, live_scan=state.live_scan, past_by=state.past_by,
-            target=state.target, previous_version=state.previous_version, late_percent=state.late_percent,
-            late_us=state.late_us, worst_us=state.worst_us, halt=state.halt, flavour=state.flavour,
+        halt = state.halt if pid is not None else None
+        self.state = replace(
+            state, pid=pid, halt=halt, restarts=self.state.restarts, startable=self.state.startable
         )  # fmt: skip
+        self._on_state(self.state)
 
     def _set_state(self, **changes: object) -> None:
         if changes.get("pid", self) is None:  # where there is no process, nothing is halted

@@ -33,7 +33,8 @@ from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import events
 from scanbench.wire import host as protocol
 from scanbench.wire.debugging import DebugAnswer, DebugRequest
-from scanbench.wire.events import BuildOutcome, Event, LogEntry, PlcState, Subscriber, User
+from scanbench.wire.events import BuildOutcome, Event, LogEntry, Subscriber, User
+from scanbench.wire.host import PlcState
 from scanbench.wire.refused import Refused, Unavailable
 from scanbench.wire.traces import TracesAre
 

@@ -19,8 +19,8 @@ from scanbench.web import (
 )
 from scanbench.web.messages_watch import WatchListChanged
 from scanbench.wire import events
-from scanbench.wire.events import BuildOutcome, Change, CheckOutcome, PlcState, User
-from scanbench.wire.host import WatchItem
+from scanbench.wire.events import BuildOutcome, Change, CheckOutcome, User
+from scanbench.wire.host import PlcState, WatchItem
 
 
 def user(who: User) -> wire.User:

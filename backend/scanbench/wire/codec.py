@@ -66,7 +66,7 @@ _CLASSES: dict[str, type] = {
         Violation, Violations, Write,
         Lost, RecordingInfo, Restart, Restarted, SetClock, Swapped,
         protocol.Ack, protocol.Attend, protocol.Build, protocol.Copy, protocol.Diagnosed, protocol.Drive, protocol.Driven,
-        protocol.Entered, protocol.Found, protocol.Frame, protocol.HostState, protocol.Lookup, protocol.Preview,
+        protocol.Entered, protocol.Found, protocol.Frame, protocol.PlcState, protocol.Lookup, protocol.Preview,
         protocol.Ping, protocol.Pong, protocol.Previewed, protocol.Quit, protocol.Ready, protocol.NowRuns, protocol.RollBack, protocol.RunMark, protocol.RunMarks,
         protocol.SetLimits, protocol.Sources, protocol.Standing, protocol.Start, protocol.StartFailed,
         protocol.Submit, protocol.SymbolInfo, protocol.Travel, protocol.UnwatchIds, protocol.WantSnapshot,

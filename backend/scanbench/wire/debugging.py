@@ -36,7 +36,7 @@ class SetBreakpoints:
 
 @dataclass(frozen=True, slots=True)
 class Step:
-    """Moves a PLC as a debugger does; answered with `Ack` when it is under way (a halt follows in `HostState.halt`), for
+    """Moves a PLC as a debugger does; answered with `Ack` when it is under way (a halt follows in `PlcState.halt`), for
     steps back when it is done."""
 
     ref: int

@@ -6,7 +6,6 @@ from typing import ClassVar, Literal, Protocol
 
 from scanbench.check.build import PouInfo
 from scanbench.debug.breakpoint import Verdict
-from scanbench.debug.halt import Halt
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.disturb.disturb import DisturbanceInfo
 from scanbench.faults.history import ErrorRow
@@ -16,12 +15,11 @@ from scanbench.program.program import CheckSite
 from scanbench.public import Moment, Public
 from scanbench.recording.recording import RecordingInfo
 from scanbench.runtime.forces import ForcedValue
-from scanbench.runtime.trap import TrapInfo
 from scanbench.store.records import AcceptedRow, CellRow, ProjectRow, SweepRow
 from scanbench.symbols.violations import Violations
 from scanbench.verify.contract import DEFAULT_LIMIT, Memory, Mismatch, Range
 from scanbench.wire import debugging as debug_protocol
-from scanbench.wire.host import MarkKind, Previewed, RunMark, WatchItem
+from scanbench.wire.host import MarkKind, PlcState, Previewed, RunMark, WatchItem
 from scanbench.wire.traces import TraceStatus
 
 VerifyPace = Literal["free", "scan", "step"]
@@ -70,39 +68,6 @@ class User:
     """Somebody at a browser."""
 
     name: str
-
-
-@dataclass(frozen=True, slots=True)
-class PlcState:
-    """The state of one virtual PLC, host process included."""
-
-    state: str
-    mode: str
-    message: str
-    scan: int = 0
-    time_ns: int = 0
-    interval_ns: int = 0
-    cycle_us: float = 0.0
-    speed: float = 1.0
-    pid: int | None = None
-    restarts: int = 0
-    trap: TrapInfo | None = None
-    forces: int = 0
-    version: int = 0
-    live_scan: int = 0
-    past_by: str = ""
-    """Who shows the past; empty when it is live."""
-    target: str = ""
-    previous_version: int | None = None
-    late_percent: float = 0.0
-    late_us: float = 0.0
-    """Mean lateness of scans since the pace was set; `worst_us` is the most."""
-    worst_us: float = 0.0
-    halt: Halt | None = None
-    flavour: str = ""
-    """Which code runs: empty is the ordinary one, `debug`, `probed`."""
-    startable: bool = True
-    """False while its model is missing: nothing starts it before the server finds that again."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -257,36 +257,41 @@ class StartFailed:
 
 
 @dataclass(frozen=True, slots=True)
-class HostState:
-    """The state of the PLC; `InstanceState` of the wire without what the parent knows itself."""
+class PlcState:
+    """The state of one virtual PLC, as its host tells it; the parent adds what it knows of the process."""
 
     state: str
     mode: str
     message: str
-    scan: int
-    time_ns: int
-    interval_ns: int
-    cycle_us: float
-    speed: float
-    paused: bool
-    trap: TrapInfo | None
-    forces: int
-    version: int
-    live_scan: int
+    scan: int = 0
+    time_ns: int = 0
+    interval_ns: int = 0
+    cycle_us: float = 0.0
+    speed: float = 1.0
+    pid: int | None = None
+    restarts: int = 0
+    trap: TrapInfo | None = None
+    forces: int = 0
+    version: int = 0
+    live_scan: int = 0
     """Where the PLC waits while the past is shown; else `scan`."""
-    past_by: str
-    """Who went to the past; empty when what is shown is live."""
-    target: str
-    previous_version: int | None
+    past_by: str = ""
+    """Who shows the past; empty when what is shown is live."""
+    target: str = ""
+    previous_version: int | None = None
     """What a roll back swaps in."""
-    late_percent: float
+    late_percent: float = 0.0
     late_us: float = 0.0
-    """Mean lateness of scans since the pace was set."""
+    """Mean lateness of scans since the pace was set; `worst_us` is the most."""
     worst_us: float = 0.0
     halt: Halt | None = None
     """Where a debugger halted it; then `state` is `halted` (`past` while that is in the past)."""
     flavour: str = ""
     """Which code runs, for people: empty is the ordinary one, `debug`, `probed`."""
+    startable: bool = True
+    """False while its model is missing: nothing starts it before the server finds that again."""
+    paused: bool = False
+    """Whether it would be, were it not halted, trapped or shown in the past: the next process goes on like that."""
 
 
 @dataclass(frozen=True, slots=True)

@@ -31,7 +31,7 @@ class Child:
         self.process = subprocess.Popen(command, pass_fds=[theirs.fileno()])
         theirs.close()
         self.messages: list[object] = []
-        self.state: protocol.HostState | None = None
+        self.state: protocol.PlcState | None = None
         """What was told last of it."""
         self._ref = 0
         sources = Sources(MODEL, {"main.st": source}, 10_000_000, 1)
@@ -57,10 +57,10 @@ class Child:
         assert data, "the host has ended"
         new = list(self._splitter.feed(data))
         self.messages += new
-        self.state = next((each for each in reversed(new) if isinstance(each, protocol.HostState)), self.state)
+        self.state = next((each for each in reversed(new) if isinstance(each, protocol.PlcState)), self.state)
         return new
 
-    def until(self, test: Callable[[protocol.HostState], bool]) -> protocol.HostState:
+    def until(self, test: Callable[[protocol.PlcState], bool]) -> protocol.PlcState:
         """Its state, when it is like that; also where that was told before other messages."""
         while self.state is None or not test(self.state):
             self.take()
@@ -89,7 +89,7 @@ class Child:
 
     def halted(self, after: int = 0) -> Halt:
         """The next halt."""
-        state = self.wait(protocol.HostState, lambda state: state.halt is not None and state.halt.number > after)
+        state = self.wait(protocol.PlcState, lambda state: state.halt is not None and state.halt.number > after)
         assert state.halt is not None
         return state.halt
 

@@ -10,7 +10,7 @@ import pytest
 
 from scanbench.runtime.forces import Force
 from scanbench.wire import host as protocol
-from scanbench.wire.host import Driven, HostState
+from scanbench.wire.host import Driven, PlcState
 from tests.host.child import Child
 
 COUNTING = "PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"
@@ -47,7 +47,7 @@ def test_paused_at_this_scan_at_this_speed(tmp_path: Path, cache: Path, end: End
         end(child)
     for end_again in (killed, ended):
         with Child(run, COUNTING, cache) as child:
-            state = child.wait(HostState)
+            state = child.wait(PlcState)
             assert (state.state, state.scan, state.speed) == ("paused", scan, 0)
             end_again(child)
 
@@ -59,14 +59,14 @@ def test_on_its_way_to_where_it_was_asked_to_end(tmp_path: Path, cache: Path, en
         drive(child, "continue", 0.01, scans=10_000)
         end(child)
     with Child(run, COUNTING, cache) as child:
-        state = child.wait(HostState)
+        state = child.wait(PlcState)
         assert (state.state, state.speed, state.target) == ("running", 0.01, "scan 10000")
         drive(child, "continue", 0, until="Main.n >= 10000")
-        paused = child.wait(HostState, lambda state: state.state == "paused")
+        paused = child.wait(PlcState, lambda state: state.state == "paused")
         assert paused.scan == 10_000
         end(child)
     with Child(run, COUNTING, cache) as child:
-        state = child.wait(HostState)
+        state = child.wait(PlcState)
         assert (state.state, state.scan, state.speed) == ("paused", 10_000, 0)
 
 
@@ -77,7 +77,7 @@ def test_at_max_it_runs_on_at_max(tmp_path: Path, cache: Path, end: Ended) -> No
         drive(child, "speed", 0)
         end(child)
     with Child(run, COUNTING, cache) as child:
-        state = child.wait(HostState)
+        state = child.wait(PlcState)
         assert (state.state, state.speed) == ("running", 0)
 
 
@@ -86,7 +86,7 @@ def test_what_the_server_asks_for_is_kept_before_it_is_told(tmp_path: Path, cach
     with Child(run, COUNTING, cache, Driven(speed=0.5, paused=True)) as child:
         killed(child)
     with Child(run, COUNTING, cache) as child:
-        state = child.wait(HostState)
+        state = child.wait(PlcState)
         assert (state.state, state.scan, state.speed) == ("paused", 0, 0.5)
 
 
@@ -99,13 +99,13 @@ def test_halted_it_stands_there_again_also_after_a_step(tmp_path: Path, cache: P
         child.step("scan")
         end(child)
     with Child(run, COUNTING, cache) as child:
-        state = child.wait(HostState)
+        state = child.wait(PlcState)
         assert state.state == "halted"
         assert state.scan in (scan, scan + 1)
         assert child.step("continue").ok
         end(child)
     with Child(run, COUNTING, cache) as child:
-        assert child.wait(HostState).state == "running"
+        assert child.wait(PlcState).state == "running"
 
 
 def test_what_was_acknowledged_is_told_before_it_is_said_to_run(tmp_path: Path, cache: Path) -> None:
@@ -121,4 +121,4 @@ def test_what_was_acknowledged_is_told_before_it_is_said_to_run(tmp_path: Path, 
         kinds = [type(each) for each in child.messages]
         told = [each for each in child.messages if isinstance(each, protocol.ForcesAre)]
         assert [[force.path for force in each.forces] for each in told[:1]] == [["D1"]]
-        assert kinds.index(protocol.ForcesAre) < kinds.index(HostState) < kinds.index(protocol.Standing)
+        assert kinds.index(protocol.ForcesAre) < kinds.index(PlcState) < kinds.index(protocol.Standing)

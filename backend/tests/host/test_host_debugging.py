@@ -84,7 +84,7 @@ def test_what_is_changed_while_halted_is_seen_by_the_next_statement(tmp_path: Pa
         assert int(child.value("Main.c.total")) == before + 1000
         set_breakpoints(child, ())
         child.step("continue")
-        child.wait(protocol.HostState, lambda state: state.state == "running" and not state.flavour)
+        child.wait(protocol.PlcState, lambda state: state.state == "running" and not state.flavour)
 
 
 def test_back_into_an_earlier_scan_and_forward_to_where_it_stands(tmp_path: Path, cache: Path) -> None:
@@ -99,7 +99,7 @@ def test_back_into_an_earlier_scan_and_forward_to_where_it_stands(tmp_path: Path
         refused = child.ask(lambda ref: protocol.Submit(ref, Write("Ann", "Main.n", "7")), protocol.Ack)
         assert not refused.ok
         assert child.step("continue").ok
-        again = child.wait(protocol.HostState, lambda state: state.halt is not None and not state.halt.past).halt
+        again = child.wait(protocol.PlcState, lambda state: state.halt is not None and not state.halt.past).halt
         assert again == live
 
 
@@ -116,7 +116,7 @@ def test_a_plc_that_is_killed_while_halted_stands_in_front_of_that_scan(tmp_path
         assert (halt.span and halt.span.line, child.value("up", 0)) == (6, "500")
         os.kill(child.process.pid, signal.SIGKILL)
     with Child(run, STATIONS, cache, Driven(paused=True), until=halt.scan) as child:
-        state = child.wait(protocol.HostState)
+        state = child.wait(protocol.PlcState)
         assert (state.scan, state.halt) == (halt.scan, None)
         assert (int(child.value("Main.n")), int(child.value("Main.c.total"))) == (n - 1, total)
         done = child.ask(lambda ref: protocol.Drive(ref, "scan", None, "Ann"), protocol.Ack)
@@ -130,11 +130,11 @@ def test_a_plc_that_was_halted_comes_back_standing(tmp_path: Path, cache: Path) 
         assert child.step("pause").ok
         halt = child.halted()
         assert child.step("back").ok
-        state = child.wait(protocol.HostState, lambda state: state.halt is not None and state.halt.past)
+        state = child.wait(protocol.PlcState, lambda state: state.halt is not None and state.halt.past)
         assert state.live_scan == halt.scan
         os.kill(child.process.pid, signal.SIGKILL)
     with Child(run, STATIONS, cache) as child:
-        state = child.wait(protocol.HostState)
+        state = child.wait(protocol.PlcState)
         assert (state.state, state.scan) == ("halted", halt.scan), "the PLC itself, whatever was shown"
         assert state.message == "halted: it was halted in this scan when its process ended"
         assert state.halt is not None
@@ -154,16 +154,16 @@ def test_a_scan_on_in_the_past_leaves_the_statement_that_was_shown(tmp_path: Pat
             assert child.step(action).ok
         child.ask(lambda ref: protocol.Travel(ref, 9, "Ann"), protocol.Ack)
         assert child.step("in").ok
-        halt = child.wait(protocol.HostState, lambda state: state.halt is not None and state.halt.scan == 9).halt
+        halt = child.wait(protocol.PlcState, lambda state: state.halt is not None and state.halt.scan == 9).halt
         assert halt is not None
         assert (halt.past, halt.count) == (True, 1)
         assert child.ask(lambda ref: protocol.Drive(ref, "scan", None, "Ann"), protocol.Ack).ok
-        state = child.wait(protocol.HostState, lambda state: state.scan == 10)
+        state = child.wait(protocol.PlcState, lambda state: state.scan == 10)
         assert (state.state, state.halt) == ("past", None)
         refused = child.ask(debug_protocol.WantStack, protocol.Ack)
         assert "not halted" in refused.message
         assert child.step("continue").ok
-        again = child.wait(protocol.HostState, lambda state: state.halt is not None and not state.halt.past).halt
+        again = child.wait(protocol.PlcState, lambda state: state.halt is not None and not state.halt.past).halt
         assert again == live
 
 
@@ -175,7 +175,7 @@ def test_the_program_can_be_halted_where_it_traps(tmp_path: Path, cache: Path) -
         assert (halt.reason, halt.scan, halt.span and halt.span.line) == ("trap", 49, 4)
         assert child.value("n", 0) == "0"
         child.step("continue")
-        state = child.wait(protocol.HostState, lambda state: state.state in ("trapped", "fatal"))
+        state = child.wait(protocol.PlcState, lambda state: state.state in ("trapped", "fatal"))
         assert state.trap is not None
         assert (state.trap.line, state.halt) == (4, None)
 
@@ -214,11 +214,11 @@ def test_coverage_says_what_was_reached(tmp_path: Path, cache: Path) -> None:
 def test_a_plain_breakpoint_runs_on_fast_code_once_that_is_built(tmp_path: Path, cache: Path) -> None:
     with Child(tmp_path / "a.run", STATIONS, cache, Driven(speed=0)) as child:
         set_breakpoints(child, at_line(6, instance="", condition="total > 4000000 AND total < 0"))
-        child.wait(protocol.HostState, lambda state: state.flavour == "probed")
+        child.wait(protocol.PlcState, lambda state: state.flavour == "probed")
         child.send(protocol.Drive(0, "speed", 1.0, "Ann"))
         n = int(child.value("Main.n"))
         set_breakpoints(child, at_line(11, condition=f"n = {n + 500}"))
-        child.wait(protocol.HostState, lambda state: state.flavour == "probed")
+        child.wait(protocol.PlcState, lambda state: state.flavour == "probed")
         halt = child.halted()
         assert (halt.reason, halt.instance, child.value("n", 0)) == ("breakpoint", "Main", str(n + 500))
 
@@ -228,7 +228,7 @@ def test_back_to_the_last_write(tmp_path: Path, cache: Path) -> None:
         "  a(up := 1);", "  IF n = 1000 THEN\n    mark := 7;\n  END_IF;\n  a(up := 1);"
     )
     with Child(tmp_path / "a.run", source, cache, Driven(speed=0)) as child:
-        child.wait(protocol.HostState, lambda state: state.scan > 100_000)
+        child.wait(protocol.PlcState, lambda state: state.scan > 100_000)
         assert child.step("reverse", path="Main.mark").ok
         halt = child.halted()
         assert (halt.past, halt.scan, halt.span and halt.span.line) == (True, 999, 12)

@@ -14,7 +14,7 @@ from scanbench.runtime.write import Write
 from scanbench.session.instance import Instance, Remembered
 from scanbench.store.records import Limits
 from scanbench.wire import host as protocol
-from scanbench.wire.host import Driven, HostState
+from scanbench.wire.host import Driven, PlcState
 from tests.host.child import Child
 
 COUNTING = "PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"
@@ -57,7 +57,7 @@ def test_it_waits_and_refuses_until_there_is_room(tmp_path: Path) -> None:
         assert not submit(child, Write("Ann", "D100", "13")).ok
         os.kill(child.process.pid, signal.SIGKILL)
     with Child(run, COUNTING, tmp_path / "cache") as child:
-        assert child.wait(HostState).state == "running"
+        assert child.wait(PlcState).state == "running"
         assert (child.value("D100"), child.value("D101")) == ("16#000B", "16#0005")
 
 
@@ -71,7 +71,7 @@ def test_paused_it_stays_paused_when_there_is_room(tmp_path: Path) -> None:
         room(child.process.pid, NO_LIMIT)
         done = child.ask(lambda ref: protocol.Drive(ref, "scan", None, "Ann"), protocol.Ack)
         assert (done.ok, done.scan) == (True, 1)
-        assert child.wait(HostState, lambda state: state.scan == 1).state == "paused"
+        assert child.wait(PlcState, lambda state: state.scan == 1).state == "paused"
 
 
 def test_a_plc_begins_when_there_is_room(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

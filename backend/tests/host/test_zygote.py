@@ -18,7 +18,7 @@ from scanbench.session.instance import Instance, Remembered
 from scanbench.store.records import Limits
 from scanbench.wire import host as protocol
 from scanbench.wire.codec import Splitter, pack
-from scanbench.wire.events import PlcState
+from scanbench.wire.host import PlcState
 
 COUNTING = "PROGRAM Main\nVAR n : DINT; END_VAR\n  n := n + 1;\nEND_PROGRAM\n"
 LARGE = "PROGRAM Main\nVAR n : ARRAY[1..{0}] OF DINT; END_VAR\n  n[1] := n[1] + 1;\nEND_PROGRAM\n"

@@ -12,7 +12,7 @@ import pytest
 from scanbench.runtime.write import Write
 from scanbench.session.instance import Instance, Patience, Remembered
 from scanbench.store.records import Limits
-from scanbench.wire.events import PlcState
+from scanbench.wire.host import PlcState
 from scanbench.wire.refused import Unavailable
 from tests.host.test_zygote import PATIENCE_S, runs, sources
 

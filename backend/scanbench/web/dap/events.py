@@ -8,7 +8,8 @@ from scanbench.web.dap.debuggee import Debuggee
 from scanbench.web.dap.shapes import Body
 from scanbench.web.dap.threads import PLC
 from scanbench.wire import events
-from scanbench.wire.events import Event, PlcState
+from scanbench.wire.events import Event
+from scanbench.wire.host import PlcState
 
 Send = Callable[[str, Body], None]
 _GONE = {

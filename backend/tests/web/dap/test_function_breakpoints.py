@@ -15,8 +15,7 @@ from scanbench.web.dap.events import Events
 from scanbench.web.dap.paths import ProjectPaths
 from scanbench.web.dap.shapes import Body, FunctionBreakpoint, SetFunctionBreakpoints
 from scanbench.wire.debugging import BreakpointsAre, DebugRequest, PlaceInfo, Places, SetBreakpoints, WantPlaces
-from scanbench.wire.events import PlcState
-from scanbench.wire.host import Sources
+from scanbench.wire.host import PlcState, Sources
 
 POUS = {"Main.st": "Main", "Belt.st": "Belt"}
 
