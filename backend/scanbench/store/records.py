@@ -3,7 +3,7 @@
 from collections.abc import Mapping
 from dataclasses import dataclass
 from datetime import datetime
-from typing import Literal
+from typing import ClassVar, Literal
 
 from scanbench.public import Moment, Public
 
@@ -125,8 +125,10 @@ class HistoryRow:
 
 
 @dataclass(frozen=True, slots=True)
-class StateRow:
+class StateRow(Public):
     """A point in a run that was kept to begin sweeps from."""
+
+    PUBLIC: ClassVar = "ProgramState"
 
     id: int
     project: int
@@ -136,17 +138,19 @@ class StateRow:
     scan: int
     program_version: int
     by: str
-    at: datetime
+    at: Moment
 
 
 @dataclass(frozen=True, slots=True)
-class SweptError:
+class SweptError(Public):
     """A row of a sweep's matrix: an error as the catalogue knew it then."""
+
+    PUBLIC: ClassVar = "SweepError"
 
     id: str
     name: str
     code: str
-    severity: str
+    severity: Literal["fatal", "nonfatal"]
     group: str
 
 

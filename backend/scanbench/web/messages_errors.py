@@ -4,6 +4,7 @@ from typing import Annotated, Literal
 
 from pydantic import Field
 
+from scanbench.store.records import SweptError
 from scanbench.web.messages_base import Id, Scan, Wire
 
 Severity = Literal["fatal", "nonfatal"]
@@ -224,17 +225,6 @@ class NewProgramState(Wire):
     scan: Scan | None = None
 
 
-class ProgramState(Wire):
-    id: int
-    project: int
-    name: str
-    instance: str = Field(description="name of the PLC that it was taken from")
-    scan: int
-    program_version: int
-    by: str
-    at: str
-
-
 class NewSweep(Wire):
     """Every error alone, from every state. `states`: numbers of kept states; none: from the PLC as it is now."""
 
@@ -273,16 +263,6 @@ class Accepted(Wire):
     at: str
 
 
-class SweepError(Wire):
-    """A row of the matrix: an error as the catalogue knew it then."""
-
-    id: str
-    name: str
-    code: str
-    severity: Severity
-    group: str
-
-
 class SweepCell(Wire):
     error: str
     state: str
@@ -296,7 +276,7 @@ class SweepCell(Wire):
 
 
 class Sweep(SweepSummary):
-    errors: list[SweepError]
+    errors: tuple[SweptError, ...]
     cells: list[SweepCell]
 
 

@@ -5,17 +5,9 @@ from typing import get_args
 
 from scanbench.public import iso
 from scanbench.server.sweeps import Comparison, Whole
-from scanbench.store.records import AcceptedRow, CellRow, StateRow, SweepRow
+from scanbench.store.records import AcceptedRow, CellRow, SweepRow
 from scanbench.web import messages_errors as wire
 from scanbench.wire.events import SweepChanged
-
-
-def state(row: StateRow) -> wire.ProgramState:
-    """A state that was kept."""
-    return wire.ProgramState(
-        id=row.id, project=row.project, name=row.name, instance=row.instance, scan=row.scan,
-        program_version=row.program_version, by=row.by, at=iso(row.at),
-    )  # fmt: skip
 
 
 def summary(row: SweepRow) -> wire.SweepSummary:
@@ -28,10 +20,7 @@ def whole(found: Whole) -> wire.Sweep:
     return wire.Sweep.model_validate(
         {
             **_summary(found.row),
-            "errors": [
-                {"id": each.id, "name": each.name, "code": each.code, "severity": each.severity, "group": each.group}
-                for each in found.row.errors
-            ],
+            "errors": found.row.errors,
             "cells": [_cell(cell, found.accepted) for cell in found.cells],
         }
     )

@@ -3,6 +3,7 @@
 from fastapi import APIRouter, Request
 
 from scanbench.faults.reaction.reaction import Reaction
+from scanbench.store.records import StateRow
 from scanbench.web import messages as wire
 from scanbench.web import messages_errors, translate, translate_sweeps
 from scanbench.web.auth import user_of
@@ -13,18 +14,16 @@ router = APIRouter(prefix="/api", tags=["sweeps"])
 
 
 @router.get("/projects/{project}/states")
-async def on_states(bench: Bench, project: Id) -> list[messages_errors.ProgramState]:
+async def on_states(bench: Bench, project: Id) -> list[StateRow]:
     """The states that somebody kept."""
-    return list(map(translate_sweeps.state, await bench.states.of_project(project)))
+    return await bench.states.of_project(project)
 
 
 @router.post("/instances/{instance}/states", status_code=201)
-async def on_new_state(
-    bench: Bench, request: Request, instance: Id, new: messages_errors.NewProgramState
-) -> messages_errors.ProgramState:
+async def on_new_state(bench: Bench, request: Request, instance: Id, new: messages_errors.NewProgramState) -> StateRow:
     """Keeps the PLC as it was before a scan, or is now."""
     session = bench.session(instance)
-    return translate_sweeps.state(await bench.states.keep(session, new.name.strip(), new.scan, user_of(request).name))
+    return await bench.states.keep(session, new.name.strip(), new.scan, user_of(request).name)
 
 
 @router.delete("/states/{state}", status_code=204)
