@@ -17,6 +17,7 @@ from scanbench.store.store import Store
 from scanbench.taps.spool import Spool, read_pages
 from scanbench.taps.trace import TraceSignal
 from scanbench.taps.trace_buffer import Samples, TooMany, TraceBuffer, buffer_of
+from scanbench.typed import make
 from scanbench.wire.events import FlightChanged
 from scanbench.wire.refused import Refused
 from scanbench.wire.traces import FlightAt, FlightDone, RecordFlight, TraceStatus
@@ -276,16 +277,9 @@ def _loaded(path: Path, record: TraceRecord) -> TraceBuffer:
 
 def _record(row: KeptRow) -> TraceRecord:
     content = row.content
-    signals = tuple(map(_signal, cast("list[dict[str, object]]", content["signals"])))
+    signals = tuple(make(TraceSignal, each) for each in cast("list[dict[str, object]]", content["signals"]))
     number: Callable[[str], int] = lambda name: cast(int, content[name])  # noqa: E731
     return TraceRecord(
         row, str(content["origin"]), signals, number("every"), cast("int | None", content["triggered"]), number("first"),
         number("end"), number("rows"), number("interval_ns"), number("version"),
     )  # fmt: skip
-
-
-def _signal(data: dict[str, object]) -> TraceSignal:
-    values = tuple((str(name), int(number)) for name, number in cast("list[tuple[str, int]]", data["values"]))
-    return TraceSignal(
-        str(data["text"]), str(data["type"]), str(data["kind"]), cast(int, data["size"]), values, str(data["message"])
-    )

@@ -8,11 +8,11 @@ from typing import cast
 from scanbench.store.records import Json, NotFound
 from scanbench.taps.trace import TraceDefinition
 from scanbench.taps.trace_buffer import Samples
+from scanbench.typed import make
 from scanbench.wire import events
 from scanbench.wire import host as protocol
 from scanbench.wire.refused import Refused, Unavailable
 from scanbench.wire.traces import DefineTrace, DriveTrace, ReadTrace, TraceRead, TracesAre, TraceStatus
-from scanbench.wire.typed import make
 
 Ask = Callable[[Callable[[int], object]], Awaitable[object]]
 

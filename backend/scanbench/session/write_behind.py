@@ -18,6 +18,7 @@ from scanbench.plcmodel.model import Model
 from scanbench.reports.reaction_json import from_json, to_json
 from scanbench.store.records import HistoryRow, Json, LogRow, NotFound, StoreError
 from scanbench.store.store import Store
+from scanbench.typed import BadValue, make
 from scanbench.wire.events import LogEntry
 from scanbench.wire.host import MarkKind
 
@@ -244,6 +245,6 @@ def line_of(kept: LogRow) -> LogEntry:
 def breakpoint_of(kept: Mapping[str, object]) -> Breakpoint | None:
     """A breakpoint as the store has it; None where another version of the program kept what this one does not know."""
     try:
-        return Breakpoint(**kept)  # type: ignore[arg-type]  # as it was kept; what else it may be has no such fields
-    except TypeError:
+        return make(Breakpoint, kept)
+    except BadValue:
         return None

@@ -42,6 +42,7 @@ from scanbench.runtime.write import Write
 from scanbench.symbols.violations import Violation, Violations
 from scanbench.taps.covered import CoveredFile, CoveredOutcome, CoveredSite
 from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
+from scanbench.typed import check
 from scanbench.verify.contract import Column, Input, Mismatch, Output, Place, Range, Row
 from scanbench.wire import debugging as debug_protocol
 from scanbench.wire import events
@@ -49,7 +50,6 @@ from scanbench.wire import host as protocol
 from scanbench.wire import jobs as job_protocol
 from scanbench.wire import traces as trace_protocol
 from scanbench.wire import verification as verify_protocol
-from scanbench.wire.typed import BadValue, check
 
 LENGTH = struct.Struct("<I")
 LARGEST = 1 << 30
@@ -116,7 +116,7 @@ def unpack(body: bytes, read: _Read | None = None) -> object:
     """The message in `body`, which comes without its length."""
     try:
         return msgpack.unpackb(body, ext_hook=read or _read, use_list=False, strict_map_key=False, timestamp=3)
-    except (ValueError, TypeError, KeyError, BadValue) as error:
+    except (ValueError, TypeError, KeyError) as error:
         raise BadMessage(f"{len(body)} bytes that are no message: {error}") from error
 
 

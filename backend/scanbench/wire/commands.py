@@ -13,7 +13,8 @@ from scanbench.runtime.forces import Force, Release
 from scanbench.runtime.modes import SetMode
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
-from scanbench.wire.typed import BadValue, make
+from scanbench.typed import BadValue, make
+from scanbench.wire.refused import Refused
 
 
 @dataclass(frozen=True, slots=True)
@@ -44,13 +45,15 @@ COMMANDS: dict[str, Known] = {
 
 def read_command(name: str, given: Mapping[str, object], author: str) -> Command:
     """The command of this name; `given` are its fields as plain values. Of one that takes what is `wanted` they are that one's
-    fields. `BadValue` says what is wrong."""
+    fields. `Refused` says what is wrong."""
     known = COMMANDS.get(name)
     if known is None:
-        raise BadValue(f"there is no command {name}; there are {', '.join(COMMANDS)}")
-    if known.fields == ("wanted",):
-        return make(known.cls, {"author": author, "wanted": given})
-    unknown = next((each for each in given if each not in known.fields), None)
+        raise Refused(f"there is no command {name}; there are {', '.join(COMMANDS)}")
+    fields = {"wanted": given} if known.fields == ("wanted",) else given
+    unknown = next((each for each in fields if each not in known.fields), None)
     if unknown is not None:
-        raise BadValue(f"{unknown}: {name} has no such field; it has {', '.join(known.fields) or 'none'}")
-    return make(known.cls, {"author": author, **given})
+        raise Refused(f"{unknown} is unknown; {name} has {', '.join(known.fields) or 'no fields'}")
+    try:
+        return make(known.cls, {"author": author, **fields})
+    except BadValue as error:
+        raise Refused(str(error)) from None

@@ -10,7 +10,7 @@ import pytest
 BACKEND = Path(__file__).parents[2]
 ROOMS = (
     "cli web server session comm jobs host wire reports history verify store taps faults debug recording runtime engines check symbols"
-    " program syntax plcmodel problems garbage public".split()
+    " program syntax plcmodel problems garbage public typed".split()
 )
 INNER = ["engines.interpreter", "engines.native", "runtime.clock"]
 

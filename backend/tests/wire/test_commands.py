@@ -15,10 +15,11 @@ from scanbench.faults.shapes import Shape, Start, Wanted
 from scanbench.runtime.command import Entry, Plan
 from scanbench.runtime.restart import Restart
 from scanbench.runtime.write import Write
+from scanbench.typed import BadValue, check, make
 from scanbench.wire.codec import ENTRIES, BadMessage, pack_body, unpack
 from scanbench.wire.commands import COMMANDS, read_command
 from scanbench.wire.host import Sources
-from scanbench.wire.typed import BadValue, check, make
+from scanbench.wire.refused import Refused
 
 
 def test_commands_are_made_of_plain_values() -> None:
@@ -38,19 +39,23 @@ def test_commands_are_made_of_plain_values() -> None:
     ("name", "given", "said"),
     [
         ("burn", {}, "there is no command burn"),
-        ("write", {"path": "Main.n"}, "value: it is missing"),
-        ("write", {"path": "Main.n", "value": 7}, "value: 7 where str should be"),
-        ("write", {"path": "Main.n", "value": "7", "through": "x"}, "through: write has no such field"),
-        ("generate", {"errors": [{"id": "x", "detail": {}}]}, "errors: detail: there is no such field"),
-        ("generate", {"errors": "x"}, "errors: 'x' where a list should be"),
-        ("restart", {"kind": "hot"}, "kind: 'hot' is none of cold, warm, power"),
-        ("recover", {"ids": [1]}, "ids: 1 where str should be"),
-        ("clear_errors", {"what": "some"}, "what: 'some' is none of current, all; 'some' where int should be"),
-        ("arm", {"errors": [], "start": {"kind": "scan", "scan": "9"}}, "wanted: start: scan: '9' where int should be"),
+        ("write", {"path": "Main.n"}, "value is missing"),
+        ("write", {"path": "Main.n", "value": 7}, "value must be a text, not 7"),
+        ("write", {"path": "Main.n", "value": "7", "through": "x"}, "through is unknown; write has path, value, site"),
+        ("generate", {"errors": [{"id": "x", "detail": {}}]}, "errors: detail is unknown; there are id, details"),
+        ("generate", {"errors": "x"}, "errors must be a list of objects, not 'x'"),
+        ("restart", {"kind": "hot"}, "kind must be one of cold, warm, power, not 'hot'"),
+        ("recover", {"ids": [1]}, "ids must be a text, not 1"),
+        ("clear_errors", {"what": "some"}, "what must be one of current, all, not 'some'"),
+        (
+            "arm",
+            {"errors": [], "start": {"kind": "scan", "scan": "9"}},
+            "wanted: start: scan must be a whole number, not '9'",
+        ),
     ],
 )
 def test_what_does_not_fit_is_refused_by_its_field(name: str, given: dict[str, object], said: str) -> None:
-    with pytest.raises(BadValue) as told:
+    with pytest.raises(Refused) as told:
         read_command(name, given, "ada")
     assert str(told.value).startswith(said)
 

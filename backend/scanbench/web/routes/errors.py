@@ -5,6 +5,7 @@ from fastapi import APIRouter, Request
 from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.reference import ErrorRef
+from scanbench.typed import make
 from scanbench.web import messages as wire
 from scanbench.web import messages_errors, translate
 from scanbench.web.messages_base import Id
@@ -12,7 +13,6 @@ from scanbench.web.reach import Bench
 from scanbench.web.routes.entering import entered
 from scanbench.wire.host import PreviewedErrors
 from scanbench.wire.refused import Refused
-from scanbench.wire.typed import make
 
 router = APIRouter(prefix="/api/instances/{instance}", tags=["errors"])
 

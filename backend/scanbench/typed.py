@@ -1,6 +1,7 @@
 """Values against the annotations of dataclasses: what came over a link, out of a file or from a client is what it says it is.
 
-Clients give `plain` values: mappings and lists, of which dataclasses and tuples are made. The codec has made these already.
+Clients and databases give `plain` values: mappings and lists, of which dataclasses and tuples are made. The codec has made these
+already. This module imports nothing of ours: every room may use it.
 """
 
 from collections.abc import Callable, Mapping, Sequence
@@ -10,14 +11,21 @@ from functools import cache
 from types import NoneType, UnionType
 from typing import Literal, TypeVar, Union, get_args, get_origin, get_type_hints
 
-from scanbench.wire.refused import Refused
-
 T = TypeVar("T")
 Read = Callable[[object], object]
+_NAMES: dict[type, str] = {bool: "true or false", int: "a whole number", float: "a number", str: "a text"}
 
 
-class BadValue(Refused):
+class BadValue(ValueError):
     """It is not what the annotation says; the message names the field."""
+
+
+class _Wrong(BadValue):
+    """A value by itself: `must be a text, not 7`."""
+
+    def __init__(self, wanted: str, value: object) -> None:
+        text = repr(value)
+        super().__init__(f"must be {wanted}, not {text if len(text) <= 60 else text[:60] + '...'}")
 
 
 def make(cls: type[T], given: Mapping[str, object]) -> T:
@@ -26,23 +34,18 @@ def make(cls: type[T], given: Mapping[str, object]) -> T:
     made: dict[str, object] = {}
     for name, value in given.items():
         if name not in readers:
-            raise BadValue(f"{name}: there is no such field; there are {', '.join(readers)}")
+            raise BadValue(f"{name} is unknown; there are {', '.join(readers)}")
         try:
             made[name] = readers[name](value)
+        except _Wrong as error:
+            raise BadValue(f"{name} {error}") from None
         except BadValue as error:
             raise BadValue(f"{name}: {error}") from None
     missing = [name for name in _required(cls) if name not in made]
     if missing:
-        raise BadValue(f"{missing[0]}: it is missing")
+        raise BadValue(f"{missing[0]} is missing")
     build: Callable[..., T] = cls
     return build(**made)
-
-
-@cache
-def field_readers(cls: type, plain: bool = False) -> dict[str, Read]:
-    """What reads each field of a dataclass, in their order."""
-    hints = get_type_hints(cls)
-    return {each.name: reader(hints[each.name], plain) for each in fields(cls)}
 
 
 def check(cls: type, values: Sequence[object]) -> None:
@@ -56,6 +59,13 @@ def check(cls: type, values: Sequence[object]) -> None:
 
 
 @cache
+def field_readers(cls: type, plain: bool = False) -> dict[str, Read]:
+    """What reads each field of a dataclass, in their order."""
+    hints = get_type_hints(cls)
+    return {each.name: _reader(hints[each.name], plain) for each in fields(cls)}
+
+
+@cache
 def _checks(cls: type) -> tuple[tuple[frozenset[type], Read], ...]:
     """Of each field the types that need no other look, as there are many values, and what reads all others."""
     hints = get_type_hints(cls)
@@ -64,7 +74,7 @@ def _checks(cls: type) -> tuple[tuple[frozenset[type], Read], ...]:
 
 def _settled(hint: object) -> frozenset[type]:
     if get_origin(hint) in (Union, UnionType):
-        return frozenset().union(*map(_settled, get_args(hint)))
+        return frozenset[type]().union(*map(_settled, get_args(hint)))
     if not isinstance(hint, type) or get_origin(hint) is not None or issubclass(hint, Enum):
         return frozenset()
     return frozenset((float, int) if hint is float else (hint,))
@@ -72,39 +82,36 @@ def _settled(hint: object) -> frozenset[type]:
 
 @cache
 def _required(cls: type) -> tuple[str, ...]:
-    return tuple(
-        each.name for each in fields(cls) if each.default is MISSING and each.default_factory is MISSING
-    )  # fmt: skip
+    return tuple(each.name for each in fields(cls) if each.default is MISSING and each.default_factory is MISSING)
 
 
-def reader(hint: object, plain: bool) -> Read:
-    """What takes a value of this annotation, and refuses all others with `BadValue`."""
+def _reader(hint: object, plain: bool) -> Read:
+    """What takes a value of this annotation, and refuses all others."""
     origin, args = get_origin(hint), get_args(hint)
     if origin is Literal:
         return _one_of(args)
     if origin in (Union, UnionType):
         return _union(args, plain)
     if origin is tuple:
-        return _tuple(args, plain)
+        return _each(args[0], plain) if args[1:] == (Ellipsis,) else _pair(args, plain)
     if origin in (Sequence, list):
-        return _tuple((args[0], ...), plain)
+        return _each(args[0], plain)
     if origin in (Mapping, dict):
-        return _mapping(reader(args[0], plain), reader(args[1], plain))
+        return _mapping(_reader(args[0], plain), _reader(args[1], plain))
     if not isinstance(hint, type) or hint is object:
         return lambda value: value
     if issubclass(hint, Enum):
         return _one_of(tuple(each.value for each in hint))
-    if is_dataclass(hint):
-        return _dataclass(hint) if plain else _plain(hint)
-    return _plain(hint)
+    return _dataclass(hint) if plain and is_dataclass(hint) else _of(hint, plain)
 
 
-def _plain(hint: type) -> Read:
-    types = (int, float) if hint is float else hint
+def _of(hint: type, plain: bool) -> Read:
+    types = (int, float) if hint is float else (hint,)
+    no_bool = plain and hint in (int, float)
 
     def read(value: object) -> object:
-        if not isinstance(value, types):
-            raise BadValue(f"{_shown(value)} where {hint.__name__} should be")
+        if not isinstance(value, types) or (no_bool and isinstance(value, bool)):
+            raise _Wrong(_NAMES.get(hint, hint.__name__), value)
         return value
 
     return read
@@ -116,7 +123,7 @@ def _dataclass(hint: type) -> Read:
             return value
         if isinstance(value, Mapping):
             return make(hint, value)
-        raise BadValue(f"{_shown(value)} where {hint.__name__} should be")
+        raise _Wrong("an object", value)
 
     return read
 
@@ -124,44 +131,50 @@ def _dataclass(hint: type) -> Read:
 def _one_of(allowed: tuple[object, ...]) -> Read:
     def read(value: object) -> object:
         if value not in allowed:
-            raise BadValue(f"{_shown(value)} is none of {', '.join(map(str, allowed))}")
+            raise _Wrong(f"one of {', '.join(map(str, allowed))}", value)
         return value
 
     return read
 
 
 def _union(args: tuple[object, ...], plain: bool) -> Read:
-    classes = tuple(each for each in args if isinstance(each, type) and get_origin(each) is None and each is not object)
-    known = (*classes, int) if float in classes else classes
-    readers = [reader(each, plain) for each in args if each is not NoneType]
+    readers = [_reader(each, plain) for each in args if each is not NoneType]
+    optional = NoneType in args
 
     def read(value: object) -> object:
-        if isinstance(value, known):
+        if value is None and optional:
             return value
-        refused: list[str] = []
+        refused: list[BadValue] = []
         for each in readers:
             try:
                 return each(value)
             except BadValue as error:
-                refused.append(str(error))
-        raise BadValue("; ".join(refused))
+                refused.append(error)
+        raise refused[0]
 
     return read
 
 
-def _tuple(args: tuple[object, ...], plain: bool) -> Read:
-    each = reader(args[0], plain) if args[1:] == (Ellipsis,) else None
-    readers = [] if each is not None else [reader(arg, plain) for arg in args]
+def _each(hint: object, plain: bool) -> Read:
+    each = _reader(hint, plain)
+    wanted = "a list of objects" if isinstance(hint, type) and is_dataclass(hint) else "a list"
 
     def read(value: object) -> object:
         items = tuple(value.items()) if plain and isinstance(value, Mapping) else value
         if not isinstance(items, tuple | list):
-            raise BadValue(f"{_shown(value)} where a list should be")
-        if each is not None:
-            return tuple(map(each, items))
-        if len(items) != len(readers):
-            raise BadValue(f"a list of {len(items)} where one of {len(readers)} should be")
-        return tuple(one(item) for one, item in zip(readers, items, strict=True))
+            raise _Wrong(wanted, value)
+        return tuple(map(each, items))
+
+    return read
+
+
+def _pair(args: tuple[object, ...], plain: bool) -> Read:
+    readers = [_reader(each, plain) for each in args]
+
+    def read(value: object) -> object:
+        if not isinstance(value, tuple | list) or len(value) != len(readers):
+            raise _Wrong(f"a list of {len(readers)}", value)
+        return tuple(each(item) for each, item in zip(readers, value, strict=True))
 
     return read
 
@@ -169,12 +182,7 @@ def _tuple(args: tuple[object, ...], plain: bool) -> Read:
 def _mapping(key: Read, each: Read) -> Read:
     def read(value: object) -> object:
         if not isinstance(value, Mapping):
-            raise BadValue(f"{_shown(value)} where a mapping should be")
+            raise _Wrong("an object", value)
         return {key(name): each(item) for name, item in value.items()}
 
     return read
-
-
-def _shown(value: object) -> str:
-    text = repr(value)
-    return text if len(text) <= 60 else text[:60] + "..."
