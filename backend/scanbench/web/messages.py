@@ -346,9 +346,9 @@ class Unwatch(Wire):
     ids: list[int]
 
 
-class Write(Wire):
-    type: Literal["write"] = "write"
-    ref: int
+class WriteValue(Wire):
+    """Write a variable or an address, with the rights of a tool."""
+
     path: str
     value: str = Field(description="as typed: TRUE, 42, 16#FF, T#5s, 1.5, 'text'")
     site: str = Field(
@@ -356,12 +356,18 @@ class Write(Wire):
     )
 
 
-class Force(Wire):
+class Write(WriteValue):
+    """`WriteValue` on the socket."""
+
+    type: Literal["write"] = "write"
+    ref: int
+
+
+class Force(WriteValue):
+    """Holds it at the value until it is released."""
+
     type: Literal["force"] = "force"
     ref: int
-    path: str
-    value: str
-    site: str = Field(default="", description="as of `Write`")
 
 
 class Release(Wire):

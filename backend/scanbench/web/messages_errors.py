@@ -115,13 +115,18 @@ class GenerateOne(Wire):
     details: dict[str, str] = Field(default_factory=dict, description="detail name to chosen entry or number")
 
 
-class Generate(Wire):
+class GenerateErrors(Wire):
     """All of them in one seam, or none. `again`: errors that are present change to these details."""
+
+    errors: list[GenerateOne] = Field(min_length=1)
+    again: bool = False
+
+
+class Generate(GenerateErrors):
+    """`GenerateErrors` on the socket."""
 
     type: Literal["generate"] = "generate"
     ref: int
-    errors: list[GenerateOne] = Field(min_length=1)
-    again: bool = False
 
 
 class Recover(Wire):
@@ -182,11 +187,8 @@ class Disarm(DisarmFaults):
     ref: int
 
 
-class PreviewErrors(Wire):
+class PreviewErrors(GenerateErrors):
     """What raising these would write now. Nothing is changed."""
-
-    errors: list[GenerateOne] = Field(min_length=1)
-    again: bool = False
 
 
 class CommandResult(Wire):
@@ -196,11 +198,6 @@ class CommandResult(Wire):
     message: str
     scan: int
     near: list[str] = Field(default_factory=list)
-
-
-class GenerateErrors(Wire):
-    errors: list[GenerateOne] = Field(min_length=1)
-    again: bool = False
 
 
 class RecoverErrors(Wire):

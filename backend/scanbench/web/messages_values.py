@@ -20,16 +20,6 @@ class Value(Wire):
     alias: str = Field(description="of an in-out or reference: what it leads to, `-> Main.tank[3].level (D120)`")
 
 
-class WriteValue(Wire):
-    """Write a variable or an address, with the rights of a tool."""
-
-    path: str
-    value: str = Field(description="as typed: TRUE, 42, 16#FF, T#5s, 1.5, 'text'")
-    site: str = Field(
-        default="", description="of an in-out: what this call (file:line) passes, instead of the last one"
-    )
-
-
 class ReleaseForces(Wire):
     path: str | None = Field(default=None, description="null releases all")
 

@@ -5,6 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Query, Request
 
 from scanbench.runtime.forces import ForcedValue
+from scanbench.web import messages as wire
 from scanbench.web import messages_values
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id
@@ -38,7 +39,7 @@ async def on_read(
 
 
 @router.post("/write")
-async def on_write(bench: Bench, request: Request, instance: Id, wanted: messages_values.WriteValue) -> CommandResult:
+async def on_write(bench: Bench, request: Request, instance: Id, wanted: wire.WriteValue) -> CommandResult:
     """Writes a variable or an address, with the rights of a tool: error memory is read-only here."""
     return await entered(bench, request, instance, "write", wanted)
 
@@ -50,7 +51,7 @@ async def on_forces(bench: Bench, instance: Id) -> tuple[ForcedValue, ...]:
 
 
 @router.post("/force")
-async def on_force(bench: Bench, request: Request, instance: Id, wanted: messages_values.WriteValue) -> CommandResult:
+async def on_force(bench: Bench, request: Request, instance: Id, wanted: wire.WriteValue) -> CommandResult:
     """Holds a variable or an address at a value until it is released."""
     return await entered(bench, request, instance, "force", wanted)
 
