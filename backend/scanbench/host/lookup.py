@@ -7,7 +7,8 @@ from scanbench.program.types import Elementary, Enumeration, Section, StringType
 from scanbench.symbols.call_sites import formal_of
 from scanbench.symbols.instances import instances_of
 from scanbench.symbols.symbols import Symbol, UnknownPath, complete, members, resolve
-from scanbench.wire.host import EnumValue, Found, Lookup, SymbolInfo, SymbolKind, WatchItem
+from scanbench.wire.host import Found, Lookup
+from scanbench.wire.symbols import EnumValue, SymbolInfo, SymbolKind, WatchItem
 
 COMPLETIONS = 50
 _KINDS: dict[str, SymbolKind] = {kind: kind for kind in get_args(SymbolKind)}

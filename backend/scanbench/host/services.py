@@ -23,6 +23,7 @@ from scanbench.symbols.symbols import Symbol
 from scanbench.symbols.violations import Violations, read_violations
 from scanbench.taps.watch import WatchPlan
 from scanbench.wire import host as protocol
+from scanbench.wire.symbols import WatchItem
 
 TICK_NS = 50_000_000
 IDLE_TICK_NS = 1_000_000_000
@@ -231,9 +232,9 @@ class Services:
         items = {item.id: item for item in self._plan_watch(asked)}
         self._link.post(protocol.Watching(message.ref, tuple(items[id] for id in asked)))
 
-    def _plan_watch(self, again: "list[int] | dict[int, str] | tuple[int, ...]") -> tuple[protocol.WatchItem, ...]:
+    def _plan_watch(self, again: "list[int] | dict[int, str] | tuple[int, ...]") -> tuple[WatchItem, ...]:
         """Makes the gather plan anew; values of the ids in `again` are sent even if they did not change."""
-        items: list[protocol.WatchItem] = []
+        items: list[WatchItem] = []
         symbols: dict[int, Symbol] = {}
         for id, path in self._watched.items():
             item, symbol = watch_item(self._resource.program, id, path)

@@ -11,6 +11,7 @@ from typing import cast
 from pydantic import TypeAdapter
 
 from scanbench.web import messages as wire
+from scanbench.web import messages_client as client
 from scanbench.web.app import bare_app
 from scanbench.web.component_names import REFERENCE, by_title
 
@@ -20,7 +21,7 @@ def document() -> dict[str, object]:
     api = bare_app().openapi()
     schemas = cast(dict[str, object], api["components"]["schemas"])
     unions = {
-        "ClientMessage": TypeAdapter[wire.ClientMessage](wire.ClientMessage).json_schema(ref_template=_TEMPLATE),
+        "ClientMessage": TypeAdapter[client.ClientMessage](client.ClientMessage).json_schema(ref_template=_TEMPLATE),
         "ServerMessage": TypeAdapter[wire.ServerMessage](wire.ServerMessage).json_schema(ref_template=_TEMPLATE),
     }
     for name, schema in unions.items():

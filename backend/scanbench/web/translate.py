@@ -20,7 +20,8 @@ from scanbench.web import (
 from scanbench.web.messages_watch import WatchListChanged
 from scanbench.wire import events
 from scanbench.wire.events import BuildOutcome, Change, CheckOutcome, User
-from scanbench.wire.host import PlcState, WatchItem
+from scanbench.wire.host import PlcState
+from scanbench.wire.symbols import WatchItem
 
 
 def user(who: User) -> wire.User:

@@ -45,7 +45,7 @@ from scanbench.taps.trace import TraceDefinition, TraceSignal, TraceTrigger
 from scanbench.typed import check
 from scanbench.verify.contract import Column, Input, Mismatch, Output, Place, Range, Row
 from scanbench.wire import debugging as debug_protocol
-from scanbench.wire import events
+from scanbench.wire import events, symbols
 from scanbench.wire import host as protocol
 from scanbench.wire import jobs as job_protocol
 from scanbench.wire import traces as trace_protocol
@@ -69,10 +69,10 @@ _CLASSES: dict[str, type] = {
         protocol.Entered, protocol.Found, protocol.Frame, protocol.PlcState, protocol.Lookup, protocol.Preview,
         protocol.Ping, protocol.Pong, protocol.Previewed, protocol.Quit, protocol.Ready, protocol.NowRuns, protocol.RollBack, protocol.RunMark, protocol.RunMarks,
         protocol.SetLimits, protocol.Sources, protocol.Standing, protocol.Start, protocol.StartFailed,
-        protocol.Submit, protocol.SymbolInfo, protocol.Travel, protocol.UnwatchIds, protocol.WantSnapshot,
-        protocol.WatchItem, protocol.WatchPaths, protocol.Watching, protocol.WantSources, protocol.SourcesOf,
+        protocol.Submit, symbols.SymbolInfo, protocol.Travel, protocol.UnwatchIds, protocol.WantSnapshot,
+        symbols.WatchItem, protocol.WatchPaths, protocol.Watching, protocol.WantSources, protocol.SourcesOf,
         Arm, ArmedInfo, Disarm, Missed, Numbered, PreviewedWrite, Shape, Wanted, protocol.PreviewErrors,
-        protocol.PreviewedErrors, protocol.ErrorsPreviewed, protocol.EnumValue, Difference, Line, Reaction, Reader,
+        protocol.PreviewedErrors, protocol.ErrorsPreviewed, symbols.EnumValue, Difference, Line, Reaction, Reader,
         job_protocol.CellFound, job_protocol.FindReaction, job_protocol.JobDone, job_protocol.Reacted,
         job_protocol.RunSweep, job_protocol.StartPoint, job_protocol.Trying, Raised,
         ForcedValue, protocol.ForcesAre, protocol.WantForces, Breakpoint, Verdict, Halt, Assign, SetLocal, debug_protocol.SetBreakpoints, debug_protocol.Step, debug_protocol.WantStack,

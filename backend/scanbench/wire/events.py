@@ -19,7 +19,8 @@ from scanbench.store.records import AcceptedRow, CellRow, ProjectRow, SweepRow
 from scanbench.symbols.violations import Violations
 from scanbench.verify.contract import DEFAULT_LIMIT, Memory, Mismatch, Range
 from scanbench.wire import debugging as debug_protocol
-from scanbench.wire.host import MarkKind, PlcState, Previewed, RunMark, WatchItem
+from scanbench.wire.host import MarkKind, PlcState, Previewed, RunMark
+from scanbench.wire.symbols import WatchItem
 from scanbench.wire.traces import TraceStatus
 
 VerifyPace = Literal["free", "scan", "step"]

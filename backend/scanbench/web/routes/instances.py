@@ -17,8 +17,8 @@ from scanbench.web.messages_base import Id, Scan, Version
 from scanbench.web.messages_errors import ErrorHistoryRow
 from scanbench.web.reach import Bench, SocketBench
 from scanbench.web.socket.socket import Client
-from scanbench.wire.host import SymbolInfo
 from scanbench.wire.refused import Refused
+from scanbench.wire.symbols import SymbolInfo
 
 router = APIRouter(prefix="/api", tags=["instances"])
 LARGEST_IMPORT = 1 << 30

@@ -5,8 +5,7 @@ from typing import Annotated
 from fastapi import APIRouter, Query, Request
 
 from scanbench.runtime.forces import ForcedValue
-from scanbench.web import messages as wire
-from scanbench.web import messages_values
+from scanbench.web import messages_client, messages_values
 from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id
 from scanbench.web.messages_errors import CommandResult
@@ -39,7 +38,7 @@ async def on_read(
 
 
 @router.post("/write")
-async def on_write(bench: Bench, request: Request, instance: Id, wanted: wire.WriteValue) -> CommandResult:
+async def on_write(bench: Bench, request: Request, instance: Id, wanted: messages_client.WriteValue) -> CommandResult:
     """Writes a variable or an address, with the rights of a tool: error memory is read-only here."""
     return await entered(bench, request, instance, "write", wanted)
 
@@ -51,7 +50,7 @@ async def on_forces(bench: Bench, instance: Id) -> tuple[ForcedValue, ...]:
 
 
 @router.post("/force")
-async def on_force(bench: Bench, request: Request, instance: Id, wanted: wire.WriteValue) -> CommandResult:
+async def on_force(bench: Bench, request: Request, instance: Id, wanted: messages_client.WriteValue) -> CommandResult:
     """Holds a variable or an address at a value until it is released."""
     return await entered(bench, request, instance, "force", wanted)
 

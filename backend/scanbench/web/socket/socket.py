@@ -15,6 +15,7 @@ from pydantic import TypeAdapter, ValidationError
 
 from scanbench.session.session import Session
 from scanbench.web import messages as wire
+from scanbench.web import messages_client as client
 from scanbench.web import messages_debug as debugger
 from scanbench.web import messages_errors as simulator
 from scanbench.web import translate, translate_debug, translate_verify
@@ -31,20 +32,20 @@ WAITING_FRAMES = 4
 ALIVE_AFTER_S = 5.0
 """So long without anything to tell: an `Alive` is sent. Browsers give up after 12 s of silence."""
 _Commanding = (
-    wire.Write
-    | wire.Force
-    | wire.Release
+    client.Write
+    | client.Force
+    | client.Release
     | simulator.Generate
     | simulator.Recover
     | simulator.Arm
     | simulator.Disarm
-    | wire.SetMode
-    | wire.Restart
-    | wire.ClearDiagnostics
+    | client.SetMode
+    | client.Restart
+    | client.ClearDiagnostics
 )
-_Wanted = _Commanding | wire.Run | wire.Travel | wire.NewRun | wire.RollBack | debugger.SetCoverage
+_Wanted = _Commanding | client.Run | client.Travel | client.NewRun | client.RollBack | debugger.SetCoverage
 
-_INCOMING: TypeAdapter[wire.ClientMessage] = TypeAdapter(wire.ClientMessage)
+_INCOMING: TypeAdapter[client.ClientMessage] = TypeAdapter(client.ClientMessage)
 _OUTGOING: TypeAdapter[wire.ServerMessage] = TypeAdapter(wire.ServerMessage)
 
 
@@ -183,14 +184,16 @@ class Client:
             self._answer(_ref_of(text), False, f"not a message of this server: {place}: {first['msg']}")
             return
         match message:
-            case wire.Watch():
+            case client.Watch():
                 self._session.watch(self._id, message.ref, message.paths)
             case debugger.DapOut():
                 self._debugger().receive(message.message)
-            case wire.Unwatch():
+            case client.Unwatch():
                 self._ids.difference_update(message.ids)
                 self._session.unwatch(self._id, message.ids)
-            case wire.Travel() | wire.NewRun() | wire.RollBack():  # may take a build: the rest must not wait for it
+            case (
+                client.Travel() | client.NewRun() | client.RollBack()
+            ):  # may take a build: the rest must not wait for it
                 task = asyncio.get_running_loop().create_task(self._serve(message))
                 self._slow.add(task)
                 task.add_done_callback(self._slow.discard)
@@ -218,13 +221,13 @@ class Client:
     async def _done(self, message: _Wanted) -> Ack:
         session, author = self._session, self.user.name
         match message:
-            case wire.Run():
+            case client.Run():
                 return await session.drive(message.action, message.speed, author, message.scans, message.until)
-            case wire.Travel():
+            case client.Travel():
                 return await session.travel(message.scan, author, message.count)
-            case wire.NewRun():
+            case client.NewRun():
                 return await session.begin_anew(author)
-            case wire.RollBack():
+            case client.RollBack():
                 return await session.roll_back(author)
             case debugger.SetCoverage():
                 return await session.cover(message.on, message.reset, author)

@@ -1,0 +1,129 @@
+"""What a browser says on the WebSocket. `ref` is chosen by the sender and comes back in `Done`, so that a refusal lands in the row
+that caused it.
+"""
+
+from typing import Annotated, Literal
+
+from pydantic import Field
+
+from scanbench.web.messages import Mode, RestartKind
+from scanbench.web.messages_base import Scan, Wire
+from scanbench.web.messages_debug import DapOut, SetCoverage
+from scanbench.web.messages_errors import Arm, Disarm, Generate, Recover
+
+
+class Watch(Wire):
+    type: Literal["watch"] = "watch"
+    ref: int
+    paths: list[str]
+
+
+class Unwatch(Wire):
+    type: Literal["unwatch"] = "unwatch"
+    ids: list[int]
+
+
+class WriteValue(Wire):
+    """Write a variable or an address, with the rights of a tool."""
+
+    path: str
+    value: str = Field(description="as typed: TRUE, 42, 16#FF, T#5s, 1.5, 'text'")
+    site: str = Field(
+        default="", description="of an in-out: what this call (file:line) passes, instead of the last one"
+    )
+
+
+class Write(WriteValue):
+    """`WriteValue` on the socket."""
+
+    type: Literal["write"] = "write"
+    ref: int
+
+
+class Force(WriteValue):
+    """Holds it at the value until it is released."""
+
+    type: Literal["force"] = "force"
+    ref: int
+
+
+class Release(Wire):
+    type: Literal["release"] = "release"
+    ref: int
+    path: str | None = Field(description="null releases all")
+
+
+class SetMode(Wire):
+    type: Literal["mode"] = "mode"
+    ref: int
+    mode: Mode
+
+
+class Run(Wire):
+    """`continue` with `scans`: so many, then pause; with `until`: up to the first scan after which the condition holds."""
+
+    type: Literal["run"] = "run"
+    ref: int
+    action: Literal["continue", "pause", "scan", "speed"] = Field(description="speed: only that, a target stays")
+    speed: float | None = Field(default=None, description="0.01 to 1000; 0 is as fast as possible")
+    scans: Annotated[int, Field(ge=1, lt=1 << 53)] | None = None
+    until: str | None = Field(default=None, description="a BOOL expression over instance paths and addresses")
+
+
+class Restart(Wire):
+    type: Literal["restart"] = "restart"
+    ref: int
+    kind: RestartKind
+
+
+class NewRun(Wire):
+    """Begins at scan 0, with an empty timeline; the old run file is kept aside on the server."""
+
+    type: Literal["new_run"] = "new_run"
+    ref: int
+
+
+class Travel(Wire):
+    """Shows the PLC as it was before `scan`; null returns to live."""
+
+    type: Literal["travel"] = "travel"
+    ref: int
+    scan: Scan | None
+    count: Scan = Field(
+        default=0, description="inside of the scan, in front of its statement of this count; 0: its beginning"
+    )
+
+
+class RollBack(Wire):
+    """Swaps the program back in that ran before the last change."""
+
+    type: Literal["roll_back"] = "roll_back"
+    ref: int
+
+
+class ClearDiagnostics(Wire):
+    type: Literal["clear_diagnostics"] = "clear_diagnostics"
+    ref: int
+
+
+ClientMessage = Annotated[
+    Watch
+    | Unwatch
+    | Write
+    | Force
+    | Release
+    | Generate
+    | Recover
+    | Arm
+    | Disarm
+    | SetMode
+    | Run
+    | Restart
+    | NewRun
+    | Travel
+    | RollBack
+    | ClearDiagnostics
+    | SetCoverage
+    | DapOut,
+    Field(discriminator="type"),
+]
