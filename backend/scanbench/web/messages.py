@@ -16,7 +16,6 @@ from scanbench.runtime.migrate_image import Lost
 from scanbench.web.messages_base import Id, Scan, Version, Wire
 from scanbench.web.messages_debug import BreakpointInfo, Breakpoints, Dap, HaltInfo
 from scanbench.web.messages_errors import (
-    ErrorGroup,
     ErrorHistoryRow,
     SweepProgress,
 )
@@ -141,41 +140,6 @@ class BuildResult(Wire):
     pous: tuple[PouInfo, ...]
     changes: list[OnlineChange] = Field(description="for each running PLC of the project")
     needs_agreement: bool = Field(description="nothing was swapped yet: variables would be lost; build again, agreed")
-
-
-# ---- models ----------------------------------------------------------------------------------------------------
-
-Access = Literal["none", "read", "write"]
-
-
-class Area(Wire):
-    name: str
-    description: str
-    words: int = Field(description="size in 16-bit words")
-    retain: bool = Field(description="keeps its content when the power goes off")
-    first: str = Field(description="first address in the vendor's notation")
-    last: str
-    program: Access
-    tool: Access
-    engine: Access
-
-
-class ModelSummary(Wire):
-    name: str
-    vendor: str
-    description: str
-    error_count: int
-    verified_count: int = Field(description="errors whose facts were looked up, not only known")
-
-
-class ModelInfo(ModelSummary):
-    areas: list[Area]
-    code_word: str | None = Field(description="address of the error code word, e.g. A400")
-    code_words: list[str] = Field(
-        description="the words of the error code, the low one first; two where it has 32 bits"
-    )
-    status_words: list[str] = Field(description="words shown under the tree, e.g. A400, A401, A402")
-    catalogue: list[ErrorGroup]
 
 
 # ---- instances ---------------------------------------------------------------------------------------------------

@@ -12,6 +12,7 @@ from scanbench.web import messages as wire
 from scanbench.web import messages_debug as debugger
 from scanbench.web import messages_errors as simulator
 from scanbench.web import (
+    messages_models,
     translate_debug,
     translate_errors,
     translate_sweeps,
@@ -208,18 +209,18 @@ def _of_project(
 # ---- models ------------------------------------------------------------------------------------------------------
 
 
-def model_summary(model: plc.Model) -> wire.ModelSummary:
+def model_summary(model: plc.Model) -> messages_models.ModelSummary:
     """A model in a list."""
-    return wire.ModelSummary(
+    return messages_models.ModelSummary(
         name=model.name, vendor=model.vendor, description=model.description, error_count=len(list(model.errors())),
         verified_count=sum(error.verified for error in model.errors()),
     )  # fmt: skip
 
 
-def model_info(model: plc.Model) -> wire.ModelInfo:
+def model_info(model: plc.Model) -> messages_models.ModelInfo:
     """A model with its memory and its errors."""
     word = model.code_word
-    return wire.ModelInfo(
+    return messages_models.ModelInfo(
         **model_summary(model).model_dump(),
         areas=[_area(model, area, part) for area in model.areas for part in area.ranges],
         code_word=None if word is None else model.format(word.area, word.byte, word.bit, word.bits),
@@ -231,10 +232,10 @@ def model_info(model: plc.Model) -> wire.ModelInfo:
     )
 
 
-def _area(model: plc.Model, area: plc.Area, part: plc.AccessRange) -> wire.Area:
+def _area(model: plc.Model, area: plc.Area, part: plc.AccessRange) -> messages_models.Area:
     """Areas whose words differ in access are shown in parts."""
     first, last = model.range_text(plc.WordRange(area, part.first, part.last))
-    return wire.Area(
+    return messages_models.Area(
         name=area.name,
         description=area.description,
         words=part.last - part.first + 1,

@@ -13,7 +13,15 @@ import pytest
 from scanbench.public import Public
 from scanbench.server.workbench import Workbench
 from scanbench.store.records import StoreError
-from scanbench.web import messages, messages_client, messages_errors, messages_records, messages_user_errors, openapi
+from scanbench.web import (
+    messages,
+    messages_client,
+    messages_errors,
+    messages_models,
+    messages_records,
+    messages_user_errors,
+    openapi,
+)
 from scanbench.web.app import bare_app
 from scanbench.web.claim import InUse, claimed
 from scanbench.web.handles import most_connections
@@ -69,7 +77,14 @@ def test_every_message_is_in_the_openapi_document(tmp_path: Path) -> None:
     schemas = json.loads((tmp_path / "openapi.json").read_text())["components"]["schemas"]
     shapes = {
         name
-        for file in (messages, messages_client, messages_errors, messages_records, messages_user_errors)
+        for file in (
+            messages,
+            messages_client,
+            messages_errors,
+            messages_models,
+            messages_records,
+            messages_user_errors,
+        )
         for name, each in vars(file).items()
         if isinstance(each, type) and issubclass(each, Wire) and each is not Wire
     }

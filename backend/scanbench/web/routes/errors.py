@@ -6,8 +6,7 @@ from scanbench.faults.arm import ArmedInfo
 from scanbench.faults.reaction.reaction import Reaction
 from scanbench.faults.reference import ErrorRef
 from scanbench.typed import make
-from scanbench.web import messages as wire
-from scanbench.web import messages_errors, translate
+from scanbench.web import messages_errors, messages_models, translate
 from scanbench.web.messages_base import Id
 from scanbench.web.reach import Bench
 from scanbench.web.routes.entering import entered
@@ -18,7 +17,7 @@ router = APIRouter(prefix="/api/instances/{instance}", tags=["errors"])
 
 
 @router.get("/model")
-async def on_model(bench: Bench, instance: Id) -> wire.ModelInfo:
+async def on_model(bench: Bench, instance: Id) -> messages_models.ModelInfo:
     """The model with the errors that the project added, as the program that runs knows it."""
     return translate.model_info(bench.session(instance).model)
 
