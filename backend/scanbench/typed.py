@@ -30,7 +30,9 @@ class _Wrong(BadValue):
 
 def make(cls: type[T], given: Mapping[str, object]) -> T:
     """The dataclass of these fields: lists become tuples, mappings become dataclasses or pairs. `BadValue` names what is wrong."""
-    readers = field_readers(cls, plain=True)
+    build: Callable[..., T] = cls
+    known: type = cls
+    readers = field_readers(known, plain=True)
     made: dict[str, object] = {}
     for name, value in given.items():
         if name not in readers:
@@ -41,10 +43,9 @@ def make(cls: type[T], given: Mapping[str, object]) -> T:
             raise BadValue(f"{name} {error}") from None
         except BadValue as error:
             raise BadValue(f"{name}: {error}") from None
-    missing = [name for name in _required(cls) if name not in made]
+    missing = [name for name in _required(known) if name not in made]
     if missing:
         raise BadValue(f"{missing[0]} is missing")
-    build: Callable[..., T] = cls
     return build(**made)
 
 

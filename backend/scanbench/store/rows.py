@@ -39,6 +39,7 @@ from scanbench.store.tables import (
     TestRecord,
     WatchList,
 )
+from scanbench.typed import make
 
 
 def project(row: Project) -> ProjectRow:
@@ -96,7 +97,7 @@ def sweep(row: Sweep, counts: Mapping[str | None, int]) -> SweepRow:
         id=row.id, project=row.project_id, instance_id=row.instance_id, instance=row.instance, model=row.model,
         program_version=row.program_version, by=row.by, at=row.at, status=cast(SweepStatus, row.status),
         message=row.message, window=row.window, states=tuple(row.states),
-        errors=tuple(SweptError(**each) for each in row.errors), seconds=row.seconds, done=sum(counts.values()),
+        errors=tuple(make(SweptError, each) for each in row.errors), seconds=row.seconds, done=sum(counts.values()),
         counts={verdict: count for verdict, count in counts.items() if verdict is not None},
     )  # fmt: skip
 

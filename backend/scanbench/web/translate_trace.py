@@ -8,7 +8,7 @@ from scanbench.taps import trace as tap
 from scanbench.web import messages_trace as wire
 
 
-def wanted(of: wire.TraceDefinition) -> tap.TraceDefinition:
+def wanted(of: wire.DefineTrace) -> tap.TraceDefinition:
     """What somebody wants recorded."""
     trigger = of.trigger
     return tap.TraceDefinition(

@@ -7,7 +7,7 @@ import pytest
 from scanbench.engines.engine import Reason
 from scanbench.runtime.programs import EngineFactory
 from scanbench.runtime.resource import Resource
-from scanbench.taps.trace import BadTrace, Trace, TraceDefinition, TraceTrigger, When, check_definition
+from scanbench.taps.trace import BadTrace, Trace, TraceDefinition, TraceTrigger, check_definition
 from tests.runtime.bench import ENGINES, change, plc, program
 
 SOURCE = """
@@ -61,7 +61,7 @@ class Bench:
         return found
 
 
-def triggered(text: str, when: When, value: str = "", before: int = 50, **more: object) -> TraceDefinition:
+def triggered(text: str, when: str, value: str = "", before: int = 50, **more: object) -> TraceDefinition:
     return replace(PLAIN, trigger=TraceTrigger(text, when, value, before), **more)  # type: ignore[arg-type]
 
 

@@ -2262,7 +2262,7 @@ export interface components {
         };
         /**
          * ArmedFault
-         * @description A fault that was armed and is not over.
+         * @description A fault that was armed and is not over, for people.
          */
         ArmedFault: {
             /** By */
@@ -2273,12 +2273,12 @@ export interface components {
             id: number;
             /**
              * Next Scan
-             * @description of its next step, when that is known
+             * @description Of its next step, when that is known.
              */
             next_scan: number | null;
             /**
              * Raised
-             * @description how often until now
+             * @description How often until now.
              */
             raised: number;
             /**
@@ -2288,7 +2288,7 @@ export interface components {
             state: "waiting" | "running";
             /**
              * Text
-             * @description start and shape in a sentence
+             * @description Start and shape in a sentence.
              */
             text: string;
         };
@@ -2334,12 +2334,16 @@ export interface components {
              */
             kind: "cold" | "warm" | "power";
         };
-        /** BetweenEntry */
+        /**
+         * BetweenEntry
+         * @description A command that was entered.
+         */
         BetweenEntry: {
             /** Author */
             author: string;
             /**
              * Run
+             * @description Which of two runs has it; empty where there is one.
              * @enum {string}
              */
             run: "" | "A" | "B";
@@ -2350,7 +2354,7 @@ export interface components {
         };
         /**
          * Binding
-         * @description What an in-out is bound to: `GET /api/instances/{id}/binding?path=`.
+         * @description What an in-out is bound to, and all that may be passed to it.
          */
         Binding: {
             /**
@@ -2358,7 +2362,10 @@ export interface components {
              * @enum {string}
              */
             convention: "reference" | "value";
-            /** Message */
+            /**
+             * Message
+             * @description Why it is bound to nothing: `not called yet`, ...
+             */
             message: string;
             /** Ok */
             ok: boolean;
@@ -2367,26 +2374,44 @@ export interface components {
         };
         /**
          * BoundTo
-         * @description One call site of an in-out.
+         * @description One call site of an in-out, and what it passes.
          */
         BoundTo: {
-            /** Actual */
+            /**
+             * Actual
+             * @description Path of the variable, `Main.tank[3].level`; empty when it is not known yet.
+             */
             actual: string;
-            /** Address */
+            /**
+             * Address
+             * @description Vendor notation where it is located; else empty.
+             */
             address: string;
-            /** Call */
+            /**
+             * Call
+             * @description The path of the calling instance, `Main.line`.
+             */
             call: string;
             /** Column */
             column: number;
             /** File */
             file: string;
-            /** Last */
+            /**
+             * Last
+             * @description It is the one that ran last: what a write goes to.
+             */
             last: boolean;
             /** Line */
             line: number;
-            /** Message */
+            /**
+             * Message
+             * @description Why a write cannot go there: a constant, a read-only area.
+             */
             message: string;
-            /** Scan */
+            /**
+             * Scan
+             * @description Scan of the last execution; None: never, or nobody noted it, as the call does not run in every scan of its task.
+             */
             scan: number | null;
         };
         /**
@@ -2631,13 +2656,11 @@ export interface components {
         };
         /**
          * Comparison
-         * @description How far a comparison of two runs is, and what came of it. Kept until the server ends, the last 20 of an instance.
+         * @description How far a comparison of the run of instance `a` with that of `b` is, and what came of it. Kept until the server ends, the
+         *     last 20 of an instance.
          */
         Comparison: {
-            /**
-             * A
-             * @description instance
-             */
+            /** A */
             a: number;
             /** B */
             b: number;
@@ -2649,10 +2672,13 @@ export interface components {
             id: number;
             /**
              * Message
-             * @description why nothing came of it
+             * @description Why nothing came of it.
              */
             message: string;
-            /** Of */
+            /**
+             * Of
+             * @description Scans.
+             */
             of: number;
             result: components["schemas"]["RunDivergence"] | null;
             /**
@@ -2663,14 +2689,17 @@ export interface components {
         };
         /**
          * Coverage
-         * @description Sent while coverage is on, when something more was reached; `GET /api/instances/{id}/coverage`, `.../coverage.lcov`.
+         * @description Told while coverage is on, whenever something more was reached, and when it is switched.
          */
         Coverage: {
             /** Files */
             files: components["schemas"]["CoveredFile"][];
             /** On */
             on: boolean;
-            /** Scans */
+            /**
+             * Scans
+             * @description How many scans were noted.
+             */
             scans: number;
             /** Since Scan */
             since_scan: number;
@@ -2680,21 +2709,36 @@ export interface components {
              */
             type: "coverage";
         };
-        /** CoveredFile */
+        /**
+         * CoveredFile
+         * @description CoveredFile(file: str, sites: tuple[scanbench.taps.covered.CoveredSite, ...])
+         */
         CoveredFile: {
             /** File */
             file: string;
             /** Sites */
             sites: components["schemas"]["CoveredSite"][];
         };
-        /** CoveredOutcome */
+        /**
+         * CoveredOutcome
+         * @description A way that a statement can go.
+         */
         CoveredOutcome: {
-            /** Name */
+            /**
+             * Name
+             * @description As `symbols.sites.Outcome`.
+             */
             name: string;
-            /** Taken */
+            /**
+             * Taken
+             * @description Whether it went that way.
+             */
             taken: boolean;
         };
-        /** CoveredSite */
+        /**
+         * CoveredSite
+         * @description A statement, how it went so far, and the ways it can go.
+         */
         CoveredSite: {
             /** Column */
             column: number;
@@ -2741,11 +2785,13 @@ export interface components {
              */
             type: "dap";
         };
-        /** DefineTrace */
+        /**
+         * DefineTrace
+         * @description A trace as it is to be.
+         */
         DefineTrace: {
             /**
              * Every
-             * @description so many scans from sample to sample
              * @default 1
              */
             every: number;
@@ -2753,24 +2799,19 @@ export interface components {
             name: string;
             /**
              * Repeat
-             * @description armed again when it is complete
              * @default false
              */
             repeat: boolean;
             /**
              * Scans
-             * @description how far the buffer reaches back
              * @default 30000
              */
             scans: number;
-            /**
-             * Signals
-             * @description variables, addresses, expressions
-             */
+            /** Signals */
             signals: string[];
             /**
              * Start
-             * @description recorded from now on; else only when it was already
+             * @description Recorded from now on; else only when it was already.
              * @default true
              */
             start: boolean;
@@ -2778,7 +2819,7 @@ export interface components {
         };
         /**
          * Deleted
-         * @description Somebody deleted a file of this project.
+         * @description Somebody deleted a file of the project.
          */
         Deleted: {
             /** Author */
@@ -2810,21 +2851,30 @@ export interface components {
         };
         /**
          * Difference
-         * @description A variable or address that had another value than in the same run without the error.
+         * @description A variable or address that was another value than without the error, outside of error memory.
          */
         Difference: {
-            /** Output */
+            /**
+             * Output
+             * @description An output of the PLC.
+             */
             output: boolean;
             /** Path */
             path: string;
             /**
              * Scan
-             * @description of the window, from 1
+             * @description Of the window in which it first differed, from 1.
              */
             scan: number;
-            /** Value */
+            /**
+             * Value
+             * @description And with it.
+             */
             value: string;
-            /** Without */
+            /**
+             * Without
+             * @description Its value without the error in the scan where it first differed, as the watch table shows it.
+             */
             without: string;
         };
         /**
@@ -2857,13 +2907,16 @@ export interface components {
              */
             ids?: number[] | null;
         };
-        /** DisturbanceInfo */
+        /**
+         * DisturbanceInfo
+         * @description A disturbance that is not over, or was missed, for people.
+         */
         DisturbanceInfo: {
             /** By */
             by: string;
             /**
              * Fired
-             * @description how often until now
+             * @description How often until now.
              */
             fired: number;
             /** Id */
@@ -2877,18 +2930,18 @@ export interface components {
             next_scan: number | null;
             /**
              * State
-             * @description missed: its time is over and nothing was changed; it is listed until it is taken back
+             * @description missed: its time is over and nothing was changed; it is listed until it is taken back.
              * @enum {string}
              */
             state: "waiting" | "active" | "missed";
             /**
              * Text
-             * @description for people: `Memory D120, bit 0, once in scan 500`
+             * @description `Memory D120, bit 0, once in scan 500`
              */
             text: string;
             /**
              * Why
-             * @description missed: the scan, and why
+             * @description missed: the scan, and why.
              */
             why: string;
         };
@@ -2993,7 +3046,10 @@ export interface components {
             /** Variable */
             variable: string;
         };
-        /** EnumValue */
+        /**
+         * EnumValue
+         * @description A number of an enumeration that has a name.
+         */
         EnumValue: {
             /** Name */
             name: string;
@@ -3281,7 +3337,7 @@ export interface components {
         };
         /**
          * Flight
-         * @description How far the flight recorder is.
+         * @description How far the record of earlier scans is that somebody asked for.
          */
         Flight: {
             /** By */
@@ -3292,17 +3348,17 @@ export interface components {
             id: number;
             /**
              * Message
-             * @description why nothing came of it
+             * @description Why none came of it.
              */
             message: string;
             /**
              * Of
-             * @description scans
+             * @description Scans.
              */
             of: number;
             /**
              * Record
-             * @description what came of it
+             * @description The trace record that came of it.
              */
             record: number | null;
             /**
@@ -3311,7 +3367,10 @@ export interface components {
              */
             type: "flight";
         };
-        /** Force */
+        /**
+         * Force
+         * @description Holds it at the value until it is released.
+         */
         Force: {
             /** Path */
             path: string;
@@ -3319,7 +3378,7 @@ export interface components {
             ref: number;
             /**
              * Site
-             * @description as of `Write`
+             * @description of an in-out: what this call (file:line) passes, instead of the last one
              * @default
              */
             site: string;
@@ -3328,38 +3387,44 @@ export interface components {
              * @enum {string}
              */
             type: "force";
-            /** Value */
+            /**
+             * Value
+             * @description as typed: TRUE, 42, 16#FF, T#5s, 1.5, 'text'
+             */
             value: string;
         };
         /**
          * ForceInfo
-         * @description A force that holds: who keeps which variable at what, and what it did in the scan that ran last.
+         * @description A force, and what it did in the scan that ran last: values as text.
          */
         ForceInfo: {
-            /** After */
+            /**
+             * After
+             * @description What it is now.
+             */
             after: string;
             /**
              * After Program
-             * @description what the program made of it
+             * @description What the program made of it.
              */
             after_program: string;
             /** Author */
             author: string;
             /**
              * Before
-             * @description what the variable was when the program was about to begin
+             * @description What the variable was when the program was about to begin: from the inputs, or from the scan before.
              */
             before: string;
             /** Path */
             path: string;
             /**
              * Scan
-             * @description in front of which it was entered
+             * @description In front of which scan it was entered.
              */
             scan: number;
             /**
              * Through
-             * @description the in-out that it was entered for; empty where it was entered for the variable
+             * @description The in-out that it was entered for; empty where it was entered for the variable itself.
              */
             through: string;
             /** Value */
@@ -3367,7 +3432,7 @@ export interface components {
         };
         /**
          * Forces
-         * @description All forces that hold, whenever they change.
+         * @description All forces that hold now, and what they did.
          */
         Forces: {
             /** Forces */
@@ -3380,7 +3445,7 @@ export interface components {
         };
         /**
          * Generate
-         * @description All of them in one seam, or none. `again`: errors that are present change to these details.
+         * @description `GenerateErrors` on the socket.
          */
         Generate: {
             /**
@@ -3398,7 +3463,10 @@ export interface components {
              */
             type: "generate";
         };
-        /** GenerateErrors */
+        /**
+         * GenerateErrors
+         * @description All of them in one seam, or none. `again`: errors that are present change to these details.
+         */
         GenerateErrors: {
             /**
              * Again
@@ -3468,7 +3536,7 @@ export interface components {
         };
         /**
          * HandlerLine
-         * @description A statement that was reached only with the error.
+         * @description A statement that was reached with the error only: the handler.
          */
         HandlerLine: {
             /** File */
@@ -3527,14 +3595,14 @@ export interface components {
         HistoryVersion: {
             /**
              * At
-             * @description when it was built; null where the project does not know it
+             * @description When it was built; None: the project does not know it, as behind a run that was imported.
              */
             at: string | null;
             /** Author */
             author: string;
             /**
              * Raised
-             * @description errors that were raised on it
+             * @description Errors that were raised on it.
              */
             raised: number;
             /** Running */
@@ -3707,33 +3775,59 @@ export interface components {
             /** Name */
             name: string;
         };
-        /** LastWriter */
+        /**
+         * LastWriter
+         * @description The last write of a variable before a moment.
+         */
         LastWriter: {
-            /** Author */
+            /**
+             * Author
+             * @description Of a command.
+             */
             author: string;
             /**
              * By
+             * @description program: a statement. command: somebody, or an armed fault. plc: the PLC itself (system words, plant, input refresh).
+             *     start: nobody wrote it since the first scan that is kept.
              * @enum {string}
              */
             by: "program" | "command" | "plc" | "start";
             /**
              * Count
-             * @description of a statement: the position in front of it, for `travel`
+             * @description Of a statement: the position in front of it (`engines.debug`); else 0.
              */
             count: number;
-            /** Path */
+            /**
+             * Path
+             * @description The variable that is meant, behind in-outs.
+             */
             path: string;
             place: components["schemas"]["VerifyPlace"] | null;
-            /** Scan */
+            /**
+             * Scan
+             * @description In which it was written; a command's is the scan in front of which it was entered.
+             */
             scan: number;
-            /** Shown */
+            /**
+             * Shown
+             * @description The value as text.
+             */
             shown: string;
-            /** Text */
+            /**
+             * Text
+             * @description For people: `Main.st:31, Main.belt[3]: speed := LIMIT(...)`, `Write by Ada: Main.level := 7`.
+             */
             text: string;
-            /** Value */
+            /**
+             * Value
+             * @description What stands there behind the write.
+             */
             value: string;
         };
-        /** Log */
+        /**
+         * Log
+         * @description New lines of the log.
+         */
         Log: {
             /** Lines */
             lines: components["schemas"]["LogLine"][];
@@ -3745,7 +3839,7 @@ export interface components {
         };
         /**
          * LogLine
-         * @description One line of the instance's journal, for people.
+         * @description One line of the log, for people.
          */
         LogLine: {
             /** At */
@@ -3764,23 +3858,20 @@ export interface components {
         };
         /**
          * LostVariable
-         * @description A variable that an online change cannot keep: it begins with its initial value.
+         * @description A variable whose value does not go over.
          */
         LostVariable: {
-            /**
-             * Path
-             * @description instance path, e.g. Main.station.count
-             */
+            /** Path */
             path: string;
             /**
              * Reason
-             * @description new, type changed from INT to DINT, ...
+             * @description `NEW`, `REMOVED`, or in what the new one differs: it begins with its initial value.
              */
             reason: string;
         };
         /**
          * Mark
-         * @description A point of the timeline.
+         * @description An entry of the run's journal, in short.
          */
         Mark: {
             /** Author */
@@ -4157,7 +4248,10 @@ export interface components {
             /** Live Scan */
             live_scan: number;
         };
-        /** Pou */
+        /**
+         * Pou
+         * @description What a file declares, for the explorer.
+         */
         Pou: {
             /** File */
             file: string;
@@ -4168,33 +4262,42 @@ export interface components {
             kind: "program" | "function_block" | "function" | "class" | "interface" | "method" | "property" | "type" | "global";
             /** Line */
             line: number;
-            /** Name */
+            /**
+             * Name
+             * @description In full: with its namespace, and for a method with its class.
+             */
             name: string;
         };
-        /** PreviewedErrors */
+        /**
+         * PreviewedErrors
+         * @description What raising errors would do: what the plan says, or why it would be refused.
+         */
         PreviewedErrors: {
-            /**
-             * Message
-             * @description what would happen, or why it would be refused
-             */
+            /** Message */
             message: string;
             /**
              * More
-             * @description words that change besides and are not named
+             * @description Words that change besides, and are not named.
              */
             more: number;
             /** Ok */
             ok: boolean;
             /** Scan */
             scan: number;
-            /** Writes */
+            /**
+             * Writes
+             * @description In the order of the memory.
+             */
             writes: components["schemas"]["PreviewedWrite"][];
         };
-        /** PreviewedWrite */
+        /**
+         * PreviewedWrite
+         * @description A bit or a word, before and behind.
+         */
         PreviewedWrite: {
             /**
              * Address
-             * @description in the vendor's notation
+             * @description In the vendor's notation.
              */
             address: string;
             /** After */
@@ -4203,12 +4306,11 @@ export interface components {
             before: string;
             /**
              * Error
-             * @description which error writes it; empty for the code word, the log and the time
+             * @description Which error writes it; empty for the code word, the log, the time and what the PLC itself does.
              */
             error: string;
             /**
              * What
-             * @description time: when the latest error came; outputs: cleared by a fatal error, unless memory is held
              * @enum {string}
              */
             what: "detail" | "code" | "flag" | "log" | "time" | "outputs" | "other";
@@ -4251,7 +4353,10 @@ export interface components {
              */
             severity: "error" | "warning" | "info";
         };
-        /** ProgramState */
+        /**
+         * ProgramState
+         * @description A point in a run that was kept to begin sweeps from.
+         */
         ProgramState: {
             /** At */
             at: string;
@@ -4261,7 +4366,7 @@ export interface components {
             id: number;
             /**
              * Instance
-             * @description name of the PLC that it was taken from
+             * @description Name of the PLC that it was taken from.
              */
             instance: string;
             /** Name */
@@ -4311,23 +4416,33 @@ export interface components {
         };
         /**
          * Reaction
-         * @description What the program did about an error, beside the same run without it.
+         * @description What became of one error, raised alone or in a run as it was.
          */
         Reaction: {
             /** Difference Count */
             difference_count: number;
             /**
              * Differences
-             * @description at most 200, outputs first
+             * @description The first 200, outputs first.
              */
             differences: components["schemas"]["Difference"][];
-            /** First Effect */
+            /**
+             * First Effect
+             * @description Scan of the window from which on the program did something else, from 1: an output differs, and the like; where there is
+             *     none, state that decides one later. None where nothing but copies differ.
+             */
             first_effect: number | null;
-            /** First Read */
+            /**
+             * First Read
+             * @description Scan of the window in which flag, code, detail or log was first read, from 1.
+             */
             first_read: number | null;
             /** Lines */
             lines: components["schemas"]["HandlerLine"][];
-            /** Note */
+            /**
+             * Note
+             * @description What ended the comparison early, or must be known: the program trapped with it, it was refused.
+             */
             note: string;
             /** Readers */
             readers: components["schemas"]["Reader"][];
@@ -4338,7 +4453,7 @@ export interface components {
             verdict: "reacted" | "stored_only" | "no_effect" | "not_reached" | "never_read" | "stopped";
             /**
              * Window
-             * @description scans that were compared
+             * @description Scans that were compared; fewer where something ended them.
              */
             window: number;
         };
@@ -4375,7 +4490,7 @@ export interface components {
             pou: string;
             /**
              * Scan
-             * @description of the window, from 1
+             * @description Of the window in which it first did, from 1.
              */
             scan: number;
             /**
@@ -4384,7 +4499,10 @@ export interface components {
              */
             what: "flag" | "code" | "detail" | "log";
         };
-        /** RecordAccepted */
+        /**
+         * RecordAccepted
+         * @description Somebody accepted that the program does not react.
+         */
         RecordAccepted: {
             /** At */
             at: string;
@@ -4395,17 +4513,26 @@ export interface components {
             /** State */
             state: string;
         };
-        /** RecordCell */
+        /**
+         * RecordCell
+         * @description One error, raised alone from one state.
+         */
         RecordCell: {
             /** Error */
             error: string;
             /** Note */
             note: string;
-            /** Scans */
+            /**
+             * Scans
+             * @description Until the first effect.
+             */
             scans: number | null;
             /** State */
             state: string;
-            /** Verdict */
+            /**
+             * Verdict
+             * @description None: it could not be raised, `note` says why.
+             */
             verdict: ("reacted" | "stored_only" | "no_effect" | "not_reached" | "never_read" | "stopped") | null;
         };
         /**
@@ -4476,14 +4603,14 @@ export interface components {
         };
         /**
          * RecordInfo
-         * @description A test record that was brought into a project.
+         * @description A test record that came from elsewhere, without its text.
          */
         RecordInfo: {
             /** At */
             at: string;
             /**
              * By
-             * @description who brought it in
+             * @description Who brought it in.
              */
             by: string;
             /** Id */
@@ -4493,7 +4620,10 @@ export interface components {
             /** Title */
             title: string;
         };
-        /** RecordLine */
+        /**
+         * RecordLine
+         * @description A line of the log about errors.
+         */
         RecordLine: {
             /** At */
             at: string;
@@ -4504,30 +4634,36 @@ export interface components {
             /** Text */
             text: string;
         };
-        /** RecordSummary */
+        /**
+         * RecordSummary
+         * @description The record in numbers.
+         */
         RecordSummary: {
             /**
              * Accepted
-             * @description findings, one for each error and state, that were accepted
+             * @description Findings, one for each error and state, that were accepted.
              */
             accepted: number;
             /** Errors */
             errors: number;
             /**
              * Generated
-             * @description still present
+             * @description Still present.
              */
             generated: number;
             /**
              * Open
-             * @description findings that were not
+             * @description And those that were not.
              */
             open: number;
-            /** Tested */
+            /**
+             * Tested
+             * @description Raised on the PLC or in a sweep.
+             */
             tested: number;
             /**
              * Unknown
-             * @description tested, without a verdict
+             * @description Tested, but without a verdict.
              */
             unknown: number;
             /** Verdicts */
@@ -4535,7 +4671,10 @@ export interface components {
                 [key: string]: number;
             };
         };
-        /** RecordSweep */
+        /**
+         * RecordSweep
+         * @description A sweep of this version of the program.
+         */
         RecordSweep: {
             /** At */
             at: string;
@@ -4626,14 +4765,17 @@ export interface components {
             instance: number | null;
             /**
              * Message
-             * @description why nothing came of it
+             * @description Why nothing came of it.
              */
             message: string;
             /** Name */
             name: string;
             /** Of */
             of: number;
-            /** Refused */
+            /**
+             * Refused
+             * @description Commands that were not taken this time, and why.
+             */
             refused: string[];
             /**
              * @description discriminator enum property added by openapi-typescript
@@ -4705,46 +4847,83 @@ export interface components {
              */
             until: string | null;
         };
-        /** RunChanges */
+        /**
+         * RunChanges
+         * @description What changed between two moments.
+         */
         RunChanges: {
             /** Changes */
             changes: components["schemas"]["VariableChange"][];
-            /** Count */
+            /**
+             * Count
+             * @description So many there are, those that found no room included.
+             */
             count: number;
-            /** Entries */
+            /**
+             * Entries
+             * @description What was entered in between; of two runs none.
+             */
             entries: components["schemas"]["BetweenEntry"][];
             /** First */
             first: number;
             /** Last */
             last: number;
-            /** Note */
+            /**
+             * Note
+             * @description That the program changed in between, say: then variables are compared by their names.
+             */
             note: string;
         };
-        /** RunDivergence */
+        /**
+         * RunDivergence
+         * @description Where two runs part first.
+         */
         RunDivergence: {
             /**
              * Cause
+             * @description command: something was entered in one of them only, or something else. program: another program runs. start: they are
+             *     different where they begin.
              * @enum {string}
              */
             cause: "" | "command" | "program" | "start";
+            /** @description All variables that are another behind that scan. */
             changes: components["schemas"]["RunChanges"] | null;
-            /** Compared */
+            /**
+             * Compared
+             * @description Scans, from the first one that both keep.
+             */
             compared: number;
-            /** Entries */
+            /**
+             * Entries
+             * @description Commands that only one of them has, up to there and a few behind.
+             */
             entries: components["schemas"]["BetweenEntry"][];
             /** First */
             first: number;
-            /** Last */
+            /**
+             * Last
+             * @description The scans that were compared.
+             */
             last: number;
-            /** Marks */
+            /**
+             * Marks
+             * @description Stretches of scans in which they differ, for a timeline: at most 200, joined where there are more.
+             */
             marks: [
                 number,
                 number
             ][];
+            /** @description The statement that wrote the first variable which is another, where that is known. */
             place: components["schemas"]["VerifyPlace"] | null;
-            /** Scan */
+            /**
+             * Scan
+             * @description The first scan behind which anything is another; None: the same, as far as both go.
+             */
             scan: number | null;
-            /** Text */
+            /**
+             * Text
+             * @description One sentence: the scan, the task, the variable, why.
+             */
             text: string;
         };
         /**
@@ -4996,7 +5175,7 @@ export interface components {
         };
         /**
          * SweepError
-         * @description A row of the matrix: an error as the catalogue knew it then.
+         * @description A row of a sweep's matrix: an error as the catalogue knew it then.
          */
         SweepError: {
             /** Code */
@@ -5085,14 +5264,14 @@ export interface components {
         Symbol: {
             /**
              * Address
-             * @description vendor notation when it is located
+             * @description Vendor notation when it is located.
              */
             address: string | null;
             /** Expandable */
             expandable: boolean;
             /**
              * In Out
-             * @description it is an in-out; of a watched path also: it leads through one
+             * @description It is an in-out; of a watched path also: it leads through one. It has a binding.
              */
             in_out: boolean;
             /**
@@ -5106,27 +5285,27 @@ export interface components {
             path: string;
             /**
              * Range
-             * @description of a subrange: what it is, e.g. INT (0..500); `type` may be a name; or empty
+             * @description Of a subrange: the integer that it is and its bounds, INT (0..500); `type` may be a name.
              */
             range: string;
             /**
              * Section
-             * @description VAR, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_GLOBAL, address or member
+             * @description VAR, VAR_INPUT, VAR_OUTPUT, VAR_IN_OUT, VAR_GLOBAL, address or member.
              */
             section: string;
             /**
              * Size
-             * @description bytes of the value
+             * @description Bytes of the value.
              */
             size: number;
             /**
              * Type
-             * @description as declared, e.g. INT, ARRAY[0..9] OF REAL, TON
+             * @description As declared, e.g. INT, ARRAY[0..9] OF REAL, TON.
              */
             type: string;
             /**
              * Values
-             * @description of an enumeration: the names of its numbers
+             * @description Of an enumeration: the names of its numbers.
              */
             values: components["schemas"]["EnumValue"][];
             /** Writable */
@@ -5163,16 +5342,13 @@ export interface components {
         };
         /**
          * Timeline
-         * @description The run's marks, in order: all of them in `hello` and with `fresh`, else only the new ones.
+         * @description The run file or its marks changed; `fresh`: these are all the marks there are.
          */
         Timeline: {
             /** Fresh */
             fresh: boolean;
             info: components["schemas"]["TimelineInfo"];
-            /**
-             * Marks
-             * @description at most the last 5,000
-             */
+            /** Marks */
             marks: components["schemas"]["Mark"][];
             /**
              * @description discriminator enum property added by openapi-typescript
@@ -5182,36 +5358,36 @@ export interface components {
         };
         /**
          * TimelineInfo
-         * @description What the run file holds, and what it cost.
+         * @description What a run file holds and what it cost; 0 where nothing was thinned or dropped, texts empty where all is well.
          */
         TimelineInfo: {
             /** Bytes */
             bytes: number;
             /**
              * Damage
-             * @description what was found damaged when the file was opened, and what was recovered; or empty
+             * @description What was found damaged when the file was opened, and what was recovered.
              */
             damage: string;
             /**
              * Dropped Before
-             * @description scans before this are gone for good; 0: none
+             * @description Scans before this are gone for good.
              */
             dropped_before: number;
             /**
              * First Scan
-             * @description the earliest scan that can be gone back to
+             * @description The earliest scan that can be gone back to.
              */
             first_scan: number;
             /** Limit Bytes */
             limit_bytes: number;
             /**
              * Recording
-             * @description why nothing is recorded now (disk full, say); empty while all is well
+             * @description Why nothing is recorded now (disk full, say).
              */
             recording: string;
             /**
              * Thinned Before
-             * @description before this scan checkpoints were thinned: going there takes longer; 0: none
+             * @description Before this scan checkpoints were thinned: going there takes longer.
              */
             thinned_before: number;
         };
@@ -5234,11 +5410,14 @@ export interface components {
              */
             role: "input" | "output" | "ignore";
         };
-        /** TraceDefinition */
+        /**
+         * TraceDefinition
+         * @description What is to be recorded: `scans` is how far the buffer reaches back.
+         */
         TraceDefinition: {
             /**
              * Every
-             * @description so many scans from sample to sample
+             * @description So many scans from sample to sample.
              * @default 1
              */
             every: number;
@@ -5246,19 +5425,19 @@ export interface components {
             name: string;
             /**
              * Repeat
-             * @description armed again when it is complete
+             * @description With a trigger: armed again when it is complete; what is shown is the last complete record.
              * @default false
              */
             repeat: boolean;
             /**
              * Scans
-             * @description how far the buffer reaches back
+             * @description How far the buffer reaches back.
              * @default 30000
              */
             scans: number;
             /**
              * Signals
-             * @description variables, addresses, expressions
+             * @description Variables, addresses, expressions.
              */
             signals: string[];
             /** @default null */
@@ -5266,32 +5445,32 @@ export interface components {
         };
         /**
          * TraceInfo
-         * @description A trace of an instance, shared by everybody.
+         * @description A trace of a PLC, which everybody shares, and how it stands.
          */
         TraceInfo: {
             /** By */
             by: string;
             /**
              * Bytes
-             * @description what the buffer takes when it is full
+             * @description What the buffer takes when it is full.
              */
             bytes: number;
             definition: components["schemas"]["TraceDefinition"];
-            /** End */
-            end: number;
             /**
-             * First
-             * @description scans `first` to `end` - 1 are in the buffer; both 0 where there are none
+             * End
+             * @description Scans `first` to `end` - 1 are in the buffer; both 0 where there are none.
              */
+            end: number;
+            /** First */
             first: number;
             /**
              * Generation
-             * @description other samples than those of another generation
+             * @description Other samples than those of another generation.
              */
             generation: number;
             /**
              * Hits
-             * @description how often it came since it was started
+             * @description How often it came since it was started.
              */
             hits: number;
             /** Id */
@@ -5311,7 +5490,7 @@ export interface components {
             state: "stopped" | "recording" | "armed" | "triggered" | "complete";
             /**
              * Triggered
-             * @description after which scan the trigger came, of what is shown
+             * @description After which scan the trigger came, of what is shown.
              */
             triggered: number | null;
         };
@@ -5342,29 +5521,38 @@ export interface components {
              */
             unit: "scan" | "ns" | "us" | "ms" | "s";
         };
-        /** TraceMappingChecked */
+        /**
+         * TraceMappingChecked
+         * @description Whether a file can be verified with a mapping.
+         */
         TraceMappingChecked: {
             /**
              * First
-             * @description scans `first` to `last`
+             * @description Scans `first` to `last`.
              */
             first: number | null;
             /** Last */
             last: number | null;
             /**
              * Missing
-             * @description scans in between that the file does not have
+             * @description Scans in between that the file does not have.
              */
             missing: number;
-            /** Ok */
+            /**
+             * Ok
+             * @description Whether it can; warnings do not stand in the way.
+             */
             ok: boolean;
             /**
              * Problems
-             * @description the first 200
+             * @description The first 200.
              */
             problems: components["schemas"]["TraceProblem"][];
         };
-        /** TraceProblem */
+        /**
+         * TraceProblem
+         * @description What is wrong with a file or with its mapping, and where.
+         */
         TraceProblem: {
             /** Column */
             column: string;
@@ -5372,12 +5560,12 @@ export interface components {
             message: string;
             /**
              * Row
-             * @description line of a CSV file, index in a JSON file; null: the file as a whole
+             * @description Line of a CSV file, counted from 1; index in a JSON file, counted from 0; None: the file as a whole.
              */
             row: number | null;
             /**
              * Warning
-             * @description it does not stand in the way
+             * @description It is worth a look, but refuses nothing.
              */
             warning: boolean;
         };
@@ -5422,7 +5610,7 @@ export interface components {
         };
         /**
          * Traces
-         * @description All traces of the instance, whenever one changes, and a few times a second while one grows.
+         * @description All traces of the PLC, whenever one changes or grows.
          */
         Traces: {
             /** Traces */
@@ -5433,14 +5621,14 @@ export interface components {
              */
             type: "traces";
         };
-        /** TraceSignal */
+        /**
+         * TraceSignal
+         * @description A signal of a trace; `message` says why it has no values (any more).
+         */
         TraceSignal: {
             /** Kind */
             kind: string;
-            /**
-             * Message
-             * @description why it has no values now; empty when it has
-             */
+            /** Message */
             message: string;
             /** Size */
             size: number;
@@ -5448,12 +5636,12 @@ export interface components {
             text: string;
             /**
              * Type
-             * @description empty where it was never found
+             * @description Empty where it was never found.
              */
             type: string;
             /**
              * Values
-             * @description names of an enumeration's numbers
+             * @description Names of an enumeration's numbers.
              */
             values: [
                 string,
@@ -5462,23 +5650,24 @@ export interface components {
         };
         /**
          * TraceTrigger
-         * @description What a trace waits for. An edge of a number is that of `text >= value`.
+         * @description What a trace waits for: an edge of `text` (of `text >= value`, where there is one), or that it is above, below, equal to
+         *     the value, or that it `holds`, from when the trace is armed on.
          */
         TraceTrigger: {
             /**
              * Before
-             * @description percent of the buffer that is in front of the trigger
+             * @description Percent of the buffer that is in front of the trigger.
              * @default 50
              */
             before: number;
             /**
              * Text
-             * @description a variable, an address, or an expression
+             * @description A variable, an address, or an expression.
              */
             text: string;
             /**
              * Value
-             * @description to compare with; empty for an edge of a BOOL
+             * @description To compare with; empty for an edge of a BOOL.
              * @default
              */
             value: string;
@@ -5879,7 +6068,10 @@ export interface components {
              */
             value: string;
         };
-        /** VariableChange */
+        /**
+         * VariableChange
+         * @description A variable, or an address without one, that is another.
+         */
         VariableChange: {
             /** After */
             after: string;
@@ -6047,48 +6239,76 @@ export interface components {
             /** Verifications */
             verifications: components["schemas"]["VerificationInfo"][];
         };
-        /** VerifyColumn */
+        /**
+         * VerifyColumn
+         * @description A variable that the range reads or writes. Of a function block or method the name is that inside of it (`speed`,
+         *     `zone.parts` behind an in-out), so rows of several instances share the column; else it is a path or an address.
+         */
         VerifyColumn: {
             /**
              * Input
-             * @description read before it was written, in some row
+             * @description Read before it was written, in some row.
              */
             input: boolean;
-            /** Kind */
+            /**
+             * Kind
+             * @description As in the watch table: bool, int, uint, real, bits, time, date, string, enum, ...
+             */
             kind: string;
             /** Name */
             name: string;
             /**
              * Output
-             * @description written in some row
+             * @description Written in some row; said where rows are told, as `input`.
              */
             output: boolean;
-            /** Size */
+            /**
+             * Size
+             * @description Bytes of a value.
+             */
             size: number;
             /** Type */
             type: string;
-            /** Values */
+            /**
+             * Values
+             * @description Names of an enumeration's numbers.
+             */
             values: [
                 string,
                 number
             ][];
         };
-        /** VerifyDifference */
+        /**
+         * VerifyDifference
+         * @description The first place where control and monitor part, or a byte that nobody should have changed.
+         */
         VerifyDifference: {
             /**
              * Cause
              * @enum {string}
              */
             cause: "logic" | "input" | "order" | "trap" | "outside" | "recorded";
-            /** Control */
+            /**
+             * Control
+             * @description A, `was` for people; empty where it did nothing.
+             */
             control: string;
             /** Kind */
             kind: string;
-            /** Message */
+            /**
+             * Message
+             * @description One sentence: `Main.belt[3].speed is 536, the reference gives 600, at FB_Belt.st:34 in scan 128388`.
+             */
             message: string;
-            /** Monitor */
+            /**
+             * Monitor
+             * @description A'.
+             */
             monitor: string;
-            /** Name */
+            /**
+             * Name
+             * @description The column, or the path or address of the variable.
+             */
             name: string;
             place: components["schemas"]["VerifyPlace"] | null;
             /** Size */
@@ -6096,29 +6316,53 @@ export interface components {
             /** Type */
             type: string;
         };
-        /** VerifyInput */
+        /**
+         * VerifyInput
+         * @description What was read before the pass wrote it.
+         */
         VerifyInput: {
-            /** Expected */
+            /**
+             * Expected
+             * @description What the monitor would have read by itself, when that is something else: a disturbed input.
+             */
             expected: string | null;
             /** Recorded */
             recorded: string;
-            /** Set */
+            /**
+             * Set
+             * @description What somebody has edited it to.
+             */
             set: string | null;
         };
-        /** VerifyOutput */
+        /**
+         * VerifyOutput
+         * @description What was written: the last value in the pass. None: that side did not write it.
+         */
         VerifyOutput: {
             /** Control */
             control: string | null;
-            /** Monitor */
+            /**
+             * Monitor
+             * @description A' on the recorded inputs.
+             */
             monitor: string | null;
-            /** Set */
+            /**
+             * Set
+             * @description A' on edited inputs, where somebody has edited any of this row and the monitor ran on them.
+             */
             set: string | null;
         };
-        /** VerifyPlace */
+        /**
+         * VerifyPlace
+         * @description Where in the program something happened.
+         */
         VerifyPlace: {
             /** File */
             file: string;
-            /** Instance */
+            /**
+             * Instance
+             * @description Instance path of the POU that ran: `Main.belt[3]`; of a FUNCTION its name.
+             */
             instance: string;
             /** Line */
             line: number;
@@ -6126,7 +6370,10 @@ export interface components {
             pou: string;
             /** Task */
             task: string;
-            /** Text */
+            /**
+             * Text
+             * @description The source line, trimmed.
+             */
             text: string;
         };
         /**
@@ -6164,27 +6411,42 @@ export interface components {
              */
             pou: string;
         };
-        /** VerifyRow */
+        /**
+         * VerifyRow
+         * @description One line of the table.
+         */
         VerifyRow: {
-            /** Call */
+            /**
+             * Call
+             * @description Which run through the range it is in this scan, from 1; 0 where that means nothing.
+             */
             call: number;
             /**
              * Compared
-             * @description false: nothing was, as the program stood still, or the trace has no value here or is believed
+             * @description Whether anything was: not where the program stood still, nor where a trace has no value, or is believed.
              */
             compared: boolean;
-            /** Count */
+            /**
+             * Count
+             * @description Of a step: the count of the statement that is next (`engines.debug`).
+             */
             count: number;
             /** Differences */
             differences: components["schemas"]["VerifyDifference"][];
-            /** Disturbances */
+            /**
+             * Disturbances
+             * @description What was injected in this scan, for people: `Memory D120, bit 0`.
+             */
             disturbances: string[];
             /**
              * Index
-             * @description of all rows, from 0; those that were forgotten keep theirs
+             * @description Of all rows, from 0, said where they are told; those that were forgotten keep theirs.
              */
             index: number;
-            /** Inputs */
+            /**
+             * Inputs
+             * @description By the names of columns, both in the order of use.
+             */
             inputs: {
                 [key: string]: components["schemas"]["VerifyInput"];
             };
@@ -6195,48 +6457,58 @@ export interface components {
              * @enum {string}
              */
             kind: "pass" | "scan" | "step" | "none";
-            /** Note */
+            /**
+             * Note
+             * @description `record full: 4,096 of 5,120 uses kept`, `not run in this scan`, `ended by a run-time error: ...`.
+             */
             note: string;
             /** Outputs */
             outputs: {
                 [key: string]: components["schemas"]["VerifyOutput"];
             };
+            /** @description Of a step: its statement. */
             place: components["schemas"]["VerifyPlace"] | null;
             /** Scan */
             scan: number;
-            /** Used */
+            /**
+             * Used
+             * @description Uses of variables, the ones that found no room included.
+             */
             used: number;
         };
         /**
          * VerifyRows
-         * @description Rows `first` and on, as many as were asked for, with all columns.
+         * @description As many rows as were asked for, with all columns.
          */
         VerifyRows: {
             /** Columns */
             columns: components["schemas"]["VerifyColumn"][];
             /**
              * Count
-             * @description rows that there were; the last has index `count` - 1
+             * @description Rows that there were; the last has index `count` - 1.
              */
             count: number;
             /**
              * Differing
-             * @description indices of rows that differ, at most 10,000
+             * @description Indices of rows that differ, at most 10,000.
              */
             differing: number[];
             /**
              * First
-             * @description index of the first row that is kept
+             * @description Index of the first row that is kept.
              */
             first: number;
             /** Rows */
             rows: components["schemas"]["VerifyRow"][];
         };
-        /** VerifyUse */
+        /**
+         * VerifyUse
+         * @description One use of a variable; see `verify.contract.Use`.
+         */
         VerifyUse: {
             /**
              * Control
-             * @description as text
+             * @description As text.
              */
             control: string | null;
             /** File */
@@ -6437,7 +6709,10 @@ export interface components {
             /** Name */
             name: string;
         };
-        /** Write */
+        /**
+         * Write
+         * @description `WriteValue` on the socket.
+         */
         Write: {
             /** Path */
             path: string;
@@ -6481,7 +6756,7 @@ export interface components {
         };
         /**
          * Written
-         * @description Somebody wrote a variable; shown in the tooltip of its row.
+         * @description Somebody wrote or forced a variable.
          */
         Written: {
             /** Author */
