@@ -10,8 +10,8 @@ from scanbench.session.session import Session
 from scanbench.store.records import FileInfo, FileRow, ProjectRow
 from scanbench.store.store import Store
 from scanbench.syntax.parse_file import ENDINGS, is_program_file
-from scanbench.wire.events import BuildOutcome, Change, CheckOutcome
-from scanbench.wire.host import Sources
+from scanbench.wire.events import BuildOutcome, Change, CheckOutcome, FileDeleted, FileSaved
+from scanbench.wire.host import Preview, Previewed, Sources
 from scanbench.wire.refused import Refused, Unavailable
 
 
@@ -70,14 +70,14 @@ class Projects:
         _check_path(path)
         file = await asyncio.to_thread(self._store.save_file, id, path, text, version, author)
         for session in self._sessions_of(id):
-            session.told_saved(author, file.path, file.version)
+            session.tell(FileSaved(author, file.path, file.version))
         return file
 
     async def delete_file(self, id: int, path: str, author: str) -> None:
         """Deletes a file."""
         await asyncio.to_thread(self._store.delete_file, id, path)
         for session in self._sessions_of(id):
-            session.told_deleted(author, path)
+            session.tell(FileDeleted(author, path))
 
     async def sources(self, id: int) -> dict[str, str]:
         """Path -> text of all program files."""
@@ -174,7 +174,8 @@ class Projects:
 
         async def change(session: Session) -> Change | None:
             try:
-                return Change(session.id, session.name, await session.preview(build))
+                preview = await session.instance.ask(lambda ref: Preview(ref, build), Previewed)
+                return Change(session.id, session.name, preview)
             except Unavailable:
                 return None
 

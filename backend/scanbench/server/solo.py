@@ -38,7 +38,7 @@ class Solo:
         try:
             solo._write_behind.start()
             await asyncio.to_thread(zygote().start)
-            solo.session.start()
+            solo.session.instance.start()
             await solo.standing()
         except BaseException:
             await solo.close()

@@ -74,7 +74,7 @@ class States:
         except BaseException:
             await asyncio.to_thread(self._store.delete_state, row.id)
             raise
-        session.told(author, f"state kept: {name}")
+        session.log.add(author, f"state kept: {name}")
         return row
 
     async def take(self, session: Session, path: Path, scan: int | None, author: str) -> None:

@@ -144,7 +144,7 @@ class Sweeps:
         """Tells the PLCs of a project what its sweeps found out."""
         found = await self.found(project)
         for session in self._sessions_of(project):
-            session.take_sweeps(found)
+            session.errors.take_sweeps(found)
 
     async def _accepted(self, project: int) -> dict[tuple[str, str], AcceptedRow]:
         rows = await asyncio.to_thread(self._store.acceptances, project)
@@ -161,9 +161,9 @@ class Sweeps:
         self, session: Session, errors: Sequence[str] | None, states: Sequence[int], window: int, author: str
     ) -> SweepRow:
         """Begins a sweep of the program that runs; without states from where the PLC stands now."""
-        if session.why_not:
-            raise Refused(session.why_not)
-        project, sources, model = session.project_id, session.sources, session.model
+        if session.instance.why_not:
+            raise Refused(session.instance.why_not)
+        project, sources, model = session.project_id, session.instance.sources, session.model
         swept = _swept(model, errors)
         async with self._beginning.setdefault(project, asyncio.Lock()):
             self._one_at_a_time(project)
@@ -191,7 +191,7 @@ class Sweeps:
                 raise
             self._run(row, points, sources, [])
         names = ", ".join(row.states)
-        session.told(author, f"sweep begun: {len(swept)} error{'s' * (len(swept) != 1)} from {names}")
+        session.log.add(author, f"sweep begun: {len(swept)} error{'s' * (len(swept) != 1)} from {names}")
         return row
 
     async def resume(self, id: int) -> SweepRow:
@@ -259,7 +259,7 @@ class Sweeps:
         if state not in points or sources is None:
             raise Refused(f"this sweep cannot be opened at {state}: it has no such state, or its program is gone")
         session = await self._open_state(row.project, Path(points[state].run), name, author)
-        if replace(session.sources, version=sources.version) != sources:
+        if replace(session.instance.sources, version=sources.version) != sources:
             ack = await session.build(sources, author)
             if not ack.ok:
                 raise Refused(f"{name} was made, but version {sources.version} does not run on it: {ack.message}")

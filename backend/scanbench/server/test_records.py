@@ -58,10 +58,10 @@ class Records:
     async def versions(self, session: Session) -> list[HistoryVersion]:
         """The versions with a history, the newest first."""
         found = []
-        for version in reversed(session.history_versions):
+        for version in reversed(session.errors.versions):
             rows, _, build = await self._of_version(session, version)
             raised = sum(row.status != "never" for row in rows)
-            found.append(HistoryVersion(version, version == session.history_version, raised, build))
+            found.append(HistoryVersion(version, version == session.errors.version, raised, build))
         return found
 
     async def rows(self, session: Session, version: int | None) -> list[ErrorRow]:
@@ -71,7 +71,7 @@ class Records:
 
     async def of_instance(self, session: Session, version: int | None, by: str, language: Language) -> TestRecord:
         """The record of a version, or of the one that runs."""
-        version = session.history_version if version is None else version
+        version = session.errors.version if version is None else version
         rows, model, build = await self._of_version(session, version)
         await self._write_behind.flush()
 
@@ -92,25 +92,25 @@ class Records:
         return await asyncio.to_thread(make)
 
     async def _of_version(self, session: Session, version: int | None) -> tuple[list[ErrorRow], Model, BuildRow | None]:
-        if session.why_not:
-            raise Refused(f"the error history cannot be read: {session.why_not}")
-        wanted = session.history_version if version is None else version
+        if session.instance.why_not:
+            raise Refused(f"the error history cannot be read: {session.instance.why_not}")
+        wanted = session.errors.version if version is None else version
         # A version that was only swept has nothing but that to tell: it has a record all the same.
-        if wanted not in session.history_versions and not await asyncio.to_thread(self._swept, session, wanted):
-            known = ", ".join(map(str, session.history_versions))
+        if wanted not in session.errors.versions and not await asyncio.to_thread(self._swept, session, wanted):
+            known = ", ".join(map(str, session.errors.versions))
             raise NotFound(f"{session.name} has no error history of version {wanted}; there are {known}")
 
         def read() -> tuple[list[ErrorRow], Model, BuildRow | None]:
             build = self._store.build(session.project_id, wanted)
             model = self._model(session, wanted, build)
-            return session.rows_of(wanted, model), model, build
+            return session.errors.rows_of(wanted, model), model, build
 
         return await asyncio.to_thread(read)
 
     @staticmethod
     def _model(session: Session, version: int, build: BuildRow | None) -> Model:
         """The catalogue that the version had: the project's own errors are part of its sources."""
-        if version == session.history_version or build is None:
+        if version == session.errors.version or build is None:
             return session.model
         return model_for(device_of(session.model), build.sources)
 

@@ -202,7 +202,7 @@ class TraceRecords:
         changed = FlightChanged(id, author, 0, last - first + 1)
         job = Job(self._cache, lambda message: self._on_message(id, message), lambda _job: self._on_end(id))
         self._flights[id] = _Flight(session, job, changed, file, every)
-        job.ask(RecordFlight(id, str(session.run_file), signals, every, first, last, str(file)))
+        job.ask(RecordFlight(id, str(session.instance.run_file), signals, every, first, last, str(file)))
         self._tell(id, changed)
         return changed
 

@@ -101,7 +101,7 @@ class TraceFiles:
 
     async def check(self, session: Session, file: TraceFile, mapping: TraceMapping) -> Checked:
         """Whether it can be verified with this mapping, and if not, where it cannot."""
-        sources = session.sources
+        sources = session.instance.sources
 
         def work() -> Checked:
             try:

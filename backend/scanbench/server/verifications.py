@@ -118,7 +118,7 @@ class Verifications:
         except BaseException:
             await self._drop(id)
             raise
-        session.told(author, f"verification {id} begins: {made.status.title}")
+        session.log.add(author, f"verification {id} begins: {made.status.title}")
         return made.status
 
     async def _make_room(self) -> None:
@@ -133,7 +133,7 @@ class Verifications:
         old = [each for each in self._all.values() if each.over]
         if len(self._all) >= MOST_OPEN and old:
             status = old[0].status
-            old[0].session.told(status.by, f"verification {status.id} is forgotten, as others began: {status.title}")
+            old[0].session.log.add(status.by, f"verification {status.id} is forgotten, as others began: {status.title}")
             await self._drop(status.id)
 
     async def drive(
@@ -170,7 +170,7 @@ class Verifications:
         session, status = verification.session, verification.status
         when, rows = iso(wall_time()), verification.rows.as_now()
         project = (await asyncio.to_thread(self._store.project, session.project_id)).name
-        head = _head(status, project, session.name, session.sources.model, when)
+        head = _head(status, project, session.name, session.instance.sources.model, when)
         return await asyncio.to_thread(_exported, head, rows, format)
 
     def _hand_over(self, verification: Verification) -> bool:
@@ -240,7 +240,7 @@ class Verifications:
         session, status, rows = verification.session, verification.status, verification.rows.as_now()
         if not rows.kept:
             raise Refused("nothing was verified yet: let it run first")
-        content: Json = {"status": pack_body(status).hex(), "model": session.sources.model}
+        content: Json = {"status": pack_body(status).hex(), "model": session.instance.sources.model}
         row = await asyncio.to_thread(
             lambda: self._store.keep(
                 "verification", session.project_id, name=name, instance=session.name, content=content, by=author

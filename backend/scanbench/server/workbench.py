@@ -31,7 +31,8 @@ from scanbench.server.uploads import TraceFiles
 from scanbench.server.verifications import Verifications
 from scanbench.server.watch_lists import WatchLists
 from scanbench.session.instance import Remembered
-from scanbench.session.session import LOG_LINES, Session
+from scanbench.session.log import LOG_LINES
+from scanbench.session.session import Session
 from scanbench.session.write_behind import WriteBehind, breakpoint_of, line_of, row_of
 from scanbench.store.records import InstanceRow, Limits, NotFound, ProjectRow
 from scanbench.store.store import Store
@@ -168,7 +169,7 @@ class Workbench:
             await asyncio.to_thread(discard_all, self._runs, row.id)
             raise
         session = await self._open(row, paused=scan is not None)
-        session.told(author, f"branched from {origin.name} {'now' if scan is None else f'at scan {scan}'}")
+        session.log.add(author, f"branched from {origin.name} {'now' if scan is None else f'at scan {scan}'}")
         return session
 
     async def export(self, id: int, scan: int | None, author: str) -> Path:
@@ -185,11 +186,11 @@ class Workbench:
     @staticmethod
     async def _copied(session: Session, path: Path, scan: int | None, author: str) -> None:
         """Of a PLC without a process the file as it is: also of one that failed, when it is wanted most."""
-        if session.on or scan is not None:
+        if session.instance.on or scan is not None:
             await session.copy(path, scan, author)
             return
         try:
-            await asyncio.to_thread(shutil.copyfile, session.run_file, path)
+            await asyncio.to_thread(shutil.copyfile, session.instance.run_file, path)
         except OSError as error:
             raise Refused(f"the run of {session.name} cannot be copied: {error.strerror}") from error
 
@@ -214,7 +215,7 @@ class Workbench:
                 raise Refused(str(error).replace(path.name, "the file")) from error
             raise
         session = await self._open(row, paused=True)
-        session.told(author, f"the run was imported{'; ' * bool(damage)}{damage}")
+        session.log.add(author, f"the run was imported{'; ' * bool(damage)}{damage}")
         return session, damage
 
     async def _open_rerun(self, origin: Session, name: str, path: Path, author: str) -> Session:
@@ -233,7 +234,7 @@ class Workbench:
                 raise Refused(f"the state cannot be copied: {error.strerror}") from error
             raise
         session = await self._open(row, paused=True)
-        session.told(author, "begun from a kept state")
+        session.log.add(author, "begun from a kept state")
         return session
 
     def fresh_path(self) -> Path:
@@ -245,8 +246,8 @@ class Workbench:
     ) -> Session:
         """A new name, new limits, on or off."""
         session = self.session(id)
-        if powered and session.why_not:
-            raise Refused(session.why_not)
+        if powered and session.instance.why_not:
+            raise Refused(session.instance.why_not)
         change = partial(self._store.change_instance, id, name=name, powered=powered, limits=limits)
         await session.change(await asyncio.to_thread(change), author)
         return session
@@ -286,9 +287,9 @@ class Workbench:
             why_not,
         )  # fmt: skip
         self._sessions[row.id] = session
-        session.take_sweeps(await self.sweeps.found(project.id))
+        session.errors.take_sweeps(await self.sweeps.found(project.id))
         if row.powered:
-            session.start()
+            session.instance.start()
         return session
 
     def _sessions_of(self, project_id: int) -> list[Session]:

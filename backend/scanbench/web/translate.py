@@ -129,7 +129,7 @@ def instance(session: Session, row: ProjectRow) -> wire.Instance:
     return wire.Instance(
         id=session.id, name=session.name, project=project(row), model=session.model.name, state=state(session.state),
         load=wire.InstanceLoad(
-            cpu_percent=round(load.cpu_percent, 1), memory_bytes=load.memory_bytes, run_bytes=session.timeline.info.bytes
+            cpu_percent=round(load.cpu_percent, 1), memory_bytes=load.memory_bytes, run_bytes=session.log.timeline.info.bytes
         ),
         limits=wire.InstanceLimits(
             memory_mib=limits.memory_mib, cpu_percent=limits.cpu_percent, run_mib=limits.run_mib

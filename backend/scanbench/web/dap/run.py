@@ -125,7 +125,7 @@ async def _entered(plc: Debuggee, command: Command) -> Body:
 
 async def on_in_out_binding(plc: Debuggee, args: shapes.Path) -> Body:
     """What an in-out is bound to."""
-    return translate_debug.binding(await plc.session.binding(args.path)).model_dump()
+    return translate_debug.binding(await plc.session.debugging.binding(args.path)).model_dump()
 
 
 async def on_coverage(plc: Debuggee, args: shapes.Coverage) -> Body:
@@ -133,5 +133,5 @@ async def on_coverage(plc: Debuggee, args: shapes.Coverage) -> Body:
     if args.on is not None or args.reset:
         now = plc.session.debugging.coverage
         on = args.on if args.on is not None else now is not None and now.on
-        plc.done(await plc.session.cover(on, args.reset, plc.author))
-    return translate_debug.coverage(await plc.session.coverage()).model_dump()
+        plc.done(await plc.session.debugging.cover(on, args.reset, plc.author))
+    return translate_debug.coverage(await plc.session.debugging.reached()).model_dump()

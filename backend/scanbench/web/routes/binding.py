@@ -16,4 +16,4 @@ router = APIRouter(prefix="/api/instances/{instance}", tags=["values"])
 async def on_binding(bench: Bench, instance: Id, path: Annotated[str, Query(max_length=2000)]) -> wire.Binding:
     """What an in-out (`Main.fb1.level`) is bound to: the variable that the block's last execution was given, and what other
     calls pass."""
-    return translate_debug.binding(await bench.session(instance).binding(path))
+    return translate_debug.binding(await bench.session(instance).debugging.binding(path))

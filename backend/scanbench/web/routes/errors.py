@@ -11,6 +11,7 @@ from scanbench.web.auth import user_of
 from scanbench.web.messages_base import Id
 from scanbench.web.reach import Bench
 from scanbench.web.translate_errors import command_result
+from scanbench.wire.host import PreviewedErrors, PreviewErrors
 from scanbench.wire.refused import Refused
 
 router = APIRouter(prefix="/api/instances/{instance}", tags=["errors"])
@@ -59,7 +60,7 @@ async def on_clear_log(bench: Bench, request: Request, instance: Id) -> messages
 @router.get("/errors/armed")
 async def on_armed(bench: Bench, instance: Id) -> list[messages_errors.ArmedFault]:
     """The faults that are armed and not over."""
-    return list(map(translate_errors.armed, bench.session(instance).armed))
+    return list(map(translate_errors.armed, bench.session(instance).errors.armed))
 
 
 @router.post("/errors/arm")
@@ -85,14 +86,15 @@ async def on_preview(
     bench: Bench, instance: Id, wanted: messages_errors.PreviewErrors
 ) -> messages_errors.PreviewedErrors:
     """What raising these would write now; nothing is changed."""
-    refs = translate_errors.refs(wanted.errors)
-    return translate_errors.previewed(await bench.session(instance).preview_errors(refs, wanted.again))
+    refs, instance_of = translate_errors.refs(wanted.errors), bench.session(instance).instance
+    preview = await instance_of.ask(lambda ref: PreviewErrors(ref, refs, wanted.again), PreviewedErrors)
+    return translate_errors.previewed(preview)
 
 
 @router.get("/errors/{error}/reaction")
 async def on_reaction(bench: Bench, instance: Id, error: str) -> messages_errors.Reaction:
     """How the program reacted to an error the last time it was raised here."""
-    found = bench.session(instance).reaction(error)
+    found = bench.session(instance).errors.reaction(error)
     if found is None:
         raise Refused(f"nobody has compared yet how the program reacts to {error}: raise it, and wait for the window")
     return translate_errors.reaction(found)

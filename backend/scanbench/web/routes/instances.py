@@ -118,7 +118,7 @@ async def on_delete_instance(bench: Bench, instance: Id) -> None:
 async def on_symbols(bench: Bench, instance: Id, path: str = "", offer: bool = False) -> list[wire.Symbol]:
     """The members below a path; programs and globals below ''. With `offer` a path that is no variable (it is being typed)
     has none, instead of being refused."""
-    found = await bench.session(instance).look_up("members", path)
+    found = await bench.session(instance).instance.look_up("members", path)
     if found.message and not offer:
         raise Refused(found.message, found.near)
     return list(map(translate.symbol, found.symbols))
@@ -127,21 +127,21 @@ async def on_symbols(bench: Bench, instance: Id, path: str = "", offer: bool = F
 @router.get("/instances/{instance}/complete")
 async def on_complete(bench: Bench, instance: Id, text: str = "") -> list[wire.Symbol]:
     """At most 50 symbols whose path begins with the text."""
-    found = await bench.session(instance).look_up("complete", text)
+    found = await bench.session(instance).instance.look_up("complete", text)
     return list(map(translate.symbol, found.symbols))
 
 
 @router.get("/instances/{instance}/instances-of")
 async def on_instances_of(bench: Bench, instance: Id, pou: str) -> list[wire.Symbol]:
     """The instances of a POU in the running program, at most 1,000."""
-    found = await bench.session(instance).look_up("instances", pou)
+    found = await bench.session(instance).instance.look_up("instances", pou)
     return list(map(translate.symbol, found.symbols))
 
 
 @router.get("/instances/{instance}/program")
 async def on_program(bench: Bench, instance: Id, version: Version) -> wire.ProgramText:
     """The text of a program version that ran here: in the past the text is that of the scan."""
-    sources = await bench.session(instance).sources_of(version)
+    sources = await bench.session(instance).instance.sources_of(version)
     found = await bench.projects.declared(sources)
     return wire.ProgramText(version=version, files=sources.files, pous=list(map(translate.pou, found.pous)))
 
@@ -149,7 +149,7 @@ async def on_program(bench: Bench, instance: Id, version: Version) -> wire.Progr
 @router.get("/instances/{instance}/errors")
 async def on_errors(bench: Bench, instance: Id) -> list[ErrorHistoryRow]:
     """The error history, in the order of the catalogue."""
-    return list(map(translate.error_row, bench.session(instance).rows))
+    return list(map(translate.error_row, bench.session(instance).errors.rows))
 
 
 @router.websocket("/instances/{instance}/socket")

@@ -37,9 +37,9 @@ async def on_history(bench: Bench, instance: Id, version: Version | None = None)
     """The error history of a version, or of the one that runs."""
     session = bench.session(instance)
     rows = await bench.records.rows(session, version)
-    of = session.history_version if version is None else version
+    of = session.errors.version if version is None else version
     return wire.HistoryOfVersion(
-        version=of, running=of == session.history_version, rows=list(map(translate.error_row, rows))
+        version=of, running=of == session.errors.version, rows=list(map(translate.error_row, rows))
     )
 
 

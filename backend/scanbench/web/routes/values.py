@@ -50,7 +50,7 @@ async def on_write(bench: Bench, request: Request, instance: Id, wanted: message
 @router.get("/forces")
 async def on_forces(bench: Bench, instance: Id) -> list[wire.ForceInfo]:
     """The forces that hold."""
-    return list(map(translate.force, await bench.session(instance).forces_now()))
+    return list(map(translate.force, await bench.session(instance).forces.now()))
 
 
 @router.post("/force")

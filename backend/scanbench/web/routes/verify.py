@@ -149,7 +149,9 @@ async def on_export_record(bench: Bench, record: Id, format: Format = "csv") -> 
 @router.get("/instances/{instance}/disturbances")
 async def on_disturbances(bench: Bench, instance: Id) -> list[wire.DisturbanceInfo]:
     """Those that are not over, and those that never came about."""
-    return list(map(translate_verify.disturbance, await bench.session(instance).disturbances_now()))
+    session = bench.session(instance)
+    await session.forces.now()  # before that is answered, what holds is told
+    return list(map(translate_verify.disturbance, session.errors.disturbances))
 
 
 @router.post("/instances/{instance}/disturbances")

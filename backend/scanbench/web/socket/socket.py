@@ -124,16 +124,16 @@ class Client:
             you=translate.user(self.user),
             users=list(map(translate.user, self._session.users)),
             instance=instance,
-            errors=list(map(translate.error_row, self._session.rows)),
-            log=list(map(translate.log_line, self._session.lines)),
-            forces=list(map(translate.force, self._session.forces)),
-            armed=list(map(translate_errors.armed, self._session.armed)),
-            diagnostics=translate.diagnostics(self._session.violations),
-            timeline=translate.timeline(self._session.timeline),
+            errors=list(map(translate.error_row, self._session.errors.rows)),
+            log=list(map(translate.log_line, self._session.log.lines)),
+            forces=list(map(translate.force, self._session.forces.all)),
+            armed=list(map(translate_errors.armed, self._session.errors.armed)),
+            diagnostics=translate.diagnostics(self._session.log.violations),
+            timeline=translate.timeline(self._session.log.timeline),
             breakpoints=list(map(translate_debug.breakpoint, self._session.debugging.verdicts)),
             coverage=translate_debug.coverage(covered) if (covered := self._session.debugging.coverage) else None,
             verifications=list(map(translate_verify.info, verifications)),
-            disturbances=list(map(translate_verify.disturbance, self._session.disturbances)),
+            disturbances=list(map(translate_verify.disturbance, self._session.errors.disturbances)),
         )
         self._texts.first(hello.model_dump_json())
         writer = asyncio.get_running_loop().create_task(self._write())
@@ -172,7 +172,7 @@ class Client:
                 await self._socket.send_bytes(self._frames.popleft())
             if self._stale and not self._asked:
                 self._asked = True
-                self._session.want_snapshot(self._id)
+                self._session.watching.want_snapshot(self._id)
 
     def _answer(self, ref: int, ok: bool, message: str, scan: int | None = None, near: tuple[str, ...] = ()) -> None:
         done = wire.Done(ref=ref, ok=ok, message=message, scan=scan, near=list(near))
@@ -191,12 +191,12 @@ class Client:
             return
         match message:
             case wire.Watch():
-                self._session.watch(self._id, message.ref, message.paths)
+                self._session.watching.watch(self._id, message.ref, message.paths)
             case debugger.DapOut():
                 self._debugger().receive(message.message)
             case wire.Unwatch():
                 self._ids.difference_update(message.ids)
-                self._session.unwatch(self._id, message.ids)
+                self._session.watching.unwatch(self._id, message.ids)
             case wire.Travel() | wire.NewRun() | wire.RollBack():  # may take a build: the rest must not wait for it
                 task = asyncio.get_running_loop().create_task(self._serve(message))
                 self._slow.add(task)
@@ -234,7 +234,7 @@ class Client:
             case wire.RollBack():
                 return await session.roll_back(author)
             case debugger.SetCoverage():
-                return await session.cover(message.on, message.reset, author)
+                return await session.debugging.cover(message.on, message.reset, author)
             case _:
                 return await session.submit(self._command(message))
 
