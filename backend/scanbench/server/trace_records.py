@@ -73,7 +73,7 @@ class TraceRecords:
     def tidy(self) -> None:
         """Removes files that belong to nothing any more. Waits for the disk."""
         self._directory.mkdir(parents=True, exist_ok=True)
-        rows = [row for project in self._store.projects() for row in self._store.kept("trace", project.id)]
+        rows = [row for project in self._store.projects.all() for row in self._store.kept.all("trace", project.id)]
         known = {self._path(row.id) for row in rows}
         for path in self._directory.iterdir():
             if path not in known:
@@ -88,11 +88,11 @@ class TraceRecords:
 
     async def of_project(self, project: int) -> list[TraceRecord]:
         """The newest first."""
-        return list(map(_record, await asyncio.to_thread(self._store.kept, "trace", project)))
+        return list(map(_record, await asyncio.to_thread(self._store.kept.all, "trace", project)))
 
     async def one(self, id: int) -> TraceRecord:
         """One record."""
-        return _record(await asyncio.to_thread(self._store.kept_one, "trace", id))
+        return _record(await asyncio.to_thread(self._store.kept.get, "trace", id))
 
     async def keep(self, session: Session, trace: int, name: str, author: str) -> TraceRecord:
         """Keeps what a trace has recorded until now."""
@@ -129,14 +129,14 @@ class TraceRecords:
         self, session: Session, name: str, content: Json, write: Callable[[Path], object], author: str
     ) -> TraceRecord:  # fmt: skip
         row = await asyncio.to_thread(
-            lambda: self._store.keep(
+            lambda: self._store.kept.keep(
                 "trace", session.project_id, name=name, instance=session.name, content=content, by=author
             )
         )
         try:
             await asyncio.to_thread(write, self._path(row.id))
         except BaseException as error:
-            await asyncio.to_thread(self._store.forget, "trace", row.id)
+            await asyncio.to_thread(self._store.kept.forget, "trace", row.id)
             if isinstance(error, OSError):
                 raise Refused(f"the record cannot be kept: {error.strerror}") from error
             raise
@@ -144,7 +144,7 @@ class TraceRecords:
 
     async def delete(self, id: int) -> None:
         """Forgets a record."""
-        await asyncio.to_thread(self._store.forget, "trace", id)
+        await asyncio.to_thread(self._store.kept.forget, "trace", id)
         self._open.pop(id, None)
         await asyncio.to_thread(self._path(id).unlink, True)
 

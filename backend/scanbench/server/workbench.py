@@ -84,7 +84,7 @@ class Workbench:
         await self.sweeps.start()
         if not await self.projects.all():
             await self._first_start()
-        for instance in await asyncio.to_thread(self._store.instances):
+        for instance in await asyncio.to_thread(self._store.instances.all):
             try:
                 await self._open(instance)
             except Refused as error:  # the others must not suffer
@@ -154,18 +154,18 @@ class Workbench:
             outcome = await self.projects.build(project_id, "server")
             if not outcome.ok:
                 raise Refused(f"{project.name} has no program that could run: {outcome.message}")
-        row = await asyncio.to_thread(self._store.create_instance, project_id, name)
+        row = await asyncio.to_thread(self._store.instances.create, project_id, name)
         await asyncio.to_thread(discard, run_path(self._runs, row.id))
         return await self._open(row)
 
     async def branch(self, id: int, name: str, scan: int | None, author: str) -> Session:
         """A new PLC that begins as this one was before `scan`, or is now; its past is the same."""
         origin = self.session(id)
-        row = await asyncio.to_thread(self._store.create_instance, origin.project_id, name)
+        row = await asyncio.to_thread(self._store.instances.create, origin.project_id, name)
         try:
             await self._copied(origin, run_path(self._runs, row.id), scan, author)
         except BaseException:
-            await asyncio.to_thread(self._store.delete_instance, row.id)
+            await asyncio.to_thread(self._store.instances.delete, row.id)
             await asyncio.to_thread(discard_all, self._runs, row.id)
             raise
         session = await self._open(row, paused=scan is not None)
@@ -205,7 +205,7 @@ class Workbench:
             sources, damage = await asyncio.to_thread(sources_and_damage, path, self.models)
             damage = damage.replace(path.name, "the file").replace(". The damaged rest was left as it was", "")
             project = await self.projects.from_sources(name, sources, author)
-            row = await asyncio.to_thread(self._store.create_instance, project.id, name)
+            row = await asyncio.to_thread(self._store.instances.create, project.id, name)
             await asyncio.to_thread(os.replace, path, run_path(self._runs, row.id))
         except BaseException as error:
             await asyncio.to_thread(discard, path)
@@ -224,11 +224,11 @@ class Workbench:
 
     async def _open_state(self, project: int, path: Path, name: str, author: str) -> Session:
         """A new paused PLC of a project that goes on where a state was kept."""
-        row = await asyncio.to_thread(self._store.create_instance, project, name)
+        row = await asyncio.to_thread(self._store.instances.create, project, name)
         try:
             await asyncio.to_thread(shutil.copyfile, path, run_path(self._runs, row.id))
         except BaseException as error:
-            await asyncio.to_thread(self._store.delete_instance, row.id)
+            await asyncio.to_thread(self._store.instances.delete, row.id)
             await asyncio.to_thread(discard_all, self._runs, row.id)
             if isinstance(error, OSError):
                 raise Refused(f"the state cannot be copied: {error.strerror}") from error
@@ -248,7 +248,7 @@ class Workbench:
         session = self.session(id)
         if powered and session.instance.why_not:
             raise Refused(session.instance.why_not)
-        change = partial(self._store.change_instance, id, name=name, powered=powered, limits=limits)
+        change = partial(self._store.instances.change, id, name=name, powered=powered, limits=limits)
         await session.change(await asyncio.to_thread(change), author)
         return session
 
@@ -261,7 +261,7 @@ class Workbench:
         await self.pasts.forget_instance(id)
         await session.stop()
         await self._write_behind.flush()
-        await asyncio.to_thread(self._store.delete_instance, id)
+        await asyncio.to_thread(self._store.instances.delete, id)
         await asyncio.to_thread(discard_all, self._runs, id)
 
     async def _open(self, row: InstanceRow, paused: bool = False) -> Session:
@@ -274,14 +274,14 @@ class Workbench:
             model = stand_in(project.model)
             why_not = why_missing(project.model, model_directory(), self._model_problems)
             log.error("%s: %s", row.name, why_not)
-        rows = [row_of(model, each) for each in await asyncio.to_thread(self._store.history, row.id)]
-        lines = [line_of(each) for each in await asyncio.to_thread(self._store.log, row.id, LOG_LINES)]
+        rows = [row_of(model, each) for each in await asyncio.to_thread(self._store.errors.history, row.id)]
+        lines = [line_of(each) for each in await asyncio.to_thread(self._store.log.last, row.id, LOG_LINES)]
         memory = Remembered(row.name, sources, run_path(self._runs, row.id), row.limits)
         if paused:
             memory.driven = Driven(paused=True)
-        kept = map(breakpoint_of, await asyncio.to_thread(self._store.breakpoints, row.id))
+        kept = map(breakpoint_of, await asyncio.to_thread(self._store.breakpoints.all, row.id))
         breakpoints = [each for each in kept if each is not None]
-        traces = await asyncio.to_thread(self._store.traces, row.id)
+        traces = await asyncio.to_thread(self._store.traces.all, row.id)
         session = Session(
             row, model, memory, self._write_behind, rows, lines, self._loads, self._reactions, breakpoints, self._cache, traces,
             why_not,
@@ -308,4 +308,4 @@ class Workbench:
             if not outcome.ok:
                 log.error("sample %s: %s", sample.name, outcome.message)
             else:
-                await asyncio.to_thread(self._store.create_instance, project.id, f"line-{number}")
+                await asyncio.to_thread(self._store.instances.create, project.id, f"line-{number}")

@@ -32,12 +32,12 @@ def test_the_migrations_make_exactly_the_tables(url: str) -> None:
 
 def test_a_second_opening_finds_everything(url: str) -> None:
     first = Store(url)
-    project = first.create_project("conveyor", "CJ1M-CPU63")
-    first.save_file(project.id, "main.st", "text", 0, "ada")
+    project = first.projects.create("conveyor", "CJ1M-CPU63")
+    first.files.save(project.id, "main.st", "text", 0, "ada")
     first.close()
     second = Store(url)
-    assert second.projects() == [project]
-    assert second.sources(project.id) == {"main.st": "text"}
+    assert second.projects.all() == [project]
+    assert second.files.sources(project.id) == {"main.st": "text"}
     second.close()
 
 
@@ -59,14 +59,14 @@ def test_a_history_of_before_its_versions_is_kept(url: str) -> None:
             connection.execute(text(line))
     engine.dispose()
     store = Store(url)
-    (row,) = store.history(1)
+    (row,) = store.errors.history(1)
     assert (row.error, row.program_version, row.count, row.reaction_state) == ("battery-error", 7, 3, None)
     store.close()
 
 
 def _open_and_count(url: str) -> int:
     store = Store(url)
-    count = len(store.projects())
+    count = len(store.projects.all())
     store.close()
     return count
 
@@ -78,11 +78,11 @@ def test_servers_that_start_at_once_migrate_once(url: str) -> None:
 
 def test_of_savers_at_once_exactly_one_wins_each_round(url: str) -> None:
     stores = [Store(url) for _ in range(4)]
-    project = stores[0].create_project("conveyor", "CJ1M-CPU63").id
+    project = stores[0].projects.create("conveyor", "CJ1M-CPU63").id
 
     def save(number: int, version: int) -> bool:
         try:
-            stores[number].save_file(project, "main.st", f"{number} from {version}", version, f"author {number}")
+            stores[number].files.save(project, "main.st", f"{number} from {version}", version, f"author {number}")
         except Conflict:
             return False
         return True
@@ -91,7 +91,7 @@ def test_of_savers_at_once_exactly_one_wins_each_round(url: str) -> None:
         for version in range(12):
             won = list(pool.map(save, range(4), [version] * 4))
             assert won.count(True) == 1
-            kept = stores[0].file(project, "main.st")
+            kept = stores[0].files.get(project, "main.st")
             assert kept.version == version + 1
             assert (kept.text, kept.author) == (f"{won.index(True)} from {version}", f"author {won.index(True)}")
     for store in stores:
@@ -100,12 +100,12 @@ def test_of_savers_at_once_exactly_one_wins_each_round(url: str) -> None:
 
 def test_builds_at_once_all_get_a_number_of_their_own(url: str) -> None:
     stores = [Store(url) for _ in range(4)]
-    project = stores[0].create_project("conveyor", "CJ1M-CPU63").id
+    project = stores[0].projects.create("conveyor", "CJ1M-CPU63").id
     with ThreadPoolExecutor(4) as pool:
-        versions = list(pool.map(lambda n: stores[n % 4].accept_build(project, {"n": str(n)}, "ada"), range(20)))
+        versions = list(pool.map(lambda n: stores[n % 4].builds.accept(project, {"n": str(n)}, "ada"), range(20)))
     assert sorted(versions) == list(range(1, 21))
     for number, version in enumerate(versions):
-        build = stores[0].build(project, version)
+        build = stores[0].builds.get(project, version)
         assert build is not None
         assert build.sources == {"n": str(number)}
     for store in stores:
