@@ -4,7 +4,7 @@ from dataclasses import dataclass
 
 from scanbench.check.typed.condition import BadCondition
 from scanbench.check.typed.local import LocalAssignments, locals_of
-from scanbench.debug.called import called
+from scanbench.debug.names import name_of
 from scanbench.engines.interpreter.evaluate import Evaluator, NoValue
 from scanbench.program.copies import Spot
 from scanbench.program.program import Pou, Program
@@ -69,7 +69,7 @@ class Assigning:
         if spot not in self._names:
             if len(self._names) >= _NAMES:
                 self._names.clear()
-            self._names[spot] = called(self._program, *spot, type)
+            self._names[spot] = name_of(self._program, *spot, type)
         whole = isinstance(type, ArrayType | OpenArray | Record)
         value = (
             f"({type.name})"
@@ -100,7 +100,7 @@ def refused(view: View, spot: Spot, type: Type, shown: str) -> Refusal | None:
     offset, bit = spot
     found = view.program.layout.area_at(offset)
     if found is not None and found[0].access(found[1] // 2, "tool") != "write":
-        where = called(view.program, offset, bit, type)
+        where = name_of(view.program, offset, bit, type)
         return Refusal(f"{shown}: {where} is read-only for tools on {view.model.name}, as on the device")
     table = forced_table(view)
     one = 1 << bit if bit is not None else 0xFF

@@ -7,12 +7,11 @@ from scanbench.debug.assign import Assign, Assigning
 from scanbench.debug.breakpoint import Breakpoint, Verdict
 from scanbench.debug.breakpoints import Breakpoints
 from scanbench.debug.goals import Goal
-from scanbench.debug.halt import Halt
-from scanbench.debug.listener import Actions, Found, Listener, Position
+from scanbench.debug.halt import Found, Halt, halt_of
+from scanbench.debug.listener import Actions, Listener, Position
 from scanbench.debug.past import Past
 from scanbench.debug.placed import Placing, error_names
 from scanbench.debug.probing import Probes
-from scanbench.debug.standing import halt_of
 from scanbench.engines.debug import NOTHING, Frame, Listen
 from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.probe import MakeProbed, Probe, ProbedEngine
@@ -299,7 +298,7 @@ class Debugger:
         inside, scan = resource.listening.inside, resource.header.scan
         if inside is not None:
             self._stood = scan, inside.count
-        elif self._stood[0] != scan:  # else a knock came before the scan had run up to there again
+        elif self._stood[0] != scan:  # else an interrupt came before the scan had run up to there again
             self._stood = -1, 0
         listener.passed.begin = self._stood
         resource.listening.attach(listener)
@@ -377,7 +376,7 @@ class Debugger:
         return True
 
     def _rerun(self) -> None:
-        while self.resource.rerun(1).reason is Reason.KNOCKED:
+        while self.resource.rerun(1).reason is Reason.INTERRUPTED:
             pass
 
     # ---- the past -------------------------------------------------------------------------------------------------

@@ -2,7 +2,7 @@
 
 from dataclasses import dataclass, replace
 
-from scanbench.debug.called import address_at, called
+from scanbench.debug.names import address_at, name_of
 from scanbench.debug.scene import Scene
 from scanbench.debug.shown import VariableInfo
 from scanbench.program.types import (
@@ -126,7 +126,7 @@ def _alias(scene: Scene, shown: Shown) -> str:
     if spot is None:
         return ""
     real = scene.program.layout.copies.actual(scene.memory, *spot) or spot
-    return f"-> {called(scene.program, *real, symbol.type)}"
+    return f"-> {name_of(scene.program, *real, symbol.type)}"
 
 
 def _target(scene: Scene, symbol: Symbol) -> str | None:
@@ -137,7 +137,7 @@ def _target(scene: Scene, symbol: Symbol) -> str | None:
         return None
     target = behind(symbol)
     spot = target.locate(scene.memory)
-    return None if spot is None else called(scene.program, *spot, target.type)
+    return None if spot is None else name_of(scene.program, *spot, target.type)
 
 
 def _writable(scene: Scene, symbol: Symbol, offset: int) -> bool:

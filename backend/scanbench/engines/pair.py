@@ -31,8 +31,8 @@ class PairEngine(Engine):
         self.native = NativeEngine(program, memory)
         self.reference = ReferenceEngine(program, self.shadow)
 
-    def knock(self) -> None:
-        self.native.knock()
+    def interrupt(self) -> None:
+        self.native.interrupt()
 
     def stop_when(self, condition: Condition | None, *others: Condition) -> None:
         self.native.stop_when(condition, *others)
@@ -49,10 +49,10 @@ class PairEngine(Engine):
             scan = self._scan
             self.shadow[:] = self.memory
             stop = self.native.run(1, pace)
-            if stop.reason is Reason.KNOCKED and self._scan == scan:
+            if stop.reason is Reason.INTERRUPTED and self._scan == scan:
                 return stop
             other = self.reference.run(1)
-            self._compare(scan, Stop(Reason.DONE) if stop.reason is Reason.KNOCKED else stop, other)
+            self._compare(scan, Stop(Reason.DONE) if stop.reason is Reason.INTERRUPTED else stop, other)
             if stop.reason is not Reason.DONE:
                 return stop
         return Stop(Reason.DONE)

@@ -149,7 +149,7 @@ class Driving:
         return refusal
 
     def _single(self, author: str) -> str | Refusal:
-        """One scan, whatever knocks meanwhile; from a halt to the first statement of the next one."""
+        """One scan, whatever interrupts meanwhile; from a halt to the first statement of the next one."""
         if self._debugger.halt is not None:
             return self._debugger.step("scan", author) or "one scan"
         self._pacer.pause()

@@ -1,6 +1,6 @@
 """The host's main thread: the scan loop, and the seam between two runs of the engine.
 
-The engine runs without the GIL until it is knocked: by a message that wants something, or by the tick that takes value
+The engine runs without the GIL until it is interrupted: by a message that wants something, or by the tick that takes value
 frames and state. Everything that touches the image is here, in one thread.
 """
 
@@ -99,12 +99,12 @@ class Loop:
     def give(self, message: object) -> None:
         """Hands over a message; the engine comes back for it after the current scan."""
         self._inbox.append(message)
-        self._knock()
+        self._interrupt()
 
     def tick(self) -> None:
         """Time for frames and state."""
         self._tick = True
-        self._knock()
+        self._interrupt()
 
     def tick_ns(self) -> int:
         """How soon the next tick is wanted."""
@@ -113,8 +113,8 @@ class Loop:
     def _wants_tick(self) -> None:
         self._tick = True
 
-    def _knock(self) -> None:
-        self.resource.engine.knock()
+    def _interrupt(self) -> None:
+        self.resource.engine.interrupt()
         self._wake.set()
 
     # ---- the loop -------------------------------------------------------------------------------------------------

@@ -72,7 +72,7 @@ def run_headless(
     recorded = _Recorded(recording, resource) if recording is not None else None
     resource.waiting.until = until
     if interrupt is not None:
-        interrupt.reaches(resource.knock)
+        interrupt.reaches(resource.interrupt)
     met = False
     refused: list[Refused] = []
     rows: list[tuple[int, T]] = []

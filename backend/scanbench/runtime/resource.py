@@ -135,25 +135,25 @@ class Resource:
         ran = self.runnable
         self._attend(NONE_MET)  # nothing, unless this run was gone on with behind what was due
         if ran and not self.runnable:
-            return Stop(Reason.KNOCKED)
+            return Stop(Reason.INTERRUPTED)
         waits, first, listening = self.waiting.waits(self.view), self.header.scan, self.listening
         if waits.scan is not None:
             scans = min(scans, waits.scan - first)
         agenda, insider = self.waiting.agenda, waits.inside
         listening.observe(agenda.observed if waits.sites and agenda is not None else None)
         if insider is not None and not self._finishing and listening.takes_over():
-            return Stop(Reason.KNOCKED)
+            return Stop(Reason.INTERRUPTED)
         alone = bool(waits.sites) or insider is not None
         stop = self._run(self.engine, min(scans, 1) if alone else scans, pace, self.waiting.conditions(waits), insider)
         if stop.reason is Reason.HALTED:
-            return Stop(Reason.KNOCKED) if listening.probe_reached() else stop
+            return Stop(Reason.INTERRUPTED) if listening.probe_reached() else stop
         if stop.reason is Reason.TRAP and not self._finishing and listening.trap_taken_back():
             return Stop(Reason.HALTED)
         came_true = held(self.engine, waits) if stop.reason is Reason.CONDITION else NONE_MET.conditions
         met = Met(came_true, listening.reached(waits.sites))
         until = self.waiting.until
         if stop.reason is Reason.CONDITION and (until is None or not self.engine.holds(until)):
-            stop = Stop(Reason.KNOCKED)
+            stop = Stop(Reason.INTERRUPTED)
         if stop.reason is Reason.TRAP:
             self._notice(stop.trap)
         elif self.header.scan > first:
@@ -161,9 +161,9 @@ class Resource:
         self._attend(met)
         return stop
 
-    def knock(self) -> None:
+    def interrupt(self) -> None:
         """Asks, from any thread, for the run to come back after the current scan."""
-        self.engine.knock()
+        self.engine.interrupt()
 
     def finish(self) -> None:
         """Runs the scan to its end that is halted, whoever wants to halt it again. A trap ends it, too."""

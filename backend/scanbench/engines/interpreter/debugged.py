@@ -47,7 +47,7 @@ class ReferenceDebugEngine(ReferenceEngine, DebugEngine):
         try:
             return super().run(scans, pace)
         finally:
-            self._knock.clear()  # also when the hook raises
+            self._interrupt.clear()  # also when the hook raises
 
     def _run(self, scans: int, pace: Pace | None) -> Stop:
         try:

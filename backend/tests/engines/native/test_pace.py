@@ -1,4 +1,4 @@
-"""Pacing and knocking."""
+"""Pacing and interrupting."""
 
 import threading
 import time
@@ -49,32 +49,32 @@ def test_a_little_delay_is_made_up() -> None:
     assert pace.worst_ns >= 50 * MS
 
 
-def test_a_knock_before_the_run_counts_once() -> None:
+def test_an_interrupt_before_the_run_counts_once() -> None:
     made = plc(COUNT)
-    made.engine.knock()
-    assert made.engine.run(5) == Stop(Reason.KNOCKED)
+    made.engine.interrupt()
+    assert made.engine.run(5) == Stop(Reason.INTERRUPTED)
     assert made.value("Main.n") == 0
     assert made.engine.run(5) == Stop(Reason.DONE)
     assert made.value("Main.n") == 5
 
 
-def test_a_knock_ends_a_wait() -> None:
+def test_an_interrupt_ends_a_wait() -> None:
     made = plc(COUNT)
     start = time.monotonic_ns()
-    timer = threading.Timer(0.03, made.engine.knock)
+    timer = threading.Timer(0.03, made.engine.interrupt)
     timer.start()
     pace = Pace(10_000 * MS, start + 10_000 * MS)
-    assert made.engine.run(5, pace) == Stop(Reason.KNOCKED)
+    assert made.engine.run(5, pace) == Stop(Reason.INTERRUPTED)
     assert time.monotonic_ns() - start < 1000 * MS
     assert pace.deadline_ns == start + 10_000 * MS
     timer.join()
 
 
-def test_a_knock_ends_a_run_at_full_speed_and_python_goes_on_meanwhile() -> None:
+def test_an_interrupt_ends_a_run_at_full_speed_and_python_goes_on_meanwhile() -> None:
     made = plc(COUNT)
-    timer = threading.Timer(0.03, made.engine.knock)
+    timer = threading.Timer(0.03, made.engine.interrupt)
     timer.start()
-    assert made.engine.run(1 << 62) == Stop(Reason.KNOCKED)
+    assert made.engine.run(1 << 62) == Stop(Reason.INTERRUPTED)
     assert made.value("Main.n") == made.field(Layout.SCAN) & 0xFFFF_FFFF or made.field(Layout.SCAN) > 1 << 31
     timer.join()
 

@@ -6,7 +6,7 @@ from scanbench.symbols.named import temporary_at, variable_at
 from scanbench.symbols.symbols import RAW_TYPES, at_offset
 
 
-def called(program: Program, offset: int, bit: int | None, type: Type) -> str:
+def name_of(program: Program, offset: int, bit: int | None, type: Type) -> str:
     """`Main.tank[3].level (D120)`, `D100`, `temporary Mix.t`: for people."""
     symbol = variable_at(program, (offset, bit), type)
     address = address_at(program, offset, bit, type)
