@@ -13,7 +13,7 @@ from scanbench.program.program import Program
 from scanbench.program.types import Elementary, Enumeration, StringType, Type
 from scanbench.runtime.command import Entry
 from scanbench.runtime.header import Mode, fresh_image
-from scanbench.runtime.migrate_image import carry_over
+from scanbench.runtime.migrate_image import migrate
 from scanbench.symbols.holding import Holders
 from scanbench.symbols.symbols import Symbol
 from scanbench.symbols.values import format_value, python_value
@@ -184,7 +184,7 @@ def _common(one: Program, other: Program) -> tuple[NDArray[np.intp], NDArray[np.
 
 def _carried(old: Program, image: Bytes, new: Program) -> Bytes:
     into = fresh_image(new, Mode.MONITOR)
-    carry_over(old, image.tobytes(), new, into)
+    migrate(old, image.tobytes(), new, into)
     return np.frombuffer(into, np.uint8)
 
 

@@ -64,10 +64,10 @@ def changes(old: Program, new: Program) -> Change:
     """What would become of the variables, whatever values they have: before anybody agrees to it."""
     memory = bytearray(old.layout.size)
     memory[: len(old.initial_image)] = old.initial_image
-    return carry_over(old, memory, new, bytearray(new.layout.size))
+    return migrate(old, memory, new, bytearray(new.layout.size))
 
 
-def carry_over(old: Program, old_memory: bytes | bytearray | memoryview, new: Program, new_memory: bytearray) -> Change:
+def migrate(old: Program, old_memory: bytes | bytearray | memoryview, new: Program, new_memory: bytearray) -> Change:
     """Fills `new_memory`, a fresh image of `new`, from the running image of `old`."""
     change = Change()
     for offset, size in _HEADER:

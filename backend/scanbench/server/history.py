@@ -51,8 +51,8 @@ class _Rerun:
     ended: bool = False
 
 
-class Pasts:
-    """All of a server."""
+class RunHistory:
+    """What was asked of the past of all PLCs of a server."""
 
     def __init__(self, runs: Path, cache: Path, open: Open, answer_s: float = ANSWER_S) -> None:
         self._answer_s, self._answered = answer_s, 0

@@ -19,7 +19,7 @@ from scanbench.plcmodel.load import load_all, model_directory
 from scanbench.plcmodel.model import Model
 from scanbench.recording.format import RunFileError
 from scanbench.runtime.clock import monotonic_ns
-from scanbench.server.history import Pasts
+from scanbench.server.history import RunHistory
 from scanbench.server.missing import stand_in, why_missing
 from scanbench.server.projects import Projects
 from scanbench.server.samples import samples
@@ -67,7 +67,7 @@ class Workbench:
         self.trace_records = TraceRecords(store, data / "traces", self._cache)
         self.verifications = Verifications(store, data / "verifications", self._cache)
         self.trace_files = TraceFiles(store, data / "imports", self._cache)
-        self.pasts = Pasts(self._runs, self._cache, self._open_rerun)
+        self.history = RunHistory(self._runs, self._cache, self._open_rerun)
         self.sweeps = Sweeps(
             store, self.states, self._cache, self._sessions_of, self.projects.built, self._open_state
         )  # fmt: skip
@@ -108,7 +108,7 @@ class Workbench:
         await self.sweeps.close()
         await self.trace_records.close()
         await self.verifications.close()
-        await self.pasts.close()
+        await self.history.close()
         await asyncio.gather(
             *(session.stop() for session in self._sessions.values()),
             self._checker.close(),
@@ -258,7 +258,7 @@ class Workbench:
         if session is None:
             raise NotFound(f"there is no instance {id}")
         await self.verifications.forget_instance(id)
-        await self.pasts.forget_instance(id)
+        await self.history.forget_instance(id)
         await session.stop()
         await self._write_behind.flush()
         await asyncio.to_thread(self._store.instances.delete, id)
