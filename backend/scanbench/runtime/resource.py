@@ -224,7 +224,7 @@ class Resource:
 
     def leave(self) -> None:
         """Where the scan began that is halted, without what was entered inside of it: for what is shown of the past."""
-        self._stand_at_begin()
+        self.listening.go_to_begin()
         self.journal = self.journal.prefix(front(self.journal, self.header.scan))
 
     # ---- running --------------------------------------------------------------------------------------------------
@@ -233,7 +233,7 @@ class Resource:
         self, engine: Engine, scans: int, pace: Pace | None, conditions: tuple[Condition, ...],
         insider: Insider | None = None,
     ) -> Stop:  # fmt: skip
-        self._stand_at_begin()
+        self.listening.go_to_begin()
         if not self.runnable:
             raise RuntimeError("the program is stopped: it must not be run")
         waiting = entered_inside(self.journal, self.header.scan)
@@ -243,23 +243,16 @@ class Resource:
         first, start = self.header.scan, monotonic_ns()
         busy = pace.busy_ns if pace is not None else 0
         if waiting or self.listening.hook is not None or insider is not None:
-            within = Within(waiting, self._again, insider, partial(self._enter_inside, first))
+            within = Within(
+                waiting, lambda entry: seam.apply(self.loaded, self.programs, entry.plan), insider,
+                partial(self._enter_inside, first),
+            )  # fmt: skip
             stop = self.listening.run(scans, pace, within, not self._finishing, self.lenient)
         else:
             stop = engine.run(scans, pace)
         self.measured.scans += self.header.scan - first
         self.measured.busy_ns += pace.busy_ns - busy if pace is not None else monotonic_ns() - start
         return stop
-
-    def _stand_at_begin(self) -> None:
-        """Where a scan began that is halted: it is run from there."""
-        inside = self.listening.inside
-        if inside is not None:
-            self.memory[:] = inside.begin
-            self.listening.inside = None
-
-    def _again(self, entry: Entry) -> None:
-        seam.apply(self.loaded, self.programs, entry.plan)
 
     def _enter_inside(self, scan: int, command: Command, count: int) -> None:
         """What an insider enters. If it is refused, the agenda finds that it was not entered."""
