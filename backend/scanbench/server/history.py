@@ -6,7 +6,7 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 
 from scanbench.history.contract import Changes, RerunChange, Writer
-from scanbench.jobs.client import ANSWER_S, DIED, SLOW, Job, answered
+from scanbench.jobs.client import ANSWER_S, DIED, SLOW, WORK_S, Job, answered
 from scanbench.runtime.clock import fresh_token
 from scanbench.session.session import Session
 from scanbench.store.records import NotFound
@@ -168,7 +168,9 @@ class RunHistory:
             del self._comparisons[id]
         id = self._number()
         changed = ComparisonChanged(id, a.id, b.id, author)
-        job = Job(self._cache, lambda message: self._on_compared(id, message), lambda _job: self._on_compare_end(id))
+        job = Job(
+            self._cache, lambda message: self._on_compared(id, message), lambda _job: self._on_compare_end(id), WORK_S
+        )
         self._comparisons[id] = _Comparison(a, changed, job)
         job.ask(CompareRuns(id, str(a.instance.run_file), str(b.instance.run_file), _until(a), _until(b)))
         return changed
@@ -215,7 +217,7 @@ class RunHistory:
         id = self._number()
         changed = RerunChanged(id, author, name)
         file = self._runs / f"rerun-{fresh_token()}"
-        job = Job(self._cache, lambda message: self._on_rerun(id, message), lambda _job: self._on_rerun_end(id))
+        job = Job(self._cache, lambda message: self._on_rerun(id, message), lambda _job: self._on_rerun_end(id), WORK_S)
         self._reruns[id] = _Rerun(session, changed, job, file)
         job.ask(RerunRun(id, str(session.instance.run_file), str(file), change, _until(session), author))
         return changed

@@ -14,7 +14,7 @@ from scanbench.faults.inject import Generate
 from scanbench.faults.reaction.compare import Outcome, SweepChange, compare
 from scanbench.faults.reaction.reaction import FINDINGS, Reaction, Verdict
 from scanbench.faults.reference import ErrorRef, find_error
-from scanbench.jobs.client import DIED, Job
+from scanbench.jobs.client import DIED, WORK_S, Job
 from scanbench.plcmodel.catalogue import path_text
 from scanbench.plcmodel.model import Model
 from scanbench.reports.reaction_json import from_json, to_json
@@ -286,7 +286,7 @@ class Sweeps:
 
     def _run(self, row: SweepRow, points: Sequence[StartPoint], sources: Sources, done: Sequence[CellRow]) -> None:
         inbox: asyncio.Queue[object] = asyncio.Queue()
-        job = Job(self._cache, inbox.put_nowait, lambda _: inbox.put_nowait(None))
+        job = Job(self._cache, inbox.put_nowait, lambda _: inbox.put_nowait(None), WORK_S)
         running = _Running(row, job, inbox, monotonic_ns(), row.seconds)
         self._running[row.id] = running
         pairs = tuple((cell.error, cell.state) for cell in done)

@@ -9,7 +9,7 @@ from pathlib import Path
 from typing import cast
 
 from scanbench.engines.sample import MAX_SIGNALS
-from scanbench.jobs.client import DIED, Job
+from scanbench.jobs.client import DIED, WORK_S, Job
 from scanbench.runtime.clock import fresh_token
 from scanbench.session.session import Session
 from scanbench.store.records import Json, KeptRow
@@ -200,7 +200,7 @@ class TraceRecords:
         id, self._next = self._next, self._next + 1
         file = self._directory / f"flight-{fresh_token()}"
         changed = FlightChanged(id, author, 0, last - first + 1)
-        job = Job(self._cache, lambda message: self._on_message(id, message), lambda _job: self._on_end(id))
+        job = Job(self._cache, lambda message: self._on_message(id, message), lambda _job: self._on_end(id), WORK_S)
         self._flights[id] = _Flight(session, job, changed, file, every)
         job.ask(RecordFlight(id, str(session.instance.run_file), signals, every, first, last, str(file)))
         self._tell(id, changed)
