@@ -1,9 +1,10 @@
 """Expressions of Structured Text."""
 
 from scanbench.problems import Span
-from scanbench.syntax import parse_literal, tree
+from scanbench.syntax import tree
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
+from scanbench.syntax.parse_literal import literal
 from scanbench.syntax.source import Stretch
 
 BINARY: dict[str, tuple[int, str]] = {
@@ -57,23 +58,23 @@ def expression(c: Cursor, weakest: int = 0) -> tree.Expression:
 
 
 def operand(c: Cursor) -> tree.Expression:
-    at = c.at
+    at, texts = c.at, c.texts
     kind = c.kinds[at]
     if kind is NAME:
-        text = c.texts[at]
+        text = texts[at]
         c.at = at + 1
         start = c.starts[at]
         name = tree.Name(text, Stretch(c.source, start, start + len(text)))
-        return postfix(c, name) if c.texts[at + 1] in POSTFIX else name
+        return postfix(c, name) if texts[at + 1] in POSTFIX else name
     if kind in LITERALS:
         c.at = at + 1
-        if kind is Lex.STRING and c.texts[at][0] == '"' and c.texts[at + 1] in QUOTED_NAME:
+        if kind is Lex.STRING and texts[at][0] == '"' and texts[at + 1] in QUOTED_NAME:
             raise c.quoted(at)
-        return parse_literal.literal(c, at)
+        return literal(c, at)
     if kind is Lex.ADDRESS:
         c.at = at + 1
-        return tree.DirectAddress(c.texts[at], c.span_of(at))
-    return _marked(c, at, c.texts[at])
+        return tree.DirectAddress(texts[at], c.span_of(at))
+    return _marked(c, at, texts[at])
 
 
 def _marked(c: Cursor, at: int, text: str) -> tree.Expression:
@@ -161,7 +162,7 @@ def _member(c: Cursor, base: tree.Expression) -> tree.Expression:
         raise c.fail("a part of a variable is written like x.%X3, x.%B1, x.%W0, x.%D0 or x.%B1.3")
     if kind is Lex.TYPED and (owner := _path(base)):
         c.at = at + 1
-        return parse_literal.literal(c, at, owner + ".")
+        return literal(c, at, owner + ".")
     if kind is Lex.KEYWORD and text not in ("AND", "OR", "XOR", "MOD", "NOT"):
         raise c.fail(f"the name of a member expected; `{text}` is a keyword and cannot be a name")
     raise c.fail("the name of a member expected")

@@ -2,9 +2,10 @@
 
 from collections.abc import Callable
 
-from scanbench.syntax import parse_expression, tree
+from scanbench.syntax import tree
 from scanbench.syntax.cursor import NAME, Cursor, Unexpected
 from scanbench.syntax.lexer import Lex
+from scanbench.syntax.parse_expression import expression
 from scanbench.syntax.parse_type import POU_ENDS, POU_STARTS, SECTIONS
 
 BLOCK_ENDS = frozenset(("END_IF", "ELSIF", "ELSE", "END_CASE", "END_FOR", "END_WHILE", "UNTIL", "END_REPEAT"))
@@ -39,17 +40,16 @@ MAX_LABELS = 1000
 def statements(c: Cursor, labels: bool = False) -> tuple[tree.Statement, ...]:
     """Statements up to something that ends a block; with `labels` also up to the next label of a CASE."""
     found: list[tree.Statement] = []
-    depth = c.depth
-    while (text := c.texts[c.at]) not in STOPS:
+    depth, kinds, texts = c.depth, c.kinds, c.texts
+    while (text := texts[before := c.at]) not in STOPS:
         if text == ";":
             c.at += 1
             continue
-        name = c.kinds[c.at] is NAME
-        if name and c.kinds[c.at + 1] is NAME and declaration_follows(c):
+        name = kinds[before] is NAME
+        if name and kinds[before + 1] is NAME and declaration_follows(c):
             break
         if labels and _at_label(c):
             break
-        before = c.at
         try:
             keyword = KEYWORDS.get(text)
             if keyword is None:
@@ -93,9 +93,9 @@ def _simple(c: Cursor, name: bool) -> tree.Statement:
             c.close(";", "behind CONTINUE")
             return tree.ContinueStatement(c.span_of(start))
         _refused(c, word)
-    target = parse_expression.expression(c)
+    target = expression(c)
     if c.accept(":="):
-        value = parse_expression.expression(c)
+        value = expression(c)
         span = c.span_from(start)
         if c.is_(":="):
             c.report("X001", "Several assignments in one (`a := b := c`) are not supported; write one for each.", span)
@@ -124,7 +124,7 @@ def _other(c: Cursor, start: int, target: tree.Expression) -> tree.Statement:
 
 
 def _assigned(c: Cursor, start: int, target: tree.Expression, operator: str) -> tree.Statement:
-    value = parse_expression.expression(c)
+    value = expression(c)
     span = c.span_from(start)
     c.close(";", "at the end of the assignment")
     return tree.Assignment(target, value, span, operator)
@@ -152,7 +152,7 @@ def _exit(c: Cursor) -> tree.Statement:
 def _condition(c: Cursor, keyword: str) -> tree.Expression:
     start, depth = c.at, c.depth
     try:
-        condition = parse_expression.expression(c)
+        condition = expression(c)
     except Unexpected:
         c.depth = depth
         if not _reach(c, keyword):
@@ -220,8 +220,8 @@ def _labels(c: Cursor) -> tuple[tuple[tree.Expression, tree.Expression | None], 
     depth = c.depth
     try:
         while True:
-            first = parse_expression.expression(c)
-            labels.append((first, parse_expression.expression(c) if c.accept("..") else None))
+            first = expression(c)
+            labels.append((first, expression(c) if c.accept("..") else None))
             if not c.accept(","):
                 break
         c.expect(":", "behind the label of the CASE")
@@ -243,12 +243,12 @@ def _at_label(c: Cursor) -> bool:
 
 def _for(c: Cursor) -> tree.Statement:
     start = c.take()
-    variable = parse_expression.expression(c)
+    variable = expression(c)
     c.expect(":=", "behind the control variable of the FOR")
-    first = parse_expression.expression(c)
+    first = expression(c)
     c.expect("TO", "behind the start value of the FOR")
-    last = parse_expression.expression(c)
-    step = parse_expression.expression(c) if c.accept_word("BY") else None
+    last = expression(c)
+    step = expression(c) if c.accept_word("BY") else None
     c.close("DO", "behind the bounds of the FOR")
     span = c.span_from(start)
     body = statements(c)
@@ -270,7 +270,7 @@ def _repeat(c: Cursor) -> tree.Statement:
     span = c.span_from(start)
     body = statements(c)
     c.expect("UNTIL", f"to close the REPEAT of line {c.line_of(start)}")
-    until = parse_expression.expression(c)
+    until = expression(c)
     c.accept(";")
     _close_block(c, "END_REPEAT", start)
     return tree.RepeatStatement(body, until, span)
