@@ -37,12 +37,20 @@ class Plc:
     project_id: int
     model: Model
     name: str = "line-1"
-    history_version: int = 1
+    version: int = 1
     why_not: str = ""
     threads: set[int] = field(default_factory=set)
 
     @property
-    def history_versions(self) -> list[int]:
+    def errors(self) -> "Plc":
+        return self
+
+    @property
+    def instance(self) -> "Plc":
+        return self
+
+    @property
+    def versions(self) -> list[int]:
         return [1]
 
     def rows_of(self, version: int, of: Model) -> list[ErrorRow]:
