@@ -14,6 +14,9 @@ BIN := $(abspath $(VENV))/bin
 PIP := $(BIN)/python -m pip --quiet --disable-pip-version-check --no-input
 NPM := npm --loglevel=error --no-fund --no-audit --no-update-notifier
 
+# One worker more than there are cores: a test that waits for a server leaves its core to another one.
+PYTEST = -m pytest --quiet --numprocesses $$(($$(nproc) + 1)) --maxprocesses 5 --dist loadfile --no-loadscope-reorder
+
 # Arguments for the server: make run ARGS="--port 9000"
 ARGS ?=
 
@@ -80,7 +83,7 @@ layers:
 	@cd backend && $(BIN)/lint-imports --no-logo
 
 unit:
-	@cd backend && $(BIN)/python -m pytest --quiet --numprocesses auto --maxprocesses 4 --dist loadfile
+	@cd backend && $(BIN)/python $(PYTEST)
 
 # The debug adapter, with a client that is not ours.
 adapter:
