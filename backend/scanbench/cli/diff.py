@@ -8,6 +8,7 @@ from pathlib import Path
 import typer
 
 from scanbench.cli.inputs import DAMAGED, find_model_named, tell_damage, unreadable, unusable, with_near
+from scanbench.cli.interrupt import leaving
 from scanbench.history.contract import Change, Divergence
 from scanbench.history.divergence import find_divergence
 from scanbench.history.engines import past_engines, programs_of
@@ -35,7 +36,7 @@ def diff(
     a file is damaged, and a part of its run is lost.
     """
     make, _ = past_engines()
-    of = programs_of(_Checked().program, make)
+    of = programs_of(_Checked().program, leaving(make))
     try:
         with Reading(run1, of, ENTRIES, _texts) as one, Reading(run2, of, ENTRIES, _texts) as other:
             lost = [tell_damage(path, reading.follow().recording) for path, reading in ((run1, one), (run2, other))]

@@ -9,6 +9,7 @@ from pathlib import Path
 import typer
 
 from scanbench.check.build import check_sources
+from scanbench.cli import INTERRUPTED
 from scanbench.cli.inputs import (
     below,
     find_model,
@@ -19,8 +20,9 @@ from scanbench.cli.inputs import (
     unreadable,
     usage,
 )
-from scanbench.cli.interrupt import INTERRUPTED
+from scanbench.cli.interrupt import leaving
 from scanbench.cli.outputs import must_be_writable, write_text
+from scanbench.cli.progress import progress
 from scanbench.cli.run_options import read_interval
 from scanbench.cli.sweep_states import START, BadStates, FromRun, State, read_states, run_state
 from scanbench.engines.observe import MakeObserved
@@ -181,7 +183,9 @@ def _swept(
     """The cells, and whether they are all; after Ctrl-C those of the errors that were raised in every state."""
     cells: list[Cell] = []
     try:
-        cells.extend(sweep(points, [each.id for each in chosen], window, programs))
+        of = len(points) * len(chosen)
+        with progress(of, lambda: len(cells), lambda: f"{len(cells):,} of {of:,} cases"):
+            cells.extend(sweep(points, [each.id for each in chosen], window, programs))
     except KeyboardInterrupt:
         return tuple(cells[: len(cells) - len(cells) % len(points)]), False
     return tuple(cells), True
@@ -208,7 +212,7 @@ def _engine(choice: SweepEngine) -> MakeObserved:
     if choice is SweepEngine.NATIVE:
         from scanbench.engines.native.observed import ObservedBuilds
 
-        return ObservedBuilds(None).engine
+        return leaving(ObservedBuilds(None).engine)
     from scanbench.engines.interpreter.observed import observed_engine
 
     return observed_engine
