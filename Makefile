@@ -34,7 +34,7 @@ help:
 	@echo "make check   lint, types and layers only"
 	@echo "make bench   time the native engine beside C, builds, live values, pace, time travel, many PLCs"
 	@echo "make fuzz    compare the engines on fresh random programs (N=100000, SEED=1 to begin with)"
-	@echo "make features  write docs/features.md: the features of the standard and the cases that show them"
+	@echo "make features  write the pages of docs/ that are generated: features, standard library, REST API"
 	@echo "make shots   take the README's screenshots again"
 	@echo "make wire    generate the browser's types from the backend's messages"
 	@echo "make lock    resolve the dependencies again and write the lock files"
@@ -67,7 +67,7 @@ fuzz: $(VENV)/.stamp-dev
 	@cd backend && $(BIN)/python -m tests.programs $(N) $(SEED)
 
 features: $(VENV)/.stamp-dev
-	@cd backend && $(BIN)/python -m tests.features && $(BIN)/python -m tests.standard_page
+	@cd backend && $(BIN)/python -m tests.features && $(BIN)/python -m tests.standard_page && $(BIN)/python -m tests.api_page
 
 shots: setup-test
 	@cd e2e && $(NPM) run shots

@@ -8,10 +8,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On App
+         * What there is, and who you are
          * @description What there is, and who you are.
          */
-        get: operations["on_app_api_get"];
+        get: operations["get_server"];
         put?: never;
         post?: never;
         delete?: never;
@@ -31,10 +31,10 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * On Delete Comparison
+         * Cancels a comparison, or forgets what came of it
          * @description Cancels a comparison, or forgets what came of it.
          */
-        delete: operations["on_delete_comparison_api_comparisons__comparison__delete"];
+        delete: operations["delete_comparison"];
         options?: never;
         head?: never;
         patch?: never;
@@ -51,10 +51,10 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * On Cancel Flight
+         * Gives a record up that is under way
          * @description Gives a record up that is under way.
          */
-        delete: operations["on_cancel_flight_api_flights__flight__delete"];
+        delete: operations["delete_flight"];
         options?: never;
         head?: never;
         patch?: never;
@@ -68,16 +68,16 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Instances
+         * Every instance, with what it costs
          * @description Every instance, with what it costs.
          */
-        get: operations["on_instances_api_instances_get"];
+        get: operations["list_instances"];
         put?: never;
         /**
-         * On New Instance
+         * A new PLC that runs a project's last accepted build
          * @description A new PLC that runs a project's last accepted build.
          */
-        post: operations["on_new_instance_api_instances_post"];
+        post: operations["create_instance"];
         delete?: never;
         options?: never;
         head?: never;
@@ -92,24 +92,24 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Instance
+         * One instance
          * @description One instance.
          */
-        get: operations["on_instance_api_instances__instance__get"];
+        get: operations["get_instance"];
         put?: never;
         post?: never;
         /**
-         * On Delete Instance
+         * Ends a PLC, and forgets it
          * @description Ends a PLC, and forgets it.
          */
-        delete: operations["on_delete_instance_api_instances__instance__delete"];
+        delete: operations["delete_instance"];
         options?: never;
         head?: never;
         /**
-         * On Change Instance
+         * Renames it, switches it on or off, limits what it may cost
          * @description Renames it, switches it on or off, limits what it may cost.
          */
-        patch: operations["on_change_instance_api_instances__instance__patch"];
+        patch: operations["change_instance"];
         trace?: never;
     };
     "/api/instances/{instance}/binding": {
@@ -120,11 +120,11 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Binding
+         * What an in-out (`Main.fb1.level`) is bound to: the variable that the block's last execution was given, and what other calls pass
          * @description What an in-out (`Main.fb1.level`) is bound to: the variable that the block's last execution was given, and what other
          *     calls pass.
          */
-        get: operations["on_binding_api_instances__instance__binding_get"];
+        get: operations["get_instance_binding"];
         put?: never;
         post?: never;
         delete?: never;
@@ -143,10 +143,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Branch
+         * A new PLC that begins as this one was before a scan, or is now
          * @description A new PLC that begins as this one was before a scan, or is now.
          */
-        post: operations["on_branch_api_instances__instance__branch_post"];
+        post: operations["branch_instance"];
         delete?: never;
         options?: never;
         head?: never;
@@ -161,10 +161,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Changes
+         * What is another at the beginning of scan `last` than at that of `first`; with `other` in that instance at `last`
          * @description What is another at the beginning of scan `last` than at that of `first`; with `other` in that instance at `last`.
          */
-        get: operations["on_changes_api_instances__instance__changes_get"];
+        get: operations["get_instance_changes"];
         put?: never;
         post?: never;
         delete?: never;
@@ -181,16 +181,16 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Comparisons
+         * The comparisons of this run with others, the newest first
          * @description The comparisons of this run with others, the newest first.
          */
-        get: operations["on_comparisons_api_instances__instance__comparisons_get"];
+        get: operations["list_instance_comparisons"];
         put?: never;
         /**
-         * On Compare
+         * Compares this run (A) with another one (B), scan by scan; how far it is comes by A's WebSocket
          * @description Compares this run (A) with another one (B), scan by scan; how far it is comes by A's WebSocket.
          */
-        post: operations["on_compare_api_instances__instance__comparisons_post"];
+        post: operations["create_instance_comparison"];
         delete?: never;
         options?: never;
         head?: never;
@@ -205,10 +205,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Complete
+         * At most 50 symbols whose path begins with the text
          * @description At most 50 symbols whose path begins with the text.
          */
-        get: operations["on_complete_api_instances__instance__complete_get"];
+        get: operations["complete_symbol"];
         put?: never;
         post?: never;
         delete?: never;
@@ -225,10 +225,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Coverage
+         * Statements and branches that were reached since coverage was switched on
          * @description Statements and branches that were reached since coverage was switched on.
          */
-        get: operations["on_coverage_api_instances__instance__coverage_get"];
+        get: operations["get_instance_coverage"];
         put?: never;
         post?: never;
         delete?: never;
@@ -245,10 +245,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Lcov
+         * The same as LCOV, for genhtml and CI
          * @description The same as LCOV, for genhtml and CI.
          */
-        get: operations["on_lcov_api_instances__instance__coverage_lcov_get"];
+        get: operations["get_instance_coverage_lcov"];
         put?: never;
         post?: never;
         delete?: never;
@@ -265,21 +265,21 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Disturbances
+         * Those that are not over, and those that never came about
          * @description Those that are not over, and those that never came about.
          */
-        get: operations["on_disturbances_api_instances__instance__disturbances_get"];
+        get: operations["list_instance_disturbances"];
         put?: never;
         /**
-         * On Disturb
+         * Disturbs the PLC, now or when its time comes; the journal keeps it
          * @description Disturbs the PLC, now or when its time comes; the journal keeps it.
          */
-        post: operations["on_disturb_api_instances__instance__disturbances_post"];
+        post: operations["create_instance_disturbance"];
         /**
-         * On Calm All
+         * Takes all of them back
          * @description Takes all of them back.
          */
-        delete: operations["on_calm_all_api_instances__instance__disturbances_delete"];
+        delete: operations["delete_instance_disturbances"];
         options?: never;
         head?: never;
         patch?: never;
@@ -296,10 +296,10 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * On Calm
+         * Takes one back
          * @description Takes one back.
          */
-        delete: operations["on_calm_api_instances__instance__disturbances__disturbance__delete"];
+        delete: operations["delete_instance_disturbance"];
         options?: never;
         head?: never;
         patch?: never;
@@ -313,10 +313,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Errors
+         * The error history, in the order of the catalogue
          * @description The error history, in the order of the catalogue.
          */
-        get: operations["on_errors_api_instances__instance__errors_get"];
+        get: operations["list_instance_errors"];
         put?: never;
         post?: never;
         delete?: never;
@@ -333,10 +333,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Reaction
+         * How the program reacted to an error the last time it was raised here
          * @description How the program reacted to an error the last time it was raised here.
          */
-        get: operations["on_reaction_api_instances__instance__errors__error__reaction_get"];
+        get: operations["get_instance_error_reaction"];
         put?: never;
         post?: never;
         delete?: never;
@@ -355,10 +355,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Arm
+         * Errors that begin later, or come and go; the message begins with `armed N`, N is what `disarm` takes
          * @description Errors that begin later, or come and go; the message begins with `armed N`, N is what `disarm` takes.
          */
-        post: operations["on_arm_api_instances__instance__errors_arm_post"];
+        post: operations["arm_instance_errors"];
         delete?: never;
         options?: never;
         head?: never;
@@ -373,10 +373,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Armed
+         * The faults that are armed and not over
          * @description The faults that are armed and not over.
          */
-        get: operations["on_armed_api_instances__instance__errors_armed_get"];
+        get: operations["list_instance_errors_armed"];
         put?: never;
         post?: never;
         delete?: never;
@@ -395,10 +395,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Clear
+         * Clears errors as a tool does it on the device (FINS 2101)
          * @description Clears errors as a tool does it on the device (FINS 2101).
          */
-        post: operations["on_clear_api_instances__instance__errors_clear_post"];
+        post: operations["clear_instance_errors"];
         delete?: never;
         options?: never;
         head?: never;
@@ -415,10 +415,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Disarm
+         * Takes these faults back, or all; what they raised is recovered
          * @description Takes these faults back, or all; what they raised is recovered.
          */
-        post: operations["on_disarm_api_instances__instance__errors_disarm_post"];
+        post: operations["disarm_instance_errors"];
         delete?: never;
         options?: never;
         head?: never;
@@ -435,10 +435,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Generate
+         * Raises errors, all in one seam, or none of them
          * @description Raises errors, all in one seam, or none of them.
          */
-        post: operations["on_generate_api_instances__instance__errors_generate_post"];
+        post: operations["generate_instance_errors"];
         delete?: never;
         options?: never;
         head?: never;
@@ -455,10 +455,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Clear Log
+         * Empties the PLC's own error log, as a tool does it on the device (FINS 2103)
          * @description Empties the PLC's own error log, as a tool does it on the device (FINS 2103).
          */
-        post: operations["on_clear_log_api_instances__instance__errors_log_clear_post"];
+        post: operations["clear_instance_error_log"];
         delete?: never;
         options?: never;
         head?: never;
@@ -475,10 +475,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Preview
+         * What raising these would write now; nothing is changed
          * @description What raising these would write now; nothing is changed.
          */
-        post: operations["on_preview_api_instances__instance__errors_preview_post"];
+        post: operations["preview_instance_errors"];
         delete?: never;
         options?: never;
         head?: never;
@@ -495,10 +495,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Recover
+         * Recovers these errors, or all that are generated
          * @description Recovers these errors, or all that are generated.
          */
-        post: operations["on_recover_api_instances__instance__errors_recover_post"];
+        post: operations["recover_instance_errors"];
         delete?: never;
         options?: never;
         head?: never;
@@ -513,10 +513,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Export
+         * The run as one file, which replays byte for byte elsewhere; it ends before `scan`, or now
          * @description The run as one file, which replays byte for byte elsewhere; it ends before `scan`, or now.
          */
-        get: operations["on_export_api_instances__instance__export_get"];
+        get: operations["export_instance"];
         put?: never;
         post?: never;
         delete?: never;
@@ -535,10 +535,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On New Flight
+         * Records scans that are over, by running them again beside the PLC; progress comes by the instance's WebSocket
          * @description Records scans that are over, by running them again beside the PLC; progress comes by the instance's WebSocket.
          */
-        post: operations["on_new_flight_api_instances__instance__flights_post"];
+        post: operations["create_instance_flight"];
         delete?: never;
         options?: never;
         head?: never;
@@ -555,10 +555,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Force
+         * Holds a variable or an address at a value until it is released
          * @description Holds a variable or an address at a value until it is released.
          */
-        post: operations["on_force_api_instances__instance__force_post"];
+        post: operations["force_value"];
         delete?: never;
         options?: never;
         head?: never;
@@ -573,10 +573,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Forces
+         * The forces that hold
          * @description The forces that hold.
          */
-        get: operations["on_forces_api_instances__instance__forces_get"];
+        get: operations["list_instance_forces"];
         put?: never;
         post?: never;
         delete?: never;
@@ -593,10 +593,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On History
+         * The error history of a version, or of the one that runs
          * @description The error history of a version, or of the one that runs.
          */
-        get: operations["on_history_api_instances__instance__history_get"];
+        get: operations["get_instance_history"];
         put?: never;
         post?: never;
         delete?: never;
@@ -613,10 +613,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Versions
+         * The versions of the program that have an error history here, the newest first
          * @description The versions of the program that have an error history here, the newest first.
          */
-        get: operations["on_versions_api_instances__instance__history_versions_get"];
+        get: operations["list_instance_history_versions"];
         put?: never;
         post?: never;
         delete?: never;
@@ -633,10 +633,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Instances Of
+         * The instances of a POU in the running program, at most 1,000
          * @description The instances of a POU in the running program, at most 1,000.
          */
-        get: operations["on_instances_of_api_instances__instance__instances_of_get"];
+        get: operations["list_block_instances"];
         put?: never;
         post?: never;
         delete?: never;
@@ -653,10 +653,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Last Write
+         * Who last wrote a variable before `scan` began, or before what is shown now
          * @description Who last wrote a variable before `scan` began, or before what is shown now.
          */
-        get: operations["on_last_write_api_instances__instance__last_write_get"];
+        get: operations["get_instance_last_write"];
         put?: never;
         post?: never;
         delete?: never;
@@ -675,10 +675,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Mode
+         * Changes the mode
          * @description Changes the mode. MONITOR and RUN are refused while a fatal error is present.
          */
-        post: operations["on_mode_api_instances__instance__mode_post"];
+        post: operations["set_instance_mode"];
         delete?: never;
         options?: never;
         head?: never;
@@ -693,10 +693,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Model
+         * The model with the errors that the project added, as the program that runs knows it
          * @description The model with the errors that the project added, as the program that runs knows it.
          */
-        get: operations["on_model_api_instances__instance__model_get"];
+        get: operations["get_instance_model"];
         put?: never;
         post?: never;
         delete?: never;
@@ -713,10 +713,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Program
+         * The text of a program version that ran here: in the past the text is that of the scan
          * @description The text of a program version that ran here: in the past the text is that of the scan.
          */
-        get: operations["on_program_api_instances__instance__program_get"];
+        get: operations["get_instance_program"];
         put?: never;
         post?: never;
         delete?: never;
@@ -733,10 +733,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Record
+         * The test record of a version, or of the one that runs: as a file, or as JSON
          * @description The test record of a version, or of the one that runs: as a file, or as JSON.
          */
-        get: operations["on_record_api_instances__instance__record_get"];
+        get: operations["get_instance_record"];
         put?: never;
         post?: never;
         delete?: never;
@@ -755,10 +755,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Release
+         * Ends a force, or all
          * @description Ends a force, or all.
          */
-        post: operations["on_release_api_instances__instance__release_post"];
+        post: operations["release_forces"];
         delete?: never;
         options?: never;
         head?: never;
@@ -775,10 +775,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Rerun
+         * The run once more with one error another, as a new instance; how far it is comes by this instance's WebSocket
          * @description The run once more with one error another, as a new instance; how far it is comes by this instance's WebSocket.
          */
-        post: operations["on_rerun_api_instances__instance__reruns_post"];
+        post: operations["create_instance_rerun"];
         delete?: never;
         options?: never;
         head?: never;
@@ -795,10 +795,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Restart
+         * The program begins anew, in every mode; afterwards it runs
          * @description The program begins anew, in every mode; afterwards it runs.
          */
-        post: operations["on_restart_api_instances__instance__restart_post"];
+        post: operations["restart_instance"];
         delete?: never;
         options?: never;
         head?: never;
@@ -815,10 +815,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Run
+         * Lets the PLC run, pauses it, runs one scan
          * @description Lets the PLC run, pauses it, runs one scan. The answer comes when it is under way, not when it is done.
          */
-        post: operations["on_run_api_instances__instance__run_post"];
+        post: operations["run_instance"];
         delete?: never;
         options?: never;
         head?: never;
@@ -835,10 +835,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On New State
+         * Keeps the PLC as it was before a scan, or is now
          * @description Keeps the PLC as it was before a scan, or is now.
          */
-        post: operations["on_new_state_api_instances__instance__states_post"];
+        post: operations["create_instance_state"];
         delete?: never;
         options?: never;
         head?: never;
@@ -855,10 +855,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On New Sweep
+         * Begins a sweep; progress comes by the WebSockets of the project's PLCs
          * @description Begins a sweep; progress comes by the WebSockets of the project's PLCs.
          */
-        post: operations["on_new_sweep_api_instances__instance__sweeps_post"];
+        post: operations["create_instance_sweep"];
         delete?: never;
         options?: never;
         head?: never;
@@ -873,11 +873,11 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Symbols
+         * The members below a path; programs and globals below ''
          * @description The members below a path; programs and globals below ''. With `offer` a path that is no variable (it is being typed)
          *     has none, instead of being refused.
          */
-        get: operations["on_symbols_api_instances__instance__symbols_get"];
+        get: operations["list_instance_symbols"];
         put?: never;
         post?: never;
         delete?: never;
@@ -896,10 +896,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Check Mapping
+         * Whether a trace file can be verified with this mapping, and if not, where it cannot
          * @description Whether a trace file can be verified with this mapping, and if not, where it cannot.
          */
-        post: operations["on_check_mapping_api_instances__instance__trace_check_post"];
+        post: operations["check_trace_mapping"];
         delete?: never;
         options?: never;
         head?: never;
@@ -916,10 +916,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On New Trace Verification
+         * Verifies the trace of a real controller with the program that runs
          * @description Verifies the trace of a real controller with the program that runs.
          */
-        post: operations["on_new_trace_verification_api_instances__instance__trace_verifications_post"];
+        post: operations["create_instance_trace_verification"];
         delete?: never;
         options?: never;
         head?: never;
@@ -934,16 +934,16 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Traces
+         * The traces of an instance
          * @description The traces of an instance.
          */
-        get: operations["on_traces_api_instances__instance__traces_get"];
+        get: operations["list_instance_traces"];
         put?: never;
         /**
-         * On New Trace
+         * A new trace
          * @description A new trace.
          */
-        post: operations["on_new_trace_api_instances__instance__traces_post"];
+        post: operations["create_instance_trace"];
         delete?: never;
         options?: never;
         head?: never;
@@ -959,17 +959,17 @@ export interface paths {
         };
         get?: never;
         /**
-         * On Define Trace
+         * Another definition for a trace; what was recorded is forgotten
          * @description Another definition for a trace; what was recorded is forgotten. Without `start`, other signals leave what was recorded
          *     of those that stay, and another name leaves everything.
          */
-        put: operations["on_define_trace_api_instances__instance__traces__trace__put"];
+        put: operations["save_instance_trace"];
         post?: never;
         /**
-         * On Delete Trace
+         * Forgets a trace and what it recorded
          * @description Forgets a trace and what it recorded.
          */
-        delete: operations["on_delete_trace_api_instances__instance__traces__trace__delete"];
+        delete: operations["delete_instance_trace"];
         options?: never;
         head?: never;
         patch?: never;
@@ -983,10 +983,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Csv
+         * Every sample of these scans, as CSV
          * @description Every sample of these scans, as CSV.
          */
-        get: operations["on_csv_api_instances__instance__traces__trace__csv_get"];
+        get: operations["get_instance_trace_csv"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1005,10 +1005,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Keep
+         * Keeps what a trace has recorded until now, in the project
          * @description Keeps what a trace has recorded until now, in the project.
          */
-        post: operations["on_keep_api_instances__instance__traces__trace__keep_post"];
+        post: operations["keep_instance_trace"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1023,10 +1023,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Samples
+         * Samples of scans `first` to `last`, as bytes; where there are more than `points`, the least and greatest of stretches
          * @description Samples of scans `first` to `last`, as bytes; where there are more than `points`, the least and greatest of stretches.
          */
-        get: operations["on_samples_api_instances__instance__traces__trace__samples_get"];
+        get: operations["get_instance_trace_samples"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1045,10 +1045,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Start Trace
+         * Records anew; arms a trace with a trigger again
          * @description Records anew; arms a trace with a trigger again.
          */
-        post: operations["on_start_trace_api_instances__instance__traces__trace__start_post"];
+        post: operations["start_instance_trace"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1065,10 +1065,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Stop Trace
+         * Records no more; what was recorded stays
          * @description Records no more; what was recorded stays.
          */
-        post: operations["on_stop_trace_api_instances__instance__traces__trace__stop_post"];
+        post: operations["stop_instance_trace"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1083,10 +1083,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Read
+         * The value of a variable, an address or an expression: `Main.level`, `D100`, `Main.level > 3 AND motor`
          * @description The value of a variable, an address or an expression: `Main.level`, `D100`, `Main.level > 3 AND motor`.
          */
-        get: operations["on_read_api_instances__instance__value_get"];
+        get: operations["get_instance_value"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1103,16 +1103,16 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Verifications
+         * The verifications of an instance, the oldest first
          * @description The verifications of an instance, the oldest first.
          */
-        get: operations["on_verifications_api_instances__instance__verifications_get"];
+        get: operations["list_instance_verifications"];
         put?: never;
         /**
-         * On New Verification
+         * Begins to verify, live or a stretch of the past; how it goes on comes by the instance's WebSocket
          * @description Begins to verify, live or a stretch of the past; how it goes on comes by the instance's WebSocket.
          */
-        post: operations["on_new_verification_api_instances__instance__verifications_post"];
+        post: operations["create_instance_verification"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1129,10 +1129,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Write
+         * Writes a variable or an address, with the rights of a tool: error memory is read-only here
          * @description Writes a variable or an address, with the rights of a tool: error memory is read-only here.
          */
-        post: operations["on_write_api_instances__instance__write_post"];
+        post: operations["write_value"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1149,11 +1149,11 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Import
+         * A new PLC, with a project of the same name, that goes on with an exported run; the body is the file
          * @description A new PLC, with a project of the same name, that goes on with an exported run; the body is the file. Of a damaged file
          *     what comes before the damage is taken, and `damage` says what is lost.
          */
-        post: operations["on_import_api_instances_import_post"];
+        post: operations["import_instance"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1168,10 +1168,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Models
+         * Every model
          * @description Every model.
          */
-        get: operations["on_models_api_models_get"];
+        get: operations["list_models"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1188,10 +1188,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Model
+         * Memory areas and error catalogue of a model
          * @description Memory areas and error catalogue of a model.
          */
-        get: operations["on_model_api_models__name__get"];
+        get: operations["get_model"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1208,16 +1208,16 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Projects
+         * Every project, by name
          * @description Every project, by name.
          */
-        get: operations["on_projects_api_projects_get"];
+        get: operations["list_projects"];
         put?: never;
         /**
-         * On New Project
+         * An empty project on a model
          * @description An empty project on a model.
          */
-        post: operations["on_new_project_api_projects_post"];
+        post: operations["create_project"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1235,10 +1235,10 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * On Delete Project
+         * Deletes a project that no instance runs
          * @description Deletes a project that no instance runs.
          */
-        delete: operations["on_delete_project_api_projects__project__delete"];
+        delete: operations["delete_project"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1254,10 +1254,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Build
+         * Builds what is saved, and swaps it into the project's instances; asks first where variables would begin anew
          * @description Builds what is saved, and swaps it into the project's instances; asks first where variables would begin anew.
          */
-        post: operations["on_build_api_projects__project__build_post"];
+        post: operations["build_project"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1274,10 +1274,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Check
+         * Checks the project with texts that are not saved yet; stores nothing
          * @description Checks the project with texts that are not saved yet; stores nothing.
          */
-        post: operations["on_check_api_projects__project__check_post"];
+        post: operations["check_project"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1292,10 +1292,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Files
+         * The files of a project
          * @description The files of a project.
          */
-        get: operations["on_files_api_projects__project__files_get"];
+        get: operations["list_project_files"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1312,21 +1312,21 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On File
+         * One file with its text
          * @description One file with its text.
          */
-        get: operations["on_file_api_projects__project__files__path__get"];
+        get: operations["get_project_file"];
         /**
-         * On Save File
+         * Saves a file, if nobody else did since it was read
          * @description Saves a file, if nobody else did since it was read.
          */
-        put: operations["on_save_file_api_projects__project__files__path__put"];
+        put: operations["save_project_file"];
         post?: never;
         /**
-         * On Delete File
+         * Deletes a file
          * @description Deletes a file.
          */
-        delete: operations["on_delete_file_api_projects__project__files__path__delete"];
+        delete: operations["delete_project_file"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1340,16 +1340,16 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Records
+         * The test records that were brought in, the newest first
          * @description The test records that were brought in, the newest first.
          */
-        get: operations["on_records_api_projects__project__records_get"];
+        get: operations["list_project_records"];
         put?: never;
         /**
-         * On Import
+         * Keeps a test record from elsewhere; the body is its XML
          * @description Keeps a test record from elsewhere; the body is its XML.
          */
-        post: operations["on_import_api_projects__project__records_post"];
+        post: operations["import_project_record"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1364,17 +1364,17 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Imported
+         * A test record that was brought in: as a file, or as JSON
          * @description A test record that was brought in: as a file, or as JSON.
          */
-        get: operations["on_imported_api_projects__project__records__record__get"];
+        get: operations["get_project_record"];
         put?: never;
         post?: never;
         /**
-         * On Delete
+         * Forgets a test record that was brought in
          * @description Forgets a test record that was brought in.
          */
-        delete: operations["on_delete_api_projects__project__records__record__delete"];
+        delete: operations["delete_project_record"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1388,10 +1388,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On States
+         * The states that somebody kept
          * @description The states that somebody kept.
          */
-        get: operations["on_states_api_projects__project__states_get"];
+        get: operations["list_project_states"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1408,10 +1408,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Sweeps
+         * The sweeps of a project, the newest first
          * @description The sweeps of a project, the newest first.
          */
-        get: operations["on_sweeps_api_projects__project__sweeps_get"];
+        get: operations["list_project_sweeps"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1428,16 +1428,16 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Mappings
+         * The mappings that were saved in a project
          * @description The mappings that were saved in a project.
          */
-        get: operations["on_mappings_api_projects__project__trace_mappings_get"];
+        get: operations["list_project_trace_mappings"];
         put?: never;
         /**
-         * On Save Mapping
+         * Saves a mapping under a name; one of the same name is replaced
          * @description Saves a mapping under a name; one of the same name is replaced.
          */
-        post: operations["on_save_mapping_api_projects__project__trace_mappings_post"];
+        post: operations["save_project_trace_mapping"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1452,10 +1452,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Records
+         * The kept records of a project, the newest first
          * @description The kept records of a project, the newest first.
          */
-        get: operations["on_records_api_projects__project__trace_records_get"];
+        get: operations["list_project_trace_records"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1474,10 +1474,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Upload
+         * A trace file (see docs/trace-format.md); the body is the file
          * @description A trace file (see docs/trace-format.md); the body is the file.
          */
-        post: operations["on_upload_api_projects__project__traces_post"];
+        post: operations["upload_project_trace"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1492,15 +1492,15 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On User Errors
+         * The project's own errors
          * @description The project's own errors.
          */
-        get: operations["on_user_errors_api_projects__project__user_errors_get"];
+        get: operations["get_project_user_errors"];
         /**
-         * On Save User Errors
+         * Writes them all to errors.xml, if nothing is wrong with them and nobody else saved since they were read
          * @description Writes them all to errors.xml, if nothing is wrong with them and nobody else saved since they were read.
          */
-        put: operations["on_save_user_errors_api_projects__project__user_errors_put"];
+        put: operations["save_project_user_errors"];
         post?: never;
         delete?: never;
         options?: never;
@@ -1518,10 +1518,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Check User Errors
+         * What is wrong with errors that are being edited; stores nothing
          * @description What is wrong with errors that are being edited; stores nothing.
          */
-        post: operations["on_check_user_errors_api_projects__project__user_errors_check_post"];
+        post: operations["check_project_user_errors"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1536,10 +1536,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Export User Errors
+         * The file errors.xml
          * @description The file errors.xml.
          */
-        get: operations["on_export_user_errors_api_projects__project__user_errors_export_get"];
+        get: operations["export_project_user_errors"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1558,10 +1558,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Import User Errors
+         * Takes the errors of a file, which is the body, in place of the project's own or in addition to them
          * @description Takes the errors of a file, which is the body, in place of the project's own or in addition to them.
          */
-        post: operations["on_import_user_errors_api_projects__project__user_errors_import_post"];
+        post: operations["import_project_user_errors"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1576,10 +1576,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Records
+         * What was kept in a project, the newest first
          * @description What was kept in a project, the newest first.
          */
-        get: operations["on_records_api_projects__project__verification_records_get"];
+        get: operations["list_project_verification_records"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1596,16 +1596,16 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Watch Lists
+         * The lists that this user sees: shared ones and the user's own, by name
          * @description The lists that this user sees: shared ones and the user's own, by name.
          */
-        get: operations["on_watch_lists_api_projects__project__watch_lists_get"];
+        get: operations["list_project_watch_lists"];
         put?: never;
         /**
-         * On New Watch List
+         * A new list
          * @description A new list.
          */
-        post: operations["on_new_watch_list_api_projects__project__watch_lists_post"];
+        post: operations["create_project_watch_list"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1623,10 +1623,10 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * On Cancel Rerun
+         * Cancels a replay that is under way
          * @description Cancels a replay that is under way.
          */
-        delete: operations["on_cancel_rerun_api_reruns__rerun__delete"];
+        delete: operations["delete_rerun"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1643,10 +1643,10 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * On Delete State
+         * Forgets a state; sweeps that began there keep their results
          * @description Forgets a state; sweeps that began there keep their results.
          */
-        delete: operations["on_delete_state_api_states__state__delete"];
+        delete: operations["delete_state"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1660,10 +1660,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Compare
+         * What became better or worse from one sweep to another: of two versions, or of two models
          * @description What became better or worse from one sweep to another: of two versions, or of two models.
          */
-        get: operations["on_compare_api_sweeps__before__compare__after__get"];
+        get: operations["compare_sweeps"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1680,17 +1680,17 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Sweep
+         * A sweep with all its cells
          * @description A sweep with all its cells.
          */
-        get: operations["on_sweep_api_sweeps__sweep__get"];
+        get: operations["get_sweep"];
         put?: never;
         post?: never;
         /**
-         * On Delete Sweep
+         * Forgets a sweep; one that runs is cancelled
          * @description Forgets a sweep; one that runs is cancelled.
          */
-        delete: operations["on_delete_sweep_api_sweeps__sweep__delete"];
+        delete: operations["delete_sweep"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1706,10 +1706,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Accept
+         * Accepts a finding with a reason, for this and later sweeps of the project; it stands in the test record
          * @description Accepts a finding with a reason, for this and later sweeps of the project; it stands in the test record.
          */
-        post: operations["on_accept_api_sweeps__sweep__accept_post"];
+        post: operations["accept_sweep_finding"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1726,10 +1726,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Cancel
+         * Stops a sweep; what it found is kept, and it can be resumed
          * @description Stops a sweep; what it found is kept, and it can be resumed.
          */
-        post: operations["on_cancel_api_sweeps__sweep__cancel_post"];
+        post: operations["cancel_sweep"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1746,10 +1746,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Open
+         * A new PLC in this state with this error raised, paused: to look at what the sweep saw
          * @description A new PLC in this state with this error raised, paused: to look at what the sweep saw.
          */
-        post: operations["on_open_api_sweeps__sweep__open_post"];
+        post: operations["open_sweep_case"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1766,10 +1766,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Cell
+         * All that was found out about one cell
          * @description All that was found out about one cell.
          */
-        post: operations["on_cell_api_sweeps__sweep__reaction_post"];
+        post: operations["get_sweep_reaction"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1786,10 +1786,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Resume
+         * Goes on with the cells that are missing
          * @description Goes on with the cells that are missing.
          */
-        post: operations["on_resume_api_sweeps__sweep__resume_post"];
+        post: operations["resume_sweep"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1806,10 +1806,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Withdraw
+         * The finding is accepted no more
          * @description The finding is accepted no more.
          */
-        post: operations["on_withdraw_api_sweeps__sweep__withdraw_post"];
+        post: operations["withdraw_sweep_finding"];
         delete?: never;
         options?: never;
         head?: never;
@@ -1827,10 +1827,10 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * On Delete Mapping
+         * Forgets a mapping
          * @description Forgets a mapping.
          */
-        delete: operations["on_delete_mapping_api_trace_mappings__mapping__delete"];
+        delete: operations["delete_trace_mapping"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1844,17 +1844,17 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Record
+         * A kept record
          * @description A kept record.
          */
-        get: operations["on_record_api_trace_records__record__get"];
+        get: operations["get_trace_record"];
         put?: never;
         post?: never;
         /**
-         * On Delete Record
+         * Forgets a kept record
          * @description Forgets a kept record.
          */
-        delete: operations["on_delete_record_api_trace_records__record__delete"];
+        delete: operations["delete_trace_record"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1868,10 +1868,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Record Csv
+         * Every sample of these scans of a kept record, as CSV
          * @description Every sample of these scans of a kept record, as CSV.
          */
-        get: operations["on_record_csv_api_trace_records__record__csv_get"];
+        get: operations["get_trace_record_csv"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1888,10 +1888,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Record Samples
+         * Samples of a kept record, as those of a trace
          * @description Samples of a kept record, as those of a trace.
          */
-        get: operations["on_record_samples_api_trace_records__record__samples_get"];
+        get: operations["get_trace_record_samples"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1908,17 +1908,17 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Record
+         * One that was kept
          * @description One that was kept.
          */
-        get: operations["on_record_api_verification_records__record__get"];
+        get: operations["get_verification_record"];
         put?: never;
         post?: never;
         /**
-         * On Delete Record
+         * Forgets one that was kept
          * @description Forgets one that was kept.
          */
-        delete: operations["on_delete_record_api_verification_records__record__delete"];
+        delete: operations["delete_verification_record"];
         options?: never;
         head?: never;
         patch?: never;
@@ -1932,10 +1932,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Export Record
+         * Its rows as a file
          * @description Its rows as a file.
          */
-        get: operations["on_export_record_api_verification_records__record__export_get"];
+        get: operations["export_verification_record"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1952,10 +1952,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Record Rows
+         * Its rows, as those of a verification
          * @description Its rows, as those of a verification.
          */
-        get: operations["on_record_rows_api_verification_records__record__rows_get"];
+        get: operations["get_verification_record_rows"];
         put?: never;
         post?: never;
         delete?: never;
@@ -1975,17 +1975,17 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * On Delete
+         * Ends a verification, and forgets its rows
          * @description Ends a verification, and forgets its rows.
          */
-        delete: operations["on_delete_api_verifications__verification__delete"];
+        delete: operations["delete_verification"];
         options?: never;
         head?: never;
         /**
-         * On Drive
+         * Another pace or memory; one further; stopped, or resumed
          * @description Another pace or memory; one further; stopped, or resumed.
          */
-        patch: operations["on_drive_api_verifications__verification__patch"];
+        patch: operations["drive_verification"];
         trace?: never;
     };
     "/api/verifications/{verification}/cells": {
@@ -1998,10 +1998,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Cells
+         * Edits inputs of the set data; the monitor runs those passes again
          * @description Edits inputs of the set data; the monitor runs those passes again.
          */
-        post: operations["on_cells_api_verifications__verification__cells_post"];
+        post: operations["get_verification_cells"];
         delete?: never;
         options?: never;
         head?: never;
@@ -2016,10 +2016,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Export
+         * All rows that are kept, as a file
          * @description All rows that are kept, as a file.
          */
-        get: operations["on_export_api_verifications__verification__export_get"];
+        get: operations["export_verification"];
         put?: never;
         post?: never;
         delete?: never;
@@ -2038,10 +2038,10 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * On Keep
+         * Keeps a verification in the project, as it is now
          * @description Keeps a verification in the project, as it is now.
          */
-        post: operations["on_keep_api_verifications__verification__keep_post"];
+        post: operations["keep_verification"];
         delete?: never;
         options?: never;
         head?: never;
@@ -2056,10 +2056,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Rows
+         * Rows from index `first` on; with `differing` only those that differ count
          * @description Rows from index `first` on; with `differing` only those that differ count.
          */
-        get: operations["on_rows_api_verifications__verification__rows_get"];
+        get: operations["get_verification_rows"];
         put?: never;
         post?: never;
         delete?: never;
@@ -2076,10 +2076,10 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Uses
+         * The used-variable record of one row, in the order of use
          * @description The used-variable record of one row, in the order of use.
          */
-        get: operations["on_uses_api_verifications__verification__uses_get"];
+        get: operations["list_verification_uses"];
         put?: never;
         post?: never;
         delete?: never;
@@ -2096,21 +2096,21 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * On Watch List
+         * One list
          * @description One list.
          */
-        get: operations["on_watch_list_api_watch_lists__id__get"];
+        get: operations["get_watch_list"];
         /**
-         * On Save Watch List
+         * Saves it whole, if nobody else saved since it was read
          * @description Saves it whole, if nobody else saved since it was read.
          */
-        put: operations["on_save_watch_list_api_watch_lists__id__put"];
+        put: operations["save_watch_list"];
         post?: never;
         /**
-         * On Delete Watch List
+         * Forgets it
          * @description Forgets it.
          */
-        delete: operations["on_delete_watch_list_api_watch_lists__id__delete"];
+        delete: operations["delete_watch_list"];
         options?: never;
         head?: never;
         patch?: never;
@@ -6507,7 +6507,7 @@ export interface components {
 }
 export type $defs = Record<string, never>;
 export interface operations {
-    on_app_api_get: {
+    get_server: {
         parameters: {
             query?: never;
             header?: never;
@@ -6536,7 +6536,7 @@ export interface operations {
             };
         };
     };
-    on_delete_comparison_api_comparisons__comparison__delete: {
+    delete_comparison: {
         parameters: {
             query?: never;
             header?: never;
@@ -6565,7 +6565,7 @@ export interface operations {
             };
         };
     };
-    on_cancel_flight_api_flights__flight__delete: {
+    delete_flight: {
         parameters: {
             query?: never;
             header?: never;
@@ -6594,7 +6594,7 @@ export interface operations {
             };
         };
     };
-    on_instances_api_instances_get: {
+    list_instances: {
         parameters: {
             query?: never;
             header?: never;
@@ -6623,7 +6623,7 @@ export interface operations {
             };
         };
     };
-    on_new_instance_api_instances_post: {
+    create_instance: {
         parameters: {
             query?: never;
             header?: never;
@@ -6656,7 +6656,7 @@ export interface operations {
             };
         };
     };
-    on_instance_api_instances__instance__get: {
+    get_instance: {
         parameters: {
             query?: never;
             header?: never;
@@ -6687,7 +6687,7 @@ export interface operations {
             };
         };
     };
-    on_delete_instance_api_instances__instance__delete: {
+    delete_instance: {
         parameters: {
             query?: never;
             header?: never;
@@ -6716,7 +6716,7 @@ export interface operations {
             };
         };
     };
-    on_change_instance_api_instances__instance__patch: {
+    change_instance: {
         parameters: {
             query?: never;
             header?: never;
@@ -6751,7 +6751,7 @@ export interface operations {
             };
         };
     };
-    on_binding_api_instances__instance__binding_get: {
+    get_instance_binding: {
         parameters: {
             query: {
                 path: string;
@@ -6784,7 +6784,7 @@ export interface operations {
             };
         };
     };
-    on_branch_api_instances__instance__branch_post: {
+    branch_instance: {
         parameters: {
             query?: never;
             header?: never;
@@ -6819,7 +6819,7 @@ export interface operations {
             };
         };
     };
-    on_changes_api_instances__instance__changes_get: {
+    get_instance_changes: {
         parameters: {
             query: {
                 first: number;
@@ -6854,7 +6854,7 @@ export interface operations {
             };
         };
     };
-    on_comparisons_api_instances__instance__comparisons_get: {
+    list_instance_comparisons: {
         parameters: {
             query?: never;
             header?: never;
@@ -6885,7 +6885,7 @@ export interface operations {
             };
         };
     };
-    on_compare_api_instances__instance__comparisons_post: {
+    create_instance_comparison: {
         parameters: {
             query?: never;
             header?: never;
@@ -6920,7 +6920,7 @@ export interface operations {
             };
         };
     };
-    on_complete_api_instances__instance__complete_get: {
+    complete_symbol: {
         parameters: {
             query?: {
                 text?: string;
@@ -6953,7 +6953,7 @@ export interface operations {
             };
         };
     };
-    on_coverage_api_instances__instance__coverage_get: {
+    get_instance_coverage: {
         parameters: {
             query?: never;
             header?: never;
@@ -6984,7 +6984,7 @@ export interface operations {
             };
         };
     };
-    on_lcov_api_instances__instance__coverage_lcov_get: {
+    get_instance_coverage_lcov: {
         parameters: {
             query?: never;
             header?: never;
@@ -7015,7 +7015,7 @@ export interface operations {
             };
         };
     };
-    on_disturbances_api_instances__instance__disturbances_get: {
+    list_instance_disturbances: {
         parameters: {
             query?: never;
             header?: never;
@@ -7046,7 +7046,7 @@ export interface operations {
             };
         };
     };
-    on_disturb_api_instances__instance__disturbances_post: {
+    create_instance_disturbance: {
         parameters: {
             query?: never;
             header?: never;
@@ -7081,7 +7081,7 @@ export interface operations {
             };
         };
     };
-    on_calm_all_api_instances__instance__disturbances_delete: {
+    delete_instance_disturbances: {
         parameters: {
             query?: never;
             header?: never;
@@ -7112,7 +7112,7 @@ export interface operations {
             };
         };
     };
-    on_calm_api_instances__instance__disturbances__disturbance__delete: {
+    delete_instance_disturbance: {
         parameters: {
             query?: never;
             header?: never;
@@ -7144,7 +7144,7 @@ export interface operations {
             };
         };
     };
-    on_errors_api_instances__instance__errors_get: {
+    list_instance_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -7175,7 +7175,7 @@ export interface operations {
             };
         };
     };
-    on_reaction_api_instances__instance__errors__error__reaction_get: {
+    get_instance_error_reaction: {
         parameters: {
             query?: never;
             header?: never;
@@ -7207,7 +7207,7 @@ export interface operations {
             };
         };
     };
-    on_arm_api_instances__instance__errors_arm_post: {
+    arm_instance_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -7242,7 +7242,7 @@ export interface operations {
             };
         };
     };
-    on_armed_api_instances__instance__errors_armed_get: {
+    list_instance_errors_armed: {
         parameters: {
             query?: never;
             header?: never;
@@ -7273,7 +7273,7 @@ export interface operations {
             };
         };
     };
-    on_clear_api_instances__instance__errors_clear_post: {
+    clear_instance_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -7308,7 +7308,7 @@ export interface operations {
             };
         };
     };
-    on_disarm_api_instances__instance__errors_disarm_post: {
+    disarm_instance_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -7343,7 +7343,7 @@ export interface operations {
             };
         };
     };
-    on_generate_api_instances__instance__errors_generate_post: {
+    generate_instance_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -7378,7 +7378,7 @@ export interface operations {
             };
         };
     };
-    on_clear_log_api_instances__instance__errors_log_clear_post: {
+    clear_instance_error_log: {
         parameters: {
             query?: never;
             header?: never;
@@ -7409,7 +7409,7 @@ export interface operations {
             };
         };
     };
-    on_preview_api_instances__instance__errors_preview_post: {
+    preview_instance_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -7444,7 +7444,7 @@ export interface operations {
             };
         };
     };
-    on_recover_api_instances__instance__errors_recover_post: {
+    recover_instance_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -7479,7 +7479,7 @@ export interface operations {
             };
         };
     };
-    on_export_api_instances__instance__export_get: {
+    export_instance: {
         parameters: {
             query?: {
                 scan?: number | null;
@@ -7510,7 +7510,7 @@ export interface operations {
             };
         };
     };
-    on_new_flight_api_instances__instance__flights_post: {
+    create_instance_flight: {
         parameters: {
             query?: never;
             header?: never;
@@ -7545,7 +7545,7 @@ export interface operations {
             };
         };
     };
-    on_force_api_instances__instance__force_post: {
+    force_value: {
         parameters: {
             query?: never;
             header?: never;
@@ -7580,7 +7580,7 @@ export interface operations {
             };
         };
     };
-    on_forces_api_instances__instance__forces_get: {
+    list_instance_forces: {
         parameters: {
             query?: never;
             header?: never;
@@ -7611,7 +7611,7 @@ export interface operations {
             };
         };
     };
-    on_history_api_instances__instance__history_get: {
+    get_instance_history: {
         parameters: {
             query?: {
                 version?: number | null;
@@ -7644,7 +7644,7 @@ export interface operations {
             };
         };
     };
-    on_versions_api_instances__instance__history_versions_get: {
+    list_instance_history_versions: {
         parameters: {
             query?: never;
             header?: never;
@@ -7675,7 +7675,7 @@ export interface operations {
             };
         };
     };
-    on_instances_of_api_instances__instance__instances_of_get: {
+    list_block_instances: {
         parameters: {
             query: {
                 pou: string;
@@ -7708,7 +7708,7 @@ export interface operations {
             };
         };
     };
-    on_last_write_api_instances__instance__last_write_get: {
+    get_instance_last_write: {
         parameters: {
             query: {
                 path: string;
@@ -7742,7 +7742,7 @@ export interface operations {
             };
         };
     };
-    on_mode_api_instances__instance__mode_post: {
+    set_instance_mode: {
         parameters: {
             query?: never;
             header?: never;
@@ -7777,7 +7777,7 @@ export interface operations {
             };
         };
     };
-    on_model_api_instances__instance__model_get: {
+    get_instance_model: {
         parameters: {
             query?: never;
             header?: never;
@@ -7808,7 +7808,7 @@ export interface operations {
             };
         };
     };
-    on_program_api_instances__instance__program_get: {
+    get_instance_program: {
         parameters: {
             query: {
                 version: number;
@@ -7841,7 +7841,7 @@ export interface operations {
             };
         };
     };
-    on_record_api_instances__instance__record_get: {
+    get_instance_record: {
         parameters: {
             query?: {
                 format?: "csv" | "xml" | "html" | "json";
@@ -7876,7 +7876,7 @@ export interface operations {
             };
         };
     };
-    on_release_api_instances__instance__release_post: {
+    release_forces: {
         parameters: {
             query?: never;
             header?: never;
@@ -7911,7 +7911,7 @@ export interface operations {
             };
         };
     };
-    on_rerun_api_instances__instance__reruns_post: {
+    create_instance_rerun: {
         parameters: {
             query?: never;
             header?: never;
@@ -7946,7 +7946,7 @@ export interface operations {
             };
         };
     };
-    on_restart_api_instances__instance__restart_post: {
+    restart_instance: {
         parameters: {
             query?: never;
             header?: never;
@@ -7981,7 +7981,7 @@ export interface operations {
             };
         };
     };
-    on_run_api_instances__instance__run_post: {
+    run_instance: {
         parameters: {
             query?: never;
             header?: never;
@@ -8016,7 +8016,7 @@ export interface operations {
             };
         };
     };
-    on_new_state_api_instances__instance__states_post: {
+    create_instance_state: {
         parameters: {
             query?: never;
             header?: never;
@@ -8051,7 +8051,7 @@ export interface operations {
             };
         };
     };
-    on_new_sweep_api_instances__instance__sweeps_post: {
+    create_instance_sweep: {
         parameters: {
             query?: never;
             header?: never;
@@ -8086,7 +8086,7 @@ export interface operations {
             };
         };
     };
-    on_symbols_api_instances__instance__symbols_get: {
+    list_instance_symbols: {
         parameters: {
             query?: {
                 offer?: boolean;
@@ -8120,7 +8120,7 @@ export interface operations {
             };
         };
     };
-    on_check_mapping_api_instances__instance__trace_check_post: {
+    check_trace_mapping: {
         parameters: {
             query?: never;
             header?: never;
@@ -8155,7 +8155,7 @@ export interface operations {
             };
         };
     };
-    on_new_trace_verification_api_instances__instance__trace_verifications_post: {
+    create_instance_trace_verification: {
         parameters: {
             query?: never;
             header?: never;
@@ -8190,7 +8190,7 @@ export interface operations {
             };
         };
     };
-    on_traces_api_instances__instance__traces_get: {
+    list_instance_traces: {
         parameters: {
             query?: never;
             header?: never;
@@ -8221,7 +8221,7 @@ export interface operations {
             };
         };
     };
-    on_new_trace_api_instances__instance__traces_post: {
+    create_instance_trace: {
         parameters: {
             query?: never;
             header?: never;
@@ -8256,7 +8256,7 @@ export interface operations {
             };
         };
     };
-    on_define_trace_api_instances__instance__traces__trace__put: {
+    save_instance_trace: {
         parameters: {
             query?: never;
             header?: never;
@@ -8292,7 +8292,7 @@ export interface operations {
             };
         };
     };
-    on_delete_trace_api_instances__instance__traces__trace__delete: {
+    delete_instance_trace: {
         parameters: {
             query?: never;
             header?: never;
@@ -8322,7 +8322,7 @@ export interface operations {
             };
         };
     };
-    on_csv_api_instances__instance__traces__trace__csv_get: {
+    get_instance_trace_csv: {
         parameters: {
             query?: {
                 first?: number;
@@ -8355,7 +8355,7 @@ export interface operations {
             };
         };
     };
-    on_keep_api_instances__instance__traces__trace__keep_post: {
+    keep_instance_trace: {
         parameters: {
             query?: never;
             header?: never;
@@ -8391,7 +8391,7 @@ export interface operations {
             };
         };
     };
-    on_samples_api_instances__instance__traces__trace__samples_get: {
+    get_instance_trace_samples: {
         parameters: {
             query?: {
                 first?: number;
@@ -8425,7 +8425,7 @@ export interface operations {
             };
         };
     };
-    on_start_trace_api_instances__instance__traces__trace__start_post: {
+    start_instance_trace: {
         parameters: {
             query?: never;
             header?: never;
@@ -8457,7 +8457,7 @@ export interface operations {
             };
         };
     };
-    on_stop_trace_api_instances__instance__traces__trace__stop_post: {
+    stop_instance_trace: {
         parameters: {
             query?: never;
             header?: never;
@@ -8489,7 +8489,7 @@ export interface operations {
             };
         };
     };
-    on_read_api_instances__instance__value_get: {
+    get_instance_value: {
         parameters: {
             query: {
                 path: string;
@@ -8522,7 +8522,7 @@ export interface operations {
             };
         };
     };
-    on_verifications_api_instances__instance__verifications_get: {
+    list_instance_verifications: {
         parameters: {
             query?: never;
             header?: never;
@@ -8553,7 +8553,7 @@ export interface operations {
             };
         };
     };
-    on_new_verification_api_instances__instance__verifications_post: {
+    create_instance_verification: {
         parameters: {
             query?: never;
             header?: never;
@@ -8588,7 +8588,7 @@ export interface operations {
             };
         };
     };
-    on_write_api_instances__instance__write_post: {
+    write_value: {
         parameters: {
             query?: never;
             header?: never;
@@ -8623,7 +8623,7 @@ export interface operations {
             };
         };
     };
-    on_import_api_instances_import_post: {
+    import_instance: {
         parameters: {
             query: {
                 name: string;
@@ -8654,7 +8654,7 @@ export interface operations {
             };
         };
     };
-    on_models_api_models_get: {
+    list_models: {
         parameters: {
             query?: never;
             header?: never;
@@ -8683,7 +8683,7 @@ export interface operations {
             };
         };
     };
-    on_model_api_models__name__get: {
+    get_model: {
         parameters: {
             query?: never;
             header?: never;
@@ -8714,7 +8714,7 @@ export interface operations {
             };
         };
     };
-    on_projects_api_projects_get: {
+    list_projects: {
         parameters: {
             query?: never;
             header?: never;
@@ -8743,7 +8743,7 @@ export interface operations {
             };
         };
     };
-    on_new_project_api_projects_post: {
+    create_project: {
         parameters: {
             query?: never;
             header?: never;
@@ -8776,7 +8776,7 @@ export interface operations {
             };
         };
     };
-    on_delete_project_api_projects__project__delete: {
+    delete_project: {
         parameters: {
             query?: never;
             header?: never;
@@ -8805,7 +8805,7 @@ export interface operations {
             };
         };
     };
-    on_build_api_projects__project__build_post: {
+    build_project: {
         parameters: {
             query?: never;
             header?: never;
@@ -8840,7 +8840,7 @@ export interface operations {
             };
         };
     };
-    on_check_api_projects__project__check_post: {
+    check_project: {
         parameters: {
             query?: never;
             header?: never;
@@ -8875,7 +8875,7 @@ export interface operations {
             };
         };
     };
-    on_files_api_projects__project__files_get: {
+    list_project_files: {
         parameters: {
             query?: never;
             header?: never;
@@ -8906,7 +8906,7 @@ export interface operations {
             };
         };
     };
-    on_file_api_projects__project__files__path__get: {
+    get_project_file: {
         parameters: {
             query?: never;
             header?: never;
@@ -8938,7 +8938,7 @@ export interface operations {
             };
         };
     };
-    on_save_file_api_projects__project__files__path__put: {
+    save_project_file: {
         parameters: {
             query?: never;
             header?: never;
@@ -8983,7 +8983,7 @@ export interface operations {
             };
         };
     };
-    on_delete_file_api_projects__project__files__path__delete: {
+    delete_project_file: {
         parameters: {
             query?: never;
             header?: never;
@@ -9013,7 +9013,7 @@ export interface operations {
             };
         };
     };
-    on_records_api_projects__project__records_get: {
+    list_project_records: {
         parameters: {
             query?: never;
             header?: never;
@@ -9044,7 +9044,7 @@ export interface operations {
             };
         };
     };
-    on_import_api_projects__project__records_post: {
+    import_project_record: {
         parameters: {
             query?: never;
             header?: never;
@@ -9075,7 +9075,7 @@ export interface operations {
             };
         };
     };
-    on_imported_api_projects__project__records__record__get: {
+    get_project_record: {
         parameters: {
             query?: {
                 format?: "csv" | "xml" | "html" | "json";
@@ -9110,7 +9110,7 @@ export interface operations {
             };
         };
     };
-    on_delete_api_projects__project__records__record__delete: {
+    delete_project_record: {
         parameters: {
             query?: never;
             header?: never;
@@ -9140,7 +9140,7 @@ export interface operations {
             };
         };
     };
-    on_states_api_projects__project__states_get: {
+    list_project_states: {
         parameters: {
             query?: never;
             header?: never;
@@ -9171,7 +9171,7 @@ export interface operations {
             };
         };
     };
-    on_sweeps_api_projects__project__sweeps_get: {
+    list_project_sweeps: {
         parameters: {
             query?: never;
             header?: never;
@@ -9202,7 +9202,7 @@ export interface operations {
             };
         };
     };
-    on_mappings_api_projects__project__trace_mappings_get: {
+    list_project_trace_mappings: {
         parameters: {
             query?: never;
             header?: never;
@@ -9233,7 +9233,7 @@ export interface operations {
             };
         };
     };
-    on_save_mapping_api_projects__project__trace_mappings_post: {
+    save_project_trace_mapping: {
         parameters: {
             query?: never;
             header?: never;
@@ -9268,7 +9268,7 @@ export interface operations {
             };
         };
     };
-    on_records_api_projects__project__trace_records_get: {
+    list_project_trace_records: {
         parameters: {
             query?: never;
             header?: never;
@@ -9299,7 +9299,7 @@ export interface operations {
             };
         };
     };
-    on_upload_api_projects__project__traces_post: {
+    upload_project_trace: {
         parameters: {
             query: {
                 name: string;
@@ -9332,7 +9332,7 @@ export interface operations {
             };
         };
     };
-    on_user_errors_api_projects__project__user_errors_get: {
+    get_project_user_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -9363,7 +9363,7 @@ export interface operations {
             };
         };
     };
-    on_save_user_errors_api_projects__project__user_errors_put: {
+    save_project_user_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -9407,7 +9407,7 @@ export interface operations {
             };
         };
     };
-    on_check_user_errors_api_projects__project__user_errors_check_post: {
+    check_project_user_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -9442,7 +9442,7 @@ export interface operations {
             };
         };
     };
-    on_export_user_errors_api_projects__project__user_errors_export_get: {
+    export_project_user_errors: {
         parameters: {
             query?: never;
             header?: never;
@@ -9471,7 +9471,7 @@ export interface operations {
             };
         };
     };
-    on_import_user_errors_api_projects__project__user_errors_import_post: {
+    import_project_user_errors: {
         parameters: {
             query: {
                 how?: "replace" | "add";
@@ -9514,7 +9514,7 @@ export interface operations {
             };
         };
     };
-    on_records_api_projects__project__verification_records_get: {
+    list_project_verification_records: {
         parameters: {
             query?: never;
             header?: never;
@@ -9545,7 +9545,7 @@ export interface operations {
             };
         };
     };
-    on_watch_lists_api_projects__project__watch_lists_get: {
+    list_project_watch_lists: {
         parameters: {
             query?: never;
             header?: never;
@@ -9576,7 +9576,7 @@ export interface operations {
             };
         };
     };
-    on_new_watch_list_api_projects__project__watch_lists_post: {
+    create_project_watch_list: {
         parameters: {
             query?: never;
             header?: never;
@@ -9611,7 +9611,7 @@ export interface operations {
             };
         };
     };
-    on_cancel_rerun_api_reruns__rerun__delete: {
+    delete_rerun: {
         parameters: {
             query?: never;
             header?: never;
@@ -9640,7 +9640,7 @@ export interface operations {
             };
         };
     };
-    on_delete_state_api_states__state__delete: {
+    delete_state: {
         parameters: {
             query?: never;
             header?: never;
@@ -9669,7 +9669,7 @@ export interface operations {
             };
         };
     };
-    on_compare_api_sweeps__before__compare__after__get: {
+    compare_sweeps: {
         parameters: {
             query?: never;
             header?: never;
@@ -9701,7 +9701,7 @@ export interface operations {
             };
         };
     };
-    on_sweep_api_sweeps__sweep__get: {
+    get_sweep: {
         parameters: {
             query?: never;
             header?: never;
@@ -9732,7 +9732,7 @@ export interface operations {
             };
         };
     };
-    on_delete_sweep_api_sweeps__sweep__delete: {
+    delete_sweep: {
         parameters: {
             query?: never;
             header?: never;
@@ -9761,7 +9761,7 @@ export interface operations {
             };
         };
     };
-    on_accept_api_sweeps__sweep__accept_post: {
+    accept_sweep_finding: {
         parameters: {
             query?: never;
             header?: never;
@@ -9796,7 +9796,7 @@ export interface operations {
             };
         };
     };
-    on_cancel_api_sweeps__sweep__cancel_post: {
+    cancel_sweep: {
         parameters: {
             query?: never;
             header?: never;
@@ -9827,7 +9827,7 @@ export interface operations {
             };
         };
     };
-    on_open_api_sweeps__sweep__open_post: {
+    open_sweep_case: {
         parameters: {
             query?: never;
             header?: never;
@@ -9862,7 +9862,7 @@ export interface operations {
             };
         };
     };
-    on_cell_api_sweeps__sweep__reaction_post: {
+    get_sweep_reaction: {
         parameters: {
             query?: never;
             header?: never;
@@ -9897,7 +9897,7 @@ export interface operations {
             };
         };
     };
-    on_resume_api_sweeps__sweep__resume_post: {
+    resume_sweep: {
         parameters: {
             query?: never;
             header?: never;
@@ -9928,7 +9928,7 @@ export interface operations {
             };
         };
     };
-    on_withdraw_api_sweeps__sweep__withdraw_post: {
+    withdraw_sweep_finding: {
         parameters: {
             query?: never;
             header?: never;
@@ -9961,7 +9961,7 @@ export interface operations {
             };
         };
     };
-    on_delete_mapping_api_trace_mappings__mapping__delete: {
+    delete_trace_mapping: {
         parameters: {
             query?: never;
             header?: never;
@@ -9990,7 +9990,7 @@ export interface operations {
             };
         };
     };
-    on_record_api_trace_records__record__get: {
+    get_trace_record: {
         parameters: {
             query?: never;
             header?: never;
@@ -10021,7 +10021,7 @@ export interface operations {
             };
         };
     };
-    on_delete_record_api_trace_records__record__delete: {
+    delete_trace_record: {
         parameters: {
             query?: never;
             header?: never;
@@ -10050,7 +10050,7 @@ export interface operations {
             };
         };
     };
-    on_record_csv_api_trace_records__record__csv_get: {
+    get_trace_record_csv: {
         parameters: {
             query?: {
                 first?: number;
@@ -10082,7 +10082,7 @@ export interface operations {
             };
         };
     };
-    on_record_samples_api_trace_records__record__samples_get: {
+    get_trace_record_samples: {
         parameters: {
             query?: {
                 first?: number;
@@ -10115,7 +10115,7 @@ export interface operations {
             };
         };
     };
-    on_record_api_verification_records__record__get: {
+    get_verification_record: {
         parameters: {
             query?: never;
             header?: never;
@@ -10146,7 +10146,7 @@ export interface operations {
             };
         };
     };
-    on_delete_record_api_verification_records__record__delete: {
+    delete_verification_record: {
         parameters: {
             query?: never;
             header?: never;
@@ -10175,7 +10175,7 @@ export interface operations {
             };
         };
     };
-    on_export_record_api_verification_records__record__export_get: {
+    export_verification_record: {
         parameters: {
             query?: {
                 format?: "csv" | "json" | "html";
@@ -10206,7 +10206,7 @@ export interface operations {
             };
         };
     };
-    on_record_rows_api_verification_records__record__rows_get: {
+    get_verification_record_rows: {
         parameters: {
             query?: {
                 count?: number;
@@ -10241,7 +10241,7 @@ export interface operations {
             };
         };
     };
-    on_delete_api_verifications__verification__delete: {
+    delete_verification: {
         parameters: {
             query?: never;
             header?: never;
@@ -10270,7 +10270,7 @@ export interface operations {
             };
         };
     };
-    on_drive_api_verifications__verification__patch: {
+    drive_verification: {
         parameters: {
             query?: never;
             header?: never;
@@ -10305,7 +10305,7 @@ export interface operations {
             };
         };
     };
-    on_cells_api_verifications__verification__cells_post: {
+    get_verification_cells: {
         parameters: {
             query?: never;
             header?: never;
@@ -10340,7 +10340,7 @@ export interface operations {
             };
         };
     };
-    on_export_api_verifications__verification__export_get: {
+    export_verification: {
         parameters: {
             query?: {
                 format?: "csv" | "json" | "html";
@@ -10371,7 +10371,7 @@ export interface operations {
             };
         };
     };
-    on_keep_api_verifications__verification__keep_post: {
+    keep_verification: {
         parameters: {
             query?: never;
             header?: never;
@@ -10406,7 +10406,7 @@ export interface operations {
             };
         };
     };
-    on_rows_api_verifications__verification__rows_get: {
+    get_verification_rows: {
         parameters: {
             query?: {
                 count?: number;
@@ -10441,7 +10441,7 @@ export interface operations {
             };
         };
     };
-    on_uses_api_verifications__verification__uses_get: {
+    list_verification_uses: {
         parameters: {
             query: {
                 call?: number;
@@ -10475,7 +10475,7 @@ export interface operations {
             };
         };
     };
-    on_watch_list_api_watch_lists__id__get: {
+    get_watch_list: {
         parameters: {
             query?: never;
             header?: never;
@@ -10506,7 +10506,7 @@ export interface operations {
             };
         };
     };
-    on_save_watch_list_api_watch_lists__id__put: {
+    save_watch_list: {
         parameters: {
             query?: never;
             header?: never;
@@ -10550,7 +10550,7 @@ export interface operations {
             };
         };
     };
-    on_delete_watch_list_api_watch_lists__id__delete: {
+    delete_watch_list: {
         parameters: {
             query?: never;
             header?: never;
