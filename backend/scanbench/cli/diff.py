@@ -1,4 +1,4 @@
-"""`scanbench diff`: two recorded runs beside each other: where they part first, and why."""
+"""`scanbench diff`: two recorded runs, compared: where they differ first, and why."""
 
 import json
 from collections.abc import Mapping
@@ -30,7 +30,7 @@ def diff(
     run2: Path = typer.Argument(metavar="RUN2", help="The run that it is compared with: B."),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
 ) -> None:  # fmt: skip
-    """Compare two runs scan by scan: the first scan behind which anything differs, and what.
+    """Compare two runs scan by scan: the first scan after which anything differs, and what.
 
     Exit 0: the same, as far as both go; 1: different; 2: wrong usage, or files that cannot be compared here; 4: the same, but
     a file is damaged, and a part of its run is lost.
@@ -107,7 +107,7 @@ def _text(found: Divergence) -> list[str]:
     if changes is not None and changes.changes:
         lines += [
             "",
-            f"{changes.count:,} variable{'s' * (changes.count != 1)} differ{'s' * (changes.count == 1)} behind it:",
+            f"{changes.count:,} variable{'s' * (changes.count != 1)} differ{'s' * (changes.count == 1)} after it:",
         ]
         lines += _table(
             [
@@ -124,7 +124,7 @@ def _text(found: Divergence) -> list[str]:
     if found.marks:
         stretches = ", ".join(str(first) if first == last else f"{first} to {last}" for first, last in found.marks[:10])
         more = f" and {len(found.marks) - 10} more stretches" if len(found.marks) > 10 else ""
-        lines += ["", f"They differ behind scans {stretches}{more}"]
+        lines += ["", f"They differ after scans {stretches}{more}"]
     return lines
 
 

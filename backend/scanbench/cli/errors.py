@@ -135,9 +135,9 @@ def sweep_errors(
     model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else project.json's, else GENERIC-IEC."),
     states: Path | None = typer.Option(None, metavar="FILE", help="States to begin from (JSON, docs/error-sweep.md); else 100 scans from a cold start."),
     window: int = typer.Option(WINDOW, min=1, max=100_000, metavar="N", help="Scans that the program gets to react."),
-    severity: list[Severities] = typer.Option([Severities.ALL], help="Which errors count for exit code 1; may stand several times."),
-    only: list[str] = typer.Option([], metavar="ID", help="Only this error; may stand several times."),
-    interval: str = typer.Option("10ms", help="Task interval where no CONFIGURATION says another."),
+    severity: list[Severities] = typer.Option([Severities.ALL], help="Which errors count for exit code 1; may be given several times."),
+    only: list[str] = typer.Option([], metavar="ID", help="Only this error; may be given several times."),
+    interval: str = typer.Option("10ms", help="Task interval if no CONFIGURATION sets one."),
     engine: SweepEngine = typer.Option(SweepEngine.NATIVE, help="native is fast; reference is the interpreter."),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object, for `errors compare` too."),
     junit: Path | None = typer.Option(None, metavar="FILE", help="Write a JUnit report too: a test case for each error and state."),
@@ -282,7 +282,7 @@ def _severities(asked: list[Severities]) -> tuple[Severity, ...]:
 @errors.command("compare")
 def compare_sweeps(
     before: Path = typer.Argument(metavar="BEFORE", help="What `errors sweep --json` printed."),
-    after: Path = typer.Argument(metavar="AFTER", help="And a later one: of another version, or on another model."),
+    after: Path = typer.Argument(metavar="AFTER", help="A later one: of a different version, or on a different model."),
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
 ) -> None:
     """Compare two sweeps, by error and state. Exit 0; 1: something is worse or gone; 2: wrong usage."""

@@ -60,7 +60,7 @@ def run(
     path: Path = typer.Argument(metavar="FILE|DIR", help="A program file (.st, .TcPOU, ...), or a folder with some."),
     scans: int = typer.Option(..., min=0, help="How many scans to run."),
     model: str | None = typer.Option(None, metavar="NAME", help="PLC model; else project.json's, else GENERIC-IEC."),
-    interval: str = typer.Option("10ms", help="Task interval where no CONFIGURATION says another."),
+    interval: str = typer.Option("10ms", help="Task interval if no CONFIGURATION sets one."),
     set: list[str] = typer.Option([], "--set", metavar="PATH=VALUE[@SCAN]", help="Write before a scan (0 if none is named). Text with an @ in it: PATH='a@1'."),
     force: list[str] = typer.Option([], "--force", metavar="PATH=VALUE[@SCAN]", help="Force from a scan on."),
     generate: list[str] = typer.Option([], "--raise", metavar="ERROR[@SCAN]", help="Raise an error of the model, e.g. io-bus-error:rack=1,slot=3@5; 'E for 5@100', 'E every 100 on 10 times 3 seed 7', 'E chatter times 4', 'E for 9 unless CONDITION', 'E when CONDITION', 'E when FILE:LINE', 'E + F gap 3'."),

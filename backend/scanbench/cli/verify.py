@@ -46,7 +46,7 @@ def verify(
     scans: str = typer.Option("", metavar="A..B", help="Only these scans, both included; also A.. and ..B. A project runs up to B, else 1000 scans."),
     trace: Path | None = typer.Option(None, metavar="FILE", help="Trace of a real controller (CSV or JSON, docs/trace-format.md) instead of a run."),
     map: Path | None = typer.Option(None, "--map", metavar="FILE", help="What the columns of the trace are (JSON); else they are taken by their names."),
-    interval: str = typer.Option("10ms", help="Of a project: task interval where no CONFIGURATION says another."),
+    interval: str = typer.Option("10ms", help="Of a project: task interval if no CONFIGURATION sets one."),
     set: list[str] = typer.Option([], "--set", metavar="PATH=VALUE[@SCAN]", help="Of a project: write before a scan, as with `run`."),
     force: list[str] = typer.Option([], "--force", metavar="PATH=VALUE[@SCAN]", help="Of a project: force from a scan on."),
     generate: list[str] = typer.Option([], "--raise", metavar="ERROR[@SCAN]", help="Of a project: raise an error, as with `run`."),

@@ -51,7 +51,7 @@ class Verifies(Protocol):
 
     @property
     def end(self) -> int:
-        """... and the one in front of which it ends."""
+        """... and the one before which it ends."""
 
     def begin(self, range: Range, limit: int, scan: int | None = None) -> Begun:
         """Says which range is meant; `BadRange`."""

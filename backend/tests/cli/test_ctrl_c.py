@@ -24,7 +24,7 @@ import threading
 from scanbench.engines.native import engine
 
 def compiling(*args):
-    print("compiling", flush=True)
+    print("compiling", file=sys.stderr, flush=True)
     threading.Event().wait()
 
 engine.NativeEngine.__init__ = compiling
@@ -40,7 +40,7 @@ real = builtins.__import__
 
 def slow(name, *rest):
     if name == "scanbench.cli.commands":
-        print("importing", flush=True)
+        print("importing", file=sys.stderr, flush=True)
         signal.pause()
     return real(name, *rest)
 
@@ -51,13 +51,13 @@ main()
 
 
 def interrupted(script: str, *args: str, cwd: Path) -> tuple[int, str]:
-    """Exit code and what it said, of a command that gets Ctrl-C, as does everything it started, once it has printed a line."""
+    """Exit code and what it said, of a command that gets Ctrl-C, as does everything it started, once it has said a line."""
     with subprocess.Popen(
         [*COMMAND, script, *args], cwd=cwd, stdin=subprocess.PIPE, stdout=subprocess.PIPE, stderr=subprocess.PIPE,
         text=True, start_new_session=True,
     ) as process:  # fmt: skip
-        assert process.stdout is not None
-        process.stdout.readline()
+        assert process.stderr is not None
+        process.stderr.readline()  # the debug adapter keeps its standard output for itself
         os.killpg(process.pid, signal.SIGINT)
         said, told = process.communicate()  # until nobody has the streams any more: no child is left
         return process.returncode, said + told
