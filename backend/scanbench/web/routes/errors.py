@@ -76,7 +76,7 @@ async def on_arm(
 async def on_disarm(
     bench: Bench, request: Request, instance: Id, wanted: messages_errors.DisarmFaults
 ) -> messages_errors.CommandResult:
-    """Takes these faults back, or all; what they raised is recovered."""
+    """Disarms these faults, or all; what they raised is recovered."""
     ids = None if wanted.ids is None else tuple(wanted.ids)
     return command_result(await bench.session(instance).submit(Disarm(user_of(request).name, ids)))
 

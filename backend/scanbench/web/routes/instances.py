@@ -110,7 +110,7 @@ async def on_import(bench: Bench, request: Request, name: str) -> wire.ImportedI
 
 @router.delete("/instances/{instance}", status_code=204)
 async def on_delete_instance(bench: Bench, instance: Id) -> None:
-    """Ends a PLC, and forgets it."""
+    """Ends a PLC and deletes it."""
     await bench.delete_instance(instance)
 
 

@@ -24,7 +24,7 @@ async def on_last_write(
 
 @router.get("/instances/{instance}/changes")
 async def on_changes(bench: Bench, instance: Id, first: Scan, last: Scan, other: Id | None = None) -> wire.RunChanges:
-    """What is another at the beginning of scan `last` than at that of `first`; with `other` in that instance at `last`."""
+    """The variables that differ between the beginnings of scans `first` and `last`; with `other`, in that instance at `last`."""
     second = None if other is None else bench.session(other)
     return translate_past.changes(await bench.history.changes(bench.session(instance), first, last, second))
 
@@ -37,20 +37,20 @@ async def on_comparisons(bench: Bench, instance: Id) -> list[wire.Comparison]:
 
 @router.post("/instances/{instance}/comparisons", status_code=201)
 async def on_compare(bench: Bench, request: Request, instance: Id, new: wire.NewComparison) -> wire.Comparison:
-    """Compares this run (A) with another one (B), scan by scan; how far it is comes by A's WebSocket."""
+    """Compares this run (A) with a second one (B), scan by scan; progress comes by A's WebSocket."""
     a, b = bench.session(instance), bench.session(new.other)
     return translate_past.comparison(bench.history.compare(a, b, user_of(request).name))
 
 
 @router.delete("/comparisons/{comparison}", status_code=204)
 async def on_delete_comparison(bench: Bench, comparison: Id) -> None:
-    """Cancels a comparison, or forgets what came of it."""
+    """Cancels a comparison, or deletes its result."""
     await bench.history.forget(comparison)
 
 
 @router.post("/instances/{instance}/reruns", status_code=201)
 async def on_rerun(bench: Bench, request: Request, instance: Id, new: wire.NewRerun) -> wire.Rerun:
-    """The run once more with one error another, as a new instance; how far it is comes by this instance's WebSocket."""
+    """Replays the run with one error changed, as a new instance; progress comes by this instance's WebSocket."""
     change = RerunChange(new.scan, new.error, new.by, new.instead, new.leave_out, new.behind)
     return translate_past.rerun(
         await bench.history.rerun(bench.session(instance), change, new.name.strip(), user_of(request).name)
@@ -59,5 +59,5 @@ async def on_rerun(bench: Bench, request: Request, instance: Id, new: wire.NewRe
 
 @router.delete("/reruns/{rerun}", status_code=204)
 async def on_cancel_rerun(bench: Bench, rerun: Id) -> None:
-    """Cancels a replay that is under way."""
+    """Cancels a replay."""
     await bench.history.cancel_rerun(rerun)

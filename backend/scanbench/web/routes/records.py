@@ -55,13 +55,13 @@ async def on_record(
 
 @router.get("/projects/{project}/records")
 async def on_records(bench: Bench, project: Id) -> list[wire.RecordInfo]:
-    """The test records that were brought in, the newest first."""
+    """The imported test records, the newest first."""
     return list(map(translate_records.info, await bench.records.imported(project)))
 
 
 @router.post("/projects/{project}/records", status_code=201)
 async def on_import(bench: Bench, request: Request, project: Id) -> wire.RecordInfo:
-    """Keeps a test record from elsewhere; the body is its XML."""
+    """Imports a test record; the body is its XML."""
     text = await xml_body(request)
     return translate_records.info(await bench.records.bring_in(project, text, user_of(request).name))
 
@@ -70,7 +70,7 @@ async def on_import(bench: Bench, request: Request, project: Id) -> wire.RecordI
 async def on_imported(
     bench: Bench, project: Id, record: Id, format: Format = "json", lang: Language = "en"
 ) -> Response:
-    """A test record that was brought in: as a file, or as JSON."""
+    """An imported test record: as a file, or as JSON."""
     info, found = await bench.records.one(project, record)
 
     def told() -> wire.ImportedRecord:
@@ -81,7 +81,7 @@ async def on_imported(
 
 @router.delete("/projects/{project}/records/{record}", status_code=204)
 async def on_delete(bench: Bench, project: Id, record: Id) -> None:
-    """Forgets a test record that was brought in."""
+    """Deletes an imported test record."""
     await bench.records.delete(project, record)
 
 

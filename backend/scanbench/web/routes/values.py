@@ -83,5 +83,5 @@ async def on_mode(bench: Bench, request: Request, instance: Id, wanted: messages
 
 @router.post("/restart")
 async def on_restart(bench: Bench, request: Request, instance: Id, wanted: messages_values.BeginAnew) -> CommandResult:
-    """The program begins anew, in every mode; afterwards it runs."""
+    """Restarts the program, in every mode; afterwards it runs."""
     return command_result(await bench.session(instance).submit(Restart(user_of(request).name, wanted.kind)))
