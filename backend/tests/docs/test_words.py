@@ -4,9 +4,9 @@ import re
 from collections.abc import Iterator
 from pathlib import Path
 
-import click
 import pytest
 import typer.main
+from typer.core import TyperCommand, TyperGroup
 
 from scanbench.cli.commands import app
 from scanbench.problems import TABLE
@@ -25,7 +25,7 @@ FENCE = re.compile(r"```.*?```|`[^`\n]*`|^    .*$", re.DOTALL | re.MULTILINE)
 
 def unwanted() -> dict[str, str]:
     """What is not to be written, and the term to write."""
-    found = {}
+    found: dict[str, str] = {}
     for line in GLOSSARY.read_text("utf-8").splitlines():
         cells = [cell.strip() for cell in line.strip("|").split("|")]
         if len(cells) == 3:
@@ -38,12 +38,13 @@ def said(words: tuple[str, ...], text: str) -> list[str]:
     return [word for word in words if re.search(rf"\b{re.escape(word)}(e?s)?\b", text, re.IGNORECASE)]
 
 
-def helps(command: click.Command, name: str) -> Iterator[tuple[str, str]]:
+def helps(command: object, name: str) -> Iterator[tuple[str, str]]:
     """The help of a command and of all below it."""
+    assert isinstance(command, TyperCommand | TyperGroup)
     yield name, command.help or ""
     for each in command.params:
         yield f"{name} {each.name}", str(getattr(each, "help", "") or "")
-    if isinstance(command, click.Group):
+    if isinstance(command, TyperGroup):
         for key, below in command.commands.items():
             yield from helps(below, f"{name} {key}")
 
