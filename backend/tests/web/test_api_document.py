@@ -86,7 +86,7 @@ def test_a_client_made_of_the_document_works(server: Server) -> None:
     instance = client.create_instance({"project": project, "name": "generated client"})["id"]
     server.made.append(instance)
     with server.browser(instance) as browser:
-        browser.watch("Main.n")  # it runs
+        browser.wait_state("running")
         symbols = client.list_instance_symbols(instance=instance, path="Main")
         assert [each["path"] for each in symbols] == ["Main.n"]
         assert client.get_instance_value(instance=instance, path="Main.n")["value"] == "7"
