@@ -30,14 +30,16 @@ print(package, model_directory(), model_named("CJ1M-CPU63").name, page, package 
 """
 SERVE = """
 import re, signal, subprocess, urllib.request
+browser = urllib.request.build_opener(urllib.request.HTTPCookieProcessor())
 command = ["scanbench", "serve", "--port", "0"]
 with subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True) as server:
-    data = server.stderr.readline().strip()
-    address = re.search(r"http://\\S+", server.stdout.readline())[0]
-    with urllib.request.urlopen(address) as reply:
-        page = reply.read().decode()
-    server.send_signal(signal.SIGINT)
-    server.communicate()
+    try:
+        data = server.stderr.readline().strip()
+        address = re.search("http://[^ ]+", server.stdout.readline().strip())[0]
+        with browser.open(address) as reply:
+            page = reply.read().decode()
+    finally:
+        server.send_signal(signal.SIGINT)
 print(page, data, sep="|")
 """
 

@@ -56,7 +56,8 @@ class Client:
         if "$ref" in schema:
             return self.matches(value, self.document["components"]["schemas"][schema["$ref"].rpartition("/")[2]], where)
         if "anyOf" in schema:
-            of = [each for each in schema["anyOf"] if "$ref" in each or TYPES[each["type"]] is type(value)]
+            of = [each for each in schema["anyOf"] if (each.get("type") == "null") is (value is None)]
+            of = [each for each in of if "$ref" in each or isinstance(value, TYPES[each["type"]])]
             assert of, f"{where}: {value!r}"
             return self.matches(value, of[0], where)
         if "type" not in schema:
@@ -86,7 +87,7 @@ def test_a_client_made_of_the_document_works(server: Server) -> None:
     instance = client.create_instance({"project": project, "name": "generated client"})["id"]
     server.made.append(instance)
     with server.browser(instance) as browser:
-        browser.wait_state("running")
+        browser.watch("Main.n")  # answered when it runs
         symbols = client.list_instance_symbols(instance=instance, path="Main")
         assert [each["path"] for each in symbols] == ["Main.n"]
         assert client.get_instance_value(instance=instance, path="Main.n")["value"] == "7"

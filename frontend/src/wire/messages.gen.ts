@@ -31,8 +31,8 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * Cancels a comparison, or forgets what came of it
-         * @description Cancels a comparison, or forgets what came of it.
+         * Cancels a comparison, or deletes its result
+         * @description Cancels a comparison, or deletes its result.
          */
         delete: operations["delete_comparison"];
         options?: never;
@@ -51,8 +51,8 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * Gives a record up that is under way
-         * @description Gives a record up that is under way.
+         * Cancels a retrospective trace that is being made
+         * @description Cancels a retrospective trace that is being made.
          */
         delete: operations["delete_flight"];
         options?: never;
@@ -99,8 +99,8 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * Ends a PLC, and forgets it
-         * @description Ends a PLC, and forgets it.
+         * Ends a PLC and deletes it
+         * @description Ends a PLC and deletes it.
          */
         delete: operations["delete_instance"];
         options?: never;
@@ -161,8 +161,8 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * What is another at the beginning of scan `last` than at that of `first`; with `other` in that instance at `last`
-         * @description What is another at the beginning of scan `last` than at that of `first`; with `other` in that instance at `last`.
+         * The variables that differ between the beginnings of scans `first` and `last`; with `other`, in that instance at `last`
+         * @description The variables that differ between the beginnings of scans `first` and `last`; with `other`, in that instance at `last`.
          */
         get: operations["get_instance_changes"];
         put?: never;
@@ -187,8 +187,8 @@ export interface paths {
         get: operations["list_instance_comparisons"];
         put?: never;
         /**
-         * Compares this run (A) with another one (B), scan by scan; how far it is comes by A's WebSocket
-         * @description Compares this run (A) with another one (B), scan by scan; how far it is comes by A's WebSocket.
+         * Compares this run (A) with a second one (B), scan by scan; progress comes by A's WebSocket
+         * @description Compares this run (A) with a second one (B), scan by scan; progress comes by A's WebSocket.
          */
         post: operations["create_instance_comparison"];
         delete?: never;
@@ -265,8 +265,8 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * Those that are not over, and those that never came about
-         * @description Those that are not over, and those that never came about.
+         * Disturbances that are not over, and those that never took effect
+         * @description Disturbances that are not over, and those that never took effect.
          */
         get: operations["list_instance_disturbances"];
         put?: never;
@@ -276,8 +276,8 @@ export interface paths {
          */
         post: operations["create_instance_disturbance"];
         /**
-         * Takes all of them back
-         * @description Takes all of them back.
+         * Withdraws all disturbances
+         * @description Withdraws all disturbances.
          */
         delete: operations["delete_instance_disturbances"];
         options?: never;
@@ -296,8 +296,8 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * Takes one back
-         * @description Takes one back.
+         * Withdraws a disturbance
+         * @description Withdraws a disturbance.
          */
         delete: operations["delete_instance_disturbance"];
         options?: never;
@@ -415,8 +415,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Takes these faults back, or all; what they raised is recovered
-         * @description Takes these faults back, or all; what they raised is recovered.
+         * Disarms these faults, or all; what they raised is recovered
+         * @description Disarms these faults, or all; what they raised is recovered.
          */
         post: operations["disarm_instance_errors"];
         delete?: never;
@@ -535,8 +535,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Records scans that are over, by running them again beside the PLC; progress comes by the instance's WebSocket
-         * @description Records scans that are over, by running them again beside the PLC; progress comes by the instance's WebSocket.
+         * Makes a retrospective trace: runs recorded scans again beside the PLC; progress comes by the instance's WebSocket
+         * @description Makes a retrospective trace: runs recorded scans again beside the PLC; progress comes by the instance's WebSocket.
          */
         post: operations["create_instance_flight"];
         delete?: never;
@@ -775,8 +775,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * The run once more with one error another, as a new instance; how far it is comes by this instance's WebSocket
-         * @description The run once more with one error another, as a new instance; how far it is comes by this instance's WebSocket.
+         * Replays the run with one error changed, as a new instance; progress comes by this instance's WebSocket
+         * @description Replays the run with one error changed, as a new instance; progress comes by this instance's WebSocket.
          */
         post: operations["create_instance_rerun"];
         delete?: never;
@@ -795,8 +795,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * The program begins anew, in every mode; afterwards it runs
-         * @description The program begins anew, in every mode; afterwards it runs.
+         * Restarts the program, in every mode; afterwards it runs
+         * @description Restarts the program, in every mode; afterwards it runs.
          */
         post: operations["restart_instance"];
         delete?: never;
@@ -896,8 +896,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Whether a trace file can be verified with this mapping, and if not, where it cannot
-         * @description Whether a trace file can be verified with this mapping, and if not, where it cannot.
+         * Whether a trace file can be verified with this mapping; if not, the places at which it cannot
+         * @description Whether a trace file can be verified with this mapping; if not, the places at which it cannot.
          */
         post: operations["check_trace_mapping"];
         delete?: never;
@@ -959,15 +959,15 @@ export interface paths {
         };
         get?: never;
         /**
-         * Another definition for a trace; what was recorded is forgotten
-         * @description Another definition for a trace; what was recorded is forgotten. Without `start`, other signals leave what was recorded
+         * Changes the definition of a trace, and discards what it recorded
+         * @description Changes the definition of a trace, and discards what it recorded. Without `start`, other signals leave what was recorded
          *     of those that stay, and another name leaves everything.
          */
         put: operations["save_instance_trace"];
         post?: never;
         /**
-         * Forgets a trace and what it recorded
-         * @description Forgets a trace and what it recorded.
+         * Deletes a trace and what it recorded
+         * @description Deletes a trace and what it recorded.
          */
         delete: operations["delete_instance_trace"];
         options?: never;
@@ -1045,8 +1045,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Records anew; arms a trace with a trigger again
-         * @description Records anew; arms a trace with a trigger again.
+         * Starts recording again; arms a trace that has a trigger
+         * @description Starts recording again; arms a trace that has a trigger.
          */
         post: operations["start_instance_trace"];
         delete?: never;
@@ -1065,8 +1065,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Records no more; what was recorded stays
-         * @description Records no more; what was recorded stays.
+         * Stops recording; what was recorded is kept
+         * @description Stops recording; what was recorded is kept.
          */
         post: operations["stop_instance_trace"];
         delete?: never;
@@ -1109,8 +1109,8 @@ export interface paths {
         get: operations["list_instance_verifications"];
         put?: never;
         /**
-         * Begins to verify, live or a stretch of the past; how it goes on comes by the instance's WebSocket
-         * @description Begins to verify, live or a stretch of the past; how it goes on comes by the instance's WebSocket.
+         * Begins to verify, live or a stretch of the past; progress comes by the instance's WebSocket
+         * @description Begins to verify, live or a stretch of the past; progress comes by the instance's WebSocket.
          */
         post: operations["create_instance_verification"];
         delete?: never;
@@ -1254,8 +1254,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Builds what is saved, and swaps it into the project's instances; asks first where variables would begin anew
-         * @description Builds what is saved, and swaps it into the project's instances; asks first where variables would begin anew.
+         * Builds what is saved, and swaps it into the project's instances; asks first where variables would be reset
+         * @description Builds what is saved, and swaps it into the project's instances; asks first where variables would be reset.
          */
         post: operations["build_project"];
         delete?: never;
@@ -1340,14 +1340,14 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * The test records that were brought in, the newest first
-         * @description The test records that were brought in, the newest first.
+         * The imported test records, the newest first
+         * @description The imported test records, the newest first.
          */
         get: operations["list_project_records"];
         put?: never;
         /**
-         * Keeps a test record from elsewhere; the body is its XML
-         * @description Keeps a test record from elsewhere; the body is its XML.
+         * Imports a test record; the body is its XML
+         * @description Imports a test record; the body is its XML.
          */
         post: operations["import_project_record"];
         delete?: never;
@@ -1364,15 +1364,15 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * A test record that was brought in: as a file, or as JSON
-         * @description A test record that was brought in: as a file, or as JSON.
+         * An imported test record: as a file, or as JSON
+         * @description An imported test record: as a file, or as JSON.
          */
         get: operations["get_project_record"];
         put?: never;
         post?: never;
         /**
-         * Forgets a test record that was brought in
-         * @description Forgets a test record that was brought in.
+         * Deletes an imported test record
+         * @description Deletes an imported test record.
          */
         delete: operations["delete_project_record"];
         options?: never;
@@ -1576,8 +1576,8 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * What was kept in a project, the newest first
-         * @description What was kept in a project, the newest first.
+         * The kept verifications of a project, the newest first
+         * @description The kept verifications of a project, the newest first.
          */
         get: operations["list_project_verification_records"];
         put?: never;
@@ -1596,8 +1596,8 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * The lists that this user sees: shared ones and the user's own, by name
-         * @description The lists that this user sees: shared ones and the user's own, by name.
+         * The lists that the user sees: shared ones and the user's own, by name
+         * @description The lists that the user sees: shared ones and the user's own, by name.
          */
         get: operations["list_project_watch_lists"];
         put?: never;
@@ -1623,8 +1623,8 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * Cancels a replay that is under way
-         * @description Cancels a replay that is under way.
+         * Cancels a replay
+         * @description Cancels a replay.
          */
         delete: operations["delete_rerun"];
         options?: never;
@@ -1643,8 +1643,8 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * Forgets a state; sweeps that began there keep their results
-         * @description Forgets a state; sweeps that began there keep their results.
+         * Deletes a state; sweeps that began there keep their results
+         * @description Deletes a state; sweeps that began there keep their results.
          */
         delete: operations["delete_state"];
         options?: never;
@@ -1660,8 +1660,8 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * What became better or worse from one sweep to another: of two versions, or of two models
-         * @description What became better or worse from one sweep to another: of two versions, or of two models.
+         * What became better or worse from one sweep to the next: of two versions, or of two models
+         * @description What became better or worse from one sweep to the next: of two versions, or of two models.
          */
         get: operations["compare_sweeps"];
         put?: never;
@@ -1687,8 +1687,8 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * Forgets a sweep; one that runs is cancelled
-         * @description Forgets a sweep; one that runs is cancelled.
+         * Deletes a sweep; one that is running is cancelled
+         * @description Deletes a sweep; one that is running is cancelled.
          */
         delete: operations["delete_sweep"];
         options?: never;
@@ -1706,8 +1706,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Accepts a finding with a reason, for this and later sweeps of the project; it stands in the test record
-         * @description Accepts a finding with a reason, for this and later sweeps of the project; it stands in the test record.
+         * Accepts a finding with a reason, for this and later sweeps of the project; the test record lists it
+         * @description Accepts a finding with a reason, for this and later sweeps of the project; the test record lists it.
          */
         post: operations["accept_sweep_finding"];
         delete?: never;
@@ -1766,8 +1766,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * All that was found out about one cell
-         * @description All that was found out about one cell.
+         * The whole result of one cell
+         * @description The whole result of one cell.
          */
         post: operations["get_sweep_reaction"];
         delete?: never;
@@ -1786,8 +1786,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Goes on with the cells that are missing
-         * @description Goes on with the cells that are missing.
+         * Continues with the cells that are missing
+         * @description Continues with the cells that are missing.
          */
         post: operations["resume_sweep"];
         delete?: never;
@@ -1806,8 +1806,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * The finding is accepted no more
-         * @description The finding is accepted no more.
+         * Withdraws the acceptance of a finding
+         * @description Withdraws the acceptance of a finding.
          */
         post: operations["withdraw_sweep_finding"];
         delete?: never;
@@ -1827,8 +1827,8 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * Forgets a mapping
-         * @description Forgets a mapping.
+         * Deletes a mapping
+         * @description Deletes a mapping.
          */
         delete: operations["delete_trace_mapping"];
         options?: never;
@@ -1851,8 +1851,8 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * Forgets a kept record
-         * @description Forgets a kept record.
+         * Deletes a kept record
+         * @description Deletes a kept record.
          */
         delete: operations["delete_trace_record"];
         options?: never;
@@ -1908,15 +1908,15 @@ export interface paths {
             cookie?: never;
         };
         /**
-         * One that was kept
-         * @description One that was kept.
+         * A kept verification
+         * @description A kept verification.
          */
         get: operations["get_verification_record"];
         put?: never;
         post?: never;
         /**
-         * Forgets one that was kept
-         * @description Forgets one that was kept.
+         * Deletes a kept verification
+         * @description Deletes a kept verification.
          */
         delete: operations["delete_verification_record"];
         options?: never;
@@ -1975,15 +1975,15 @@ export interface paths {
         put?: never;
         post?: never;
         /**
-         * Ends a verification, and forgets its rows
-         * @description Ends a verification, and forgets its rows.
+         * Ends a verification and deletes its rows
+         * @description Ends a verification and deletes its rows.
          */
         delete: operations["delete_verification"];
         options?: never;
         head?: never;
         /**
-         * Another pace or memory; one further; stopped, or resumed
-         * @description Another pace or memory; one further; stopped, or resumed.
+         * Changes pace or memory of a verification; steps, pauses or resumes it
+         * @description Changes pace or memory of a verification; steps, pauses or resumes it.
          */
         patch: operations["drive_verification"];
         trace?: never;
@@ -2107,8 +2107,8 @@ export interface paths {
         put: operations["save_watch_list"];
         post?: never;
         /**
-         * Forgets it
-         * @description Forgets it.
+         * Deletes a list
+         * @description Deletes a list.
          */
         delete: operations["delete_watch_list"];
         options?: never;
