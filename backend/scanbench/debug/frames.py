@@ -6,7 +6,7 @@ from scanbench.debug.shown import FrameInfo
 from scanbench.engines.debug import Frame
 from scanbench.program.program import Program
 from scanbench.program.types import Record
-from scanbench.symbols.symbols import instance_at
+from scanbench.symbols.names import names_of
 
 
 def stack(scene: Scene) -> tuple[FrameInfo, ...]:
@@ -43,7 +43,7 @@ def frame_record(frame: Frame) -> Record | None:
 def instance_path(program: Program, frame: Frame) -> str:
     """`Main.line.station`; empty in a FUNCTION."""
     record = frame_record(frame)
-    return "" if record is None else instance_at(program, frame.instance, record.name)
+    return "" if record is None else names_of(program).instance(frame.instance, record.name)
 
 
 def frame_name(program: Program, frame: Frame) -> str:

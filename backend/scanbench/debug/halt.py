@@ -6,7 +6,7 @@ from typing import Literal
 from scanbench.debug.placed import Placing
 from scanbench.problems import Span
 from scanbench.runtime.resource import Resource
-from scanbench.symbols.symbols import instance_at
+from scanbench.symbols.names import names_of
 
 HaltReason = Literal[
     "breakpoint", "data breakpoint", "step", "pause", "entry", "goto", "error", "violation", "trap", "scan"
@@ -57,7 +57,7 @@ def halt_of(resource: Resource, placing: Placing, found: Found, number: int, pas
         )  # fmt: skip
     frame, root = inside.frames[0], inside.frames[-1]
     span = placing.sites.statements[frame.site].span
-    instance = instance_at(resource.program, frame.instance, frame.pou.name) if frame.instance else ""
+    instance = names_of(resource.program).instance(frame.instance, frame.pou.name) if frame.instance else ""
     task = placing.task_of.get(root.instance, "")
     return Halt(
         number, found.reason, found.text, found.by, found.breakpoints, scan, inside.count, span, frame.pou.name, instance,

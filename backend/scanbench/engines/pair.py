@@ -7,7 +7,7 @@ from scanbench.engines.native.engine import NativeEngine
 from scanbench.engines.sample import Sampling
 from scanbench.program.layout import Layout
 from scanbench.program.program import Program
-from scanbench.symbols.symbols import at_offset
+from scanbench.symbols.names import names_of
 
 
 class Differs(Exception):
@@ -68,7 +68,7 @@ class PairEngine(Engine):
         if self.memory[:size] != self.shadow[:size]:
             at = next(index for index in range(size) if self.memory[index] != self.shadow[index])
             values = (memory[at : at + 8].hex(" ") for memory in (self.memory, self.shadow))
-            raise Differs(scan, f"{at_offset(self.program, at)} (byte {at} of the image)", *values)
+            raise Differs(scan, f"{names_of(self.program).path(at)} (byte {at} of the image)", *values)
 
     def _say(self, stop: Stop) -> str:
         match stop.reason:

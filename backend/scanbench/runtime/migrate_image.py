@@ -25,7 +25,8 @@ from scanbench.program.types import (
     Subrange,
     Type,
 )
-from scanbench.symbols.symbols import UnknownPath, resolve, starting_at
+from scanbench.symbols.names import names_of
+from scanbench.symbols.symbols import UnknownPath, resolve
 
 _HEADER = (
     (Layout.CLOCK, 8), (Layout.SCAN, 8), (Layout.BUDGET_LIMIT, 8), (Layout.MODE, 2), (Layout.EPOCH, 8), (Layout.STARTED, 8),
@@ -184,14 +185,14 @@ class _Carrier:
         area = self._old_program.layout.area_at(offset)
         if area is not None:
             return self._new_program.layout.areas[area[0].name] + area[1]
-        for symbol in starting_at(self._old_program, offset):
-            if not _refers_to(reference, symbol.type):
+        for part in names_of(self._old_program).starting(offset):
+            if not _refers_to(reference, part.type):
                 continue
             try:
-                there = resolve(self._new_program, symbol.path)
+                there = resolve(self._new_program, part.name)
             except UnknownPath:
                 continue
-            if there.type.name == symbol.type.name and not there.slots:
+            if there.type.name == part.type.name and not there.slots:
                 return there.offset
         return None
 
