@@ -7,7 +7,7 @@ from scanbench.check.typed.local import LocalAssignments, locals_of
 from scanbench.engines.interpreter.evaluate import Evaluator, NoValue
 from scanbench.program.copies import Spot
 from scanbench.program.program import Pou, Program
-from scanbench.program.types import ArrayType, OpenArray, Record, Type
+from scanbench.program.types import Type
 from scanbench.runtime.command import Command, Patch, Plan, Refusal, View
 from scanbench.runtime.forces import forced_table
 from scanbench.runtime.rights import Right, may
@@ -70,14 +70,7 @@ class Assigning:
             if len(self._names) >= _NAMES:
                 self._names.clear()
             self._names[spot] = names_of(self._program).text(*spot, type)
-        whole = isinstance(type, ArrayType | OpenArray | Record)
-        value = (
-            f"({type.name})"
-            if whole
-            else ("TRUE" if data[0] else "FALSE")
-            if spot[1] is not None
-            else format_value(type, data)
-        )
+        value = format_value(type, data) or f"({type.name})"
         return f"{self._names[spot]} := {value}"
 
 
