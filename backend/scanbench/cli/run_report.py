@@ -5,7 +5,7 @@ import json
 
 import typer
 
-from scanbench.program.program import TrapKind
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import ArrayType, Record
 from scanbench.recording.headless import HeadlessRun
 from scanbench.runtime.resource import Resource

@@ -2,7 +2,8 @@
 
 from scanbench.debug.bound_to import Bound, BoundTo, Convention
 from scanbench.program.copies import Spot, referred
-from scanbench.program.program import Program, Task
+from scanbench.program.program import Program
+from scanbench.program.tasks import Task
 from scanbench.program.types import Elementary, StringType
 from scanbench.runtime.command import View
 from scanbench.runtime.target import not_called, passed_by, read_only_reason

@@ -5,7 +5,8 @@ from dataclasses import dataclass
 
 from scanbench.problems import Span
 from scanbench.program.layout import Layout
-from scanbench.program.program import CheckSite, Program
+from scanbench.program.program import Program
+from scanbench.program.sites import CheckSite
 from scanbench.symbols.names import names_of
 
 _HEAD = struct.Struct("<II")

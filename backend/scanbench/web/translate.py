@@ -4,7 +4,7 @@ from scanbench.check.build import PouInfo
 from scanbench.faults.history import ErrorRow
 from scanbench.plcmodel import model as plc
 from scanbench.problems import Problem
-from scanbench.program.program import CheckSite
+from scanbench.program.sites import CheckSite
 from scanbench.runtime.clock import iso
 from scanbench.runtime.forces import ForcedValue
 from scanbench.session.session import Session

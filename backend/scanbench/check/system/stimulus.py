@@ -30,9 +30,9 @@ from scanbench.program.program import (
     Place,
     Pou,
     Stmt,
-    TrapKind,
     While,
 )
+from scanbench.program.sites import TrapKind
 from scanbench.program.types import (
     BOOL,
     ELEMENTARY,

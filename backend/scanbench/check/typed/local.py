@@ -35,8 +35,9 @@ from scanbench.check.typed.looking import NOWHERE
 from scanbench.check.typed.passed_on import Unclear
 from scanbench.problems import Span
 from scanbench.program.origin import in_library, is_system
-from scanbench.program.program import Assign, Base, Const, Expr, If, Load, Place, Pou, Program, TrapKind, TrapSite
+from scanbench.program.program import Assign, Base, Const, Expr, If, Load, Place, Pou, Program
 from scanbench.program.shown import shown
+from scanbench.program.sites import TrapKind, TrapSite
 from scanbench.program.types import BOOL, Member, Record, Type
 from scanbench.program.untyped import settle
 from scanbench.syntax import tree

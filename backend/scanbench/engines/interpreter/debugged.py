@@ -5,7 +5,8 @@ from scanbench.engines.engine import Pace, Reason, Stop
 from scanbench.engines.interpreter.debug_observer import DebugObserver, Halted
 from scanbench.engines.interpreter.engine import ReferenceEngine
 from scanbench.engines.interpreter.expressions import Body
-from scanbench.program.program import Program, ProgramInstance
+from scanbench.program.program import Program
+from scanbench.program.tasks import ProgramInstance
 
 
 class ReferenceDebugEngine(ReferenceEngine, DebugEngine):

@@ -16,7 +16,8 @@ from scanbench.engines.interpreter.violations import recorder
 from scanbench.engines.sample import Sampling
 from scanbench.problems import Span
 from scanbench.program.layout import FORCE_AFTER_PROGRAM, FORCE_BEFORE, Layout
-from scanbench.program.program import Expr, Pou, Program, ProgramInstance, Task
+from scanbench.program.program import Expr, Pou, Program
+from scanbench.program.tasks import ProgramInstance, Task
 from scanbench.program.types import Kind, Record
 
 LOST_NS = 100_000_000
