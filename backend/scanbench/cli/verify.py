@@ -44,8 +44,8 @@ def verify(
     model: str | None = typer.Option(None, metavar="NAME", help="PLC model of a project; else its own, else GENERIC-IEC."),
     range_: str = typer.Option("", "--range", metavar="POU:10-20", help="POU, POU:10-20, FILE:10-20, with @INSTANCE for one instance; else the whole scan."),
     scans: str = typer.Option("", metavar="A..B", help="Only these scans, both included; also A.. and ..B. A project runs up to B, else 1000 scans."),
-    trace: Path | None = typer.Option(None, metavar="FILE", help="Trace of a real controller (CSV or JSON, docs/trace-format.md) instead of a run."),
-    map: Path | None = typer.Option(None, "--map", metavar="FILE", help="What the columns of the trace are (JSON); else they are taken by their names."),
+    trace: Path | None = typer.Option(None, metavar="FILE", help="Log of a real controller (CSV or JSON, docs/trace-format.md) instead of a run."),
+    map: Path | None = typer.Option(None, "--map", metavar="FILE", help="What the columns of the log are (JSON); else they are taken by their names."),
     interval: str = typer.Option("10ms", help="Of a project: task interval if no CONFIGURATION sets one."),
     set: list[str] = typer.Option([], "--set", metavar="PATH=VALUE[@SCAN]", help="Of a project: write before a scan, as with `run`."),
     force: list[str] = typer.Option([], "--force", metavar="PATH=VALUE[@SCAN]", help="Of a project: force from a scan on."),
@@ -58,7 +58,7 @@ def verify(
     as_json: bool = typer.Option(False, "--json", help="Print one JSON object."),
     html: Path | None = typer.Option(None, metavar="FILE", help="Write a page to read, print or keep too."),
 ) -> None:  # fmt: skip
-    """Run a program twice and compare: what ran (native code, or a real controller of which there is a trace) and the
+    """Run a program twice and compare: what ran (native code, or a real controller of which there is a log) and the
     reference interpreter, on the same inputs.
 
     Exit 0: no difference; 1: there is one; 2: wrong usage, or nothing could be compared; 4: no difference, but the run

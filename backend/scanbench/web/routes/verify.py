@@ -1,4 +1,4 @@
-"""REST: verifications of an instance, their rows, what is kept of them, disturbances, and traces of real controllers."""
+"""REST: verifications of an instance, their rows, what is kept of them, disturbances, and controller logs."""
 
 import re
 from typing import Annotated, Literal
@@ -44,7 +44,7 @@ async def on_new_verification(
 async def on_new_trace_verification(
     bench: Bench, request: Request, instance: Id, new: wire.NewTraceVerification
 ) -> wire.VerificationInfo:
-    """Verifies the trace of a real controller with the program that runs."""
+    """Verifies a controller log with the program that runs."""
     file = bench.trace_files.get(new.file)
     return translate_verify.info(
         await bench.verifications.begin_trace(
@@ -173,7 +173,7 @@ async def on_calm(bench: Bench, request: Request, instance: Id, disturbance: Id)
     return command_result(await bench.session(instance).submit(Calm(user_of(request).name, (disturbance,))))
 
 
-# ---- traces of real controllers --------------------------------------------------------------------------------------
+# ---- controller logs -----------------------------------------------------------------------------------------------
 
 
 @router.post("/projects/{project}/traces", status_code=201)
