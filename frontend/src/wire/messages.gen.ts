@@ -916,8 +916,8 @@ export interface paths {
         get?: never;
         put?: never;
         /**
-         * Verifies the trace of a real controller with the program that runs
-         * @description Verifies the trace of a real controller with the program that runs.
+         * Verifies a controller log with the program that runs
+         * @description Verifies a controller log with the program that runs.
          */
         post: operations["create_instance_trace_verification"];
         delete?: never;
